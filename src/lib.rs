@@ -1,1 +1,7 @@
-pub fn x(){}
+//! Creep kinematics of nonholonomic vehicles.
+#![warn(missing_docs)]
+
+pub mod error;
+pub mod formula;
+
+pub use error::{Error, Result};

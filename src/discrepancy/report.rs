@@ -1,0 +1,278 @@
+//! What `discover` says, as data: the contract's `report.json` and the pictures of `report.html`.
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// The whole answer; its JSON form is fixed by the contract.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// Version of this layout.
+    pub schema: u32,
+    /// The first verdict that holds.
+    pub verdict: Verdict,
+    /// One sentence for a person who has not read the paper.
+    pub summary: String,
+    /// The effects named, in the order they were added.
+    pub effects: Vec<Named>,
+    /// Repeatable disagreement that no effect explains.
+    pub unnamed: Vec<Unnamed>,
+    /// Where model and measurement disagree before anything is added.
+    pub disagreement: Vec<Disagreement>,
+    /// Error of prediction over horizons, before and after.
+    pub gap: Vec<Gap>,
+    /// What to drive next, when the data cannot tell.
+    pub next_experiment: Option<NextExperiment>,
+    /// What each added effect did to the gap of the fitting data.
+    pub steps: Vec<Step>,
+    /// What was read.
+    pub data: DataSummary,
+    /// Where the answer comes from.
+    pub provenance: Provenance,
+}
+
+/// The five verdicts of the contract.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// The model does not apply to these data.
+    UnusableData,
+    /// Nothing significant found, and a plausible effect would have been missed.
+    NotIdentifiable,
+    /// A repeatable disagreement that no effect explains.
+    UnnamedEffect,
+    /// One or more effects named.
+    MissingEffect,
+    /// The model explains the data to its noise.
+    NoMissingEffect,
+}
+
+/// An effect that was found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Named {
+    /// Its id in the library.
+    pub id: String,
+    /// Where it acts.
+    #[serde(rename = "where")]
+    pub place: String,
+    /// Its fitted parameters by name.
+    pub parameters: BTreeMap<String, Estimate>,
+    /// How strongly the data speak for it.
+    pub evidence: Evidence,
+    /// Effects these data (or any data) do not tell from it.
+    pub indistinguishable_from: Vec<Rival>,
+    /// What the effect says, as a formula.
+    pub equation: String,
+}
+
+/// A fitted number.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Estimate {
+    /// The estimate.
+    pub value: f64,
+    /// Its standard deviation; null where the data give none.
+    pub std: Option<f64>,
+    /// Its unit.
+    pub unit: String,
+}
+
+/// Evidence for an effect on the fitting data.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Evidence {
+    /// BIC without minus BIC with the effect.
+    pub delta_bic: f64,
+    /// Probability of so large an improvement where nothing is missing.
+    pub p_value: f64,
+}
+
+/// An effect that is not told from a named one.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Rival {
+    /// Its id.
+    pub id: String,
+    /// `identical`, `first order` or `data`.
+    pub why: String,
+}
+
+/// A disagreement with an equation but no name.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Unnamed {
+    /// The constraint it violates.
+    #[serde(rename = "where")]
+    pub place: String,
+    /// Its equation.
+    pub equation: String,
+    /// Share of the held-out disagreement it removes.
+    pub held_out_reduction: f64,
+}
+
+/// A stretch of a run in which a constraint is violated.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Disagreement {
+    /// File name of the run.
+    pub run: String,
+    /// The constraint.
+    #[serde(rename = "where")]
+    pub place: String,
+    /// Start, s.
+    pub from: f64,
+    /// End, s.
+    pub to: f64,
+    /// What the vehicle did there.
+    pub regime: String,
+    /// Share of the whole disagreement that lies here.
+    pub share_of_gap: f64,
+}
+
+/// RMS error of prediction over one horizon.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Gap {
+    /// Horizon, s.
+    pub horizon_s: f64,
+    /// On the data that were fitted.
+    pub fit: Option<BeforeAfter>,
+    /// On the data that were held out.
+    pub held_out: Option<BeforeAfter>,
+    /// What remains when the patched model is true.
+    pub noise_floor: Floor,
+}
+
+/// Position in metres, heading in radians; heading is null when none was measured.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BeforeAfter {
+    /// Position error of the model as given.
+    pub position_rms_before: f64,
+    /// Position error of the patched model.
+    pub position_rms_after: f64,
+    /// Heading error of the model as given.
+    pub heading_rms_before: Option<f64>,
+    /// Heading error of the patched model.
+    pub heading_rms_after: Option<f64>,
+}
+
+/// The gap that measurement noise alone makes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Floor {
+    /// Position, m.
+    pub position_rms: f64,
+    /// Heading, rad.
+    pub heading_rms: Option<f64>,
+}
+
+/// A manoeuvre that would tell what these data cannot.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NextExperiment {
+    /// What it would tell.
+    pub why: String,
+    /// What to drive.
+    pub manoeuvre: String,
+}
+
+/// One step of the selection.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Step {
+    /// The effect added.
+    pub added: String,
+    /// Position gap of the fitting data after it, m, at the middle horizon.
+    pub gap_after: f64,
+}
+
+/// What was read.
+#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
+pub struct DataSummary {
+    /// Number of runs.
+    pub runs: usize,
+    /// Rows used.
+    pub rows: usize,
+    /// Rows dropped.
+    pub rows_dropped: usize,
+    /// Rows dropped by reason.
+    pub why_dropped: BTreeMap<String, usize>,
+    /// Things a user should know of the data.
+    pub warnings: Vec<String>,
+}
+
+/// Where an answer comes from.
+#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
+pub struct Provenance {
+    /// Version of the program.
+    pub version: String,
+    /// Seed of every random number used.
+    pub seed: u64,
+    /// SHA-256 of every input file, by name.
+    pub inputs_sha256: BTreeMap<String, String>,
+}
+
+/// What the pictures of the HTML report show; everything in SI units.
+#[derive(Clone, Debug, Default)]
+pub struct Pictures {
+    /// Measured and predicted paths, one entry a run.
+    pub paths: Vec<PathPicture>,
+    /// The gap over the horizon on held-out data (on fitted data when nothing was held out).
+    pub gap: GapCurve,
+    /// Violation of each constraint over time.
+    pub residuals: Vec<ResidualPicture>,
+    /// The candidates by evidence, best first.
+    pub candidates: Vec<Candidate>,
+    /// The patched constraints: name, text equation.
+    pub equations: Vec<(String, String)>,
+}
+
+/// One run seen from above.
+#[derive(Clone, Debug, Default)]
+pub struct PathPicture {
+    /// File name of the run.
+    pub run: String,
+    /// Whether the run (or this part of it) was held out.
+    pub held_out: bool,
+    /// Measured points (x, y).
+    pub measured: Vec<[f64; 2]>,
+    /// The model as given, driven by the log's inputs, restarted at each piece's start.
+    pub before: Vec<Vec<[f64; 2]>>,
+    /// The patched model, likewise.
+    pub after: Vec<Vec<[f64; 2]>>,
+}
+
+/// RMS gap against horizon.
+#[derive(Clone, Debug, Default)]
+pub struct GapCurve {
+    /// Horizons, s, increasing.
+    pub horizon: Vec<f64>,
+    /// Position RMS of the model as given, m.
+    pub before: Vec<f64>,
+    /// Position RMS of the patched model, m.
+    pub after: Vec<f64>,
+    /// Noise floor, m.
+    pub floor: Vec<f64>,
+}
+
+/// Violation of one constraint over time in one run.
+#[derive(Clone, Debug, Default)]
+pub struct ResidualPicture {
+    /// The constraint, such as "rotation constraint".
+    pub constraint: String,
+    /// File name of the run.
+    pub run: String,
+    /// Unit of the values, such as "m/s".
+    pub unit: String,
+    /// Times, s.
+    pub time: Vec<f64>,
+    /// Violated rate with the model as given.
+    pub before: Vec<f64>,
+    /// Violated rate with the patched model.
+    pub after: Vec<f64>,
+    /// One standard deviation that measurement noise gives such a value.
+    pub noise: f64,
+}
+
+/// One effect of the library as a candidate.
+#[derive(Clone, Debug, Default)]
+pub struct Candidate {
+    /// Its id.
+    pub id: String,
+    /// Evidence on the fitting data, BIC without minus with; negative speaks against it.
+    pub delta_bic: f64,
+    /// Whether it was chosen.
+    pub chosen: bool,
+    /// Whether it is listed as indistinguishable from a chosen one.
+    pub rival: bool,
+}

@@ -1,0 +1,159 @@
+//! Dual numbers as a carrier: exact first and second derivatives.
+
+use super::{Fun, Scalar};
+use nalgebra::{Dim, Dyn, OMatrix, U1};
+use num_dual::{Dual2, Dual2Vec, Dual64, DualNum, DualVec, HyperDual};
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+
+/// A number of `num-dual` as a carrier, for derivatives of any formula with respect to anything.
+///
+/// ```
+/// use creepage::formula::{Dual, Expr};
+/// use num_dual::Dual64;
+/// let e = Expr::parse("cot(phi)").unwrap();
+/// let d = e.eval(&|_| Dual(Dual64::new(0.5, 1.0))).unwrap().0;
+/// assert!((d.eps + 1.0 / 0.5f64.sin().powi(2)).abs() < 1e-14);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Dual<D>(pub D);
+
+/// The numbers a dual number is made of, so that "undefined" can be asked of all of them.
+pub trait Parts {
+    /// Whether value and derivatives are all finite.
+    fn all_finite(&self) -> bool;
+    /// Whether value and derivatives are all equal.
+    fn all_equal(&self, other: &Self) -> bool;
+}
+
+/// Whether every entry is finite; an absent derivative is zero and has none.
+fn finite<R: Dim, C: Dim>(m: OMatrix<f64, R, C>) -> bool
+where
+    nalgebra::DefaultAllocator: nalgebra::allocator::Allocator<R, C>,
+{
+    m.iter().all(|x| x.is_finite())
+}
+
+impl Parts for Dual64 {
+    fn all_finite(&self) -> bool {
+        self.re.is_finite() && self.eps.is_finite()
+    }
+    fn all_equal(&self, o: &Self) -> bool {
+        self.re == o.re && self.eps == o.eps
+    }
+}
+
+impl Parts for Dual2<f64, f64> {
+    fn all_finite(&self) -> bool {
+        self.re.is_finite() && self.v1.is_finite() && self.v2.is_finite()
+    }
+    fn all_equal(&self, o: &Self) -> bool {
+        self.re == o.re && self.v1 == o.v1 && self.v2 == o.v2
+    }
+}
+
+impl Parts for HyperDual<f64, f64> {
+    fn all_finite(&self) -> bool {
+        [self.re, self.eps1, self.eps2, self.eps1eps2].iter().all(|x| x.is_finite())
+    }
+    fn all_equal(&self, o: &Self) -> bool {
+        (self.re, self.eps1, self.eps2, self.eps1eps2) == (o.re, o.eps1, o.eps2, o.eps1eps2)
+    }
+}
+
+impl Parts for DualVec<f64, f64, Dyn> {
+    fn all_finite(&self) -> bool {
+        self.re.is_finite() && finite(self.eps.clone().unwrap_generic(Dyn(0), U1))
+    }
+    fn all_equal(&self, o: &Self) -> bool {
+        self.re == o.re && self.eps == o.eps
+    }
+}
+
+impl Parts for Dual2Vec<f64, f64, Dyn> {
+    fn all_finite(&self) -> bool {
+        self.re.is_finite()
+            && finite(self.v1.clone().unwrap_generic(U1, Dyn(0)))
+            && finite(self.v2.clone().unwrap_generic(Dyn(0), Dyn(0)))
+    }
+    fn all_equal(&self, o: &Self) -> bool {
+        self.re == o.re && self.v1 == o.v1 && self.v2 == o.v2
+    }
+}
+
+impl<D: DualNum<f64> + Parts> Scalar for Dual<D> {
+    fn number(value: &BigRational) -> Self {
+        Dual(D::from(value.to_f64().unwrap_or(f64::NAN)))
+    }
+    fn add(&self, other: &Self) -> Self {
+        Dual(self.0.clone() + other.0.clone())
+    }
+    fn neg(&self) -> Self {
+        Dual(-self.0.clone())
+    }
+    fn mul(&self, other: &Self) -> Self {
+        Dual(self.0.clone() * other.0.clone())
+    }
+    fn recip(&self) -> Self {
+        Dual(self.0.recip()).checked(self)
+    }
+    fn powi(&self, n: i32) -> Self {
+        // Products rather than the crate's powi, whose derivative of x⁰ and x¹ at zero is 0·∞.
+        match n {
+            0 => Dual(D::from(1.0)).checked(self),
+            n if n < 0 => self.powi_positive(n.unsigned_abs()).recip(),
+            n => self.powi_positive(n.unsigned_abs()),
+        }
+    }
+    fn call(f: Fun, x: &Self) -> Self {
+        let v = &x.0;
+        Dual(match f {
+            Fun::Sin => v.sin(),
+            Fun::Cos => v.cos(),
+            Fun::Tan => v.tan(),
+            Fun::Cot => v.tan().recip(),
+            Fun::Asin => v.asin(),
+            Fun::Acos => v.acos(),
+            Fun::Atan => v.atan(),
+            Fun::Tanh => v.tanh(),
+            Fun::Exp => v.exp(),
+            Fun::Ln => v.ln(),
+            Fun::Sqrt => v.sqrt(),
+            Fun::Abs | Fun::Sign => return piecewise(f, x),
+        })
+        .checked(x)
+    }
+    fn is_defined(&self) -> bool {
+        self.0.all_finite()
+    }
+    fn equals(&self, other: &Self) -> bool {
+        self.is_defined() && self.0.all_equal(&other.0)
+    }
+}
+
+/// |x| and sgn x, whose derivatives do not exist at zero.
+fn piecewise<D: DualNum<f64> + Parts>(f: Fun, x: &Dual<D>) -> Dual<D> {
+    let re = x.0.re();
+    let sign = if re > 0.0 {
+        1.0
+    } else if re < 0.0 {
+        -1.0
+    } else {
+        return x.undefined();
+    };
+    match f {
+        Fun::Abs => Dual(x.0.clone() * D::from(sign)),
+        _ => Dual(D::from(sign)),
+    }
+}
+
+impl<D: DualNum<f64> + Parts> Dual<D> {
+    /// The result unless it, or what it came from, is undefined.
+    fn checked(self, source: &Self) -> Self {
+        if self.0.all_finite() && source.0.all_finite() { self } else { source.undefined() }
+    }
+
+    fn undefined(&self) -> Self {
+        Dual(self.0.clone() * D::from(f64::NAN) + D::from(f64::NAN))
+    }
+}

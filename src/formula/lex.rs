@@ -1,0 +1,133 @@
+//! Text to tokens.
+
+use super::symbol::{is_inner, is_start};
+use crate::error::{Error, Result};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::Zero;
+
+/// A piece of a formula and the column (from zero, in characters) where it begins.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Token {
+    pub kind: TokenKind,
+    pub column: usize,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum TokenKind {
+    Number(BigRational),
+    Name(String),
+    Mark(char),
+    End,
+}
+
+/// Largest power of ten a number may be written with; floating point ends near 308.
+const MAX_EXPONENT: i32 = 400;
+/// Longest run of digits a number may have.
+const MAX_DIGITS: usize = 400;
+
+/// The error of a formula: message, and the text with a caret under the column.
+pub(super) fn caret(text: &str, column: usize, message: impl Into<String>) -> Error {
+    let line: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    Error::input(message).at(1, column + 1).excerpt(format!("  {line}\n  {}^", " ".repeat(column)))
+}
+
+/// Splits a formula into tokens; the last one is [`TokenKind::End`].
+pub(super) fn tokens(text: &str) -> Result<Vec<Token>> {
+    let chars: Vec<char> = text.chars().collect();
+    let mut found = Vec::new();
+    let mut at = 0;
+    while at < chars.len() {
+        let (c, column) = (chars[at], at);
+        let kind = if c.is_whitespace() {
+            at += 1;
+            continue;
+        } else if c.is_ascii_digit() || c == '.' {
+            let (value, end) = number(text, &chars, at)?;
+            at = end;
+            TokenKind::Number(value)
+        } else if is_start(c) {
+            at = name_end(&chars, at);
+            TokenKind::Name(chars[column..at].iter().collect())
+        } else if let Some(mark) = mark(c) {
+            at += 1;
+            TokenKind::Mark(mark)
+        } else {
+            return Err(caret(text, at, format!("unexpected character {c:?}"))
+                .help("a formula holds numbers, names, + - * / ^ and parentheses"));
+        };
+        found.push(Token { kind, column });
+    }
+    found.push(Token { kind: TokenKind::End, column: chars.len() });
+    Ok(found)
+}
+
+/// Operators, with the typographic ones read as their plain twins.
+fn mark(c: char) -> Option<char> {
+    match c {
+        '+' | '-' | '*' | '/' | '^' | '(' | ')' => Some(c),
+        '−' => Some('-'),
+        '·' | '×' => Some('*'),
+        _ => None,
+    }
+}
+
+fn name_end(chars: &[char], start: usize) -> usize {
+    let mut at = start;
+    while at < chars.len() && is_inner(chars[at]) {
+        at += 1;
+    }
+    while at < chars.len() && matches!(chars[at], '\'' | '′') {
+        at += 1;
+    }
+    at
+}
+
+/// Reads `12`, `0.5`, `.5`, `1e-3` exactly.
+fn number(text: &str, chars: &[char], start: usize) -> Result<(BigRational, usize)> {
+    let mut at = start;
+    let (mut digits, mut scale) = (String::new(), 0i32);
+    let mut after_point = false;
+    while at < chars.len() && (chars[at].is_ascii_digit() || (chars[at] == '.' && !after_point)) {
+        if chars[at] == '.' {
+            after_point = true;
+        } else {
+            digits.push(chars[at]);
+            scale -= i32::from(after_point);
+        }
+        at += 1;
+    }
+    if digits.is_empty() {
+        return Err(caret(text, start, "a number needs digits"));
+    }
+    if digits.len() > MAX_DIGITS {
+        return Err(caret(text, start, format!("a number of more than {MAX_DIGITS} digits")));
+    }
+    if let Some((power, end)) = exponent(chars, at) {
+        let power = power.filter(|p| p.abs() <= MAX_EXPONENT);
+        scale += power.ok_or_else(|| caret(text, at, format!("a power of ten beyond ±{MAX_EXPONENT}")))?;
+        at = end;
+    }
+    let mantissa: BigInt = digits.parse().unwrap_or_else(|_| BigInt::zero());
+    let ten = BigRational::from_integer(BigInt::from(10));
+    Ok((BigRational::from_integer(mantissa) * num_traits::Pow::pow(ten, scale), at))
+}
+
+/// The exponent after a mantissa: its value (`None` when it does not fit) and where it ends.
+fn exponent(chars: &[char], at: usize) -> Option<(Option<i32>, usize)> {
+    if !matches!(chars.get(at), Some('e' | 'E')) {
+        return None;
+    }
+    let signed = matches!(chars.get(at + 1), Some('+' | '-' | '−'));
+    let first = at + 1 + usize::from(signed);
+    let mut end = first;
+    while end < chars.len() && chars[end].is_ascii_digit() {
+        end += 1;
+    }
+    if end == first {
+        return None;
+    }
+    let digits: String = chars[first..end].iter().collect();
+    let negative = signed && chars[at + 1] != '+';
+    Some((digits.parse::<i32>().ok().map(|p| if negative { -p } else { p }), end))
+}

@@ -1,0 +1,40 @@
+//! The language of formulas: expressions as data, read by one evaluator in many carriers.
+//!
+//! | carrier | reading | type |
+//! |---|---|---|
+//! | floating point | value | `f64` |
+//! | dual numbers | first and second derivatives, vectors of any length | [`Dual`] |
+//! | unit exponents | units of a formula, or why it has none | [`Unit`] |
+//! | expressions | substitution | [`Expr`] |
+//!
+//! A carrier is any [`Scalar`]; [`Expr::eval`] is the one evaluator. "Undefined" is a value of every
+//! carrier that equals nothing, itself included ([`Scalar::equals`]). For speed an expression compiles
+//! once to a flat [`Program`] with shared sub-expressions; derivatives are taken on its [`Graph`].
+
+mod derive;
+mod dual;
+mod expr;
+mod float;
+mod fun;
+mod graph;
+mod latex;
+mod lex;
+mod parse;
+mod polynomial;
+mod print;
+mod program;
+mod scalar;
+mod substitute;
+mod symbol;
+mod unit;
+
+pub use dual::{Dual, Parts};
+pub use expr::{Expr, Node};
+pub use fun::Fun;
+pub use graph::{Graph, NodeId, Op};
+pub use latex::latex_symbol;
+pub use polynomial::Polynomial;
+pub use program::Program;
+pub use scalar::Scalar;
+pub use symbol::Symbol;
+pub use unit::Unit;

@@ -1,0 +1,166 @@
+//! A formula as a polynomial in its atoms: like terms collected, products multiplied out.
+
+use super::{Expr, Node};
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+use std::collections::BTreeMap;
+
+/// A sum of rational multiples of products of atoms.
+///
+/// An atom is a symbol, a function of something, or a form that is no polynomial (a quotient). Two
+/// formulas with the same polynomial are equal wherever both are defined.
+///
+/// ```
+/// use creepage::formula::{Expr, Polynomial};
+/// let p = Polynomial::of(&Expr::parse("(a + b)*(a - b) + b^2").unwrap());
+/// assert_eq!(p.expr().to_string(), "a^2");
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct Polynomial {
+    terms: BTreeMap<Monomial, BigRational>,
+}
+
+/// Powers of atoms, each atom named by its printed form.
+type Monomial = BTreeMap<Atom, i32>;
+
+#[derive(Clone, Debug)]
+struct Atom {
+    rank: u8,
+    name: String,
+    expr: Expr,
+}
+
+impl Atom {
+    fn new(expr: &Expr) -> Self {
+        // Functions print before plain names: cos(delta)*L*phi'.
+        let rank = u8::from(matches!(expr.node(), Node::Sym(_)));
+        Self { rank, name: expr.to_string(), expr: expr.clone() }
+    }
+
+    fn key(&self) -> (u8, &str) {
+        (self.rank, &self.name)
+    }
+}
+
+impl PartialEq for Atom {
+    fn eq(&self, other: &Self) -> bool {
+        self.key() == other.key()
+    }
+}
+impl Eq for Atom {}
+impl PartialOrd for Atom {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl Ord for Atom {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        self.key().cmp(&other.key())
+    }
+}
+
+impl Polynomial {
+    /// The polynomial of a formula.
+    pub fn of(e: &Expr) -> Self {
+        match e.node() {
+            Node::Num(v) => Self::constant(v.clone()),
+            Node::Neg(x) => Self::of(x).scaled(&-BigRational::one()),
+            Node::Add(a, b) => Self::of(a).plus(&Self::of(b)),
+            Node::Sub(a, b) => Self::of(a).plus(&Self::of(b).scaled(&-BigRational::one())),
+            Node::Mul(a, b) => Self::of(a).times(&Self::of(b)),
+            Node::Div(a, b) => match b.as_number() {
+                Some(v) if !v.is_zero() => Self::of(a).scaled(&v.recip()),
+                _ => Self::of(a).times(&Self::atom(&(&Expr::int(1) / b))),
+            },
+            Node::Pow(x, n) if (0..=8).contains(n) => {
+                let base = Self::of(x);
+                (0..*n).fold(Self::constant(BigRational::one()), |p, _| p.times(&base))
+            }
+            Node::Sym(_) | Node::Pow(..) | Node::Call(..) => Self::atom(e),
+        }
+    }
+
+    fn constant(v: BigRational) -> Self {
+        let mut p = Self::default();
+        p.add_term(Monomial::new(), v);
+        p
+    }
+
+    fn atom(e: &Expr) -> Self {
+        let mut p = Self::default();
+        p.add_term([(Atom::new(e), 1)].into(), BigRational::one());
+        p
+    }
+
+    fn add_term(&mut self, m: Monomial, v: BigRational) {
+        let entry = self.terms.entry(m.clone()).or_insert_with(BigRational::zero);
+        *entry += v;
+        if entry.is_zero() {
+            self.terms.remove(&m);
+        }
+    }
+
+    fn plus(mut self, other: &Self) -> Self {
+        other.terms.iter().for_each(|(m, v)| self.add_term(m.clone(), v.clone()));
+        self
+    }
+
+    fn scaled(mut self, factor: &BigRational) -> Self {
+        self.terms.retain(|_, v| {
+            *v *= factor;
+            !v.is_zero()
+        });
+        self
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        let mut product = Self::default();
+        for (m, v) in &self.terms {
+            for (n, w) in &other.terms {
+                let mut joined = m.clone();
+                n.iter().for_each(|(a, k)| *joined.entry(a.clone()).or_insert(0) += k);
+                product.add_term(joined, v * w);
+            }
+        }
+        product
+    }
+
+    /// Whether every term has cancelled.
+    pub fn is_zero(&self) -> bool {
+        self.terms.is_empty()
+    }
+
+    /// The polynomial as a formula, terms and factors in a fixed order.
+    pub fn expr(&self) -> Expr {
+        self.terms.iter().fold(Expr::int(0), |sum, (m, v)| {
+            let (numerators, denominators): (Vec<_>, Vec<_>) = m.iter().partition(|(a, _)| !is_reciprocal(&a.expr));
+            let top = numerators.iter().fold(None, |p, (a, k)| times(p, a.expr.pow(**k)));
+            let size = v.abs();
+            let top = match top {
+                None => Expr::number(&size),
+                Some(e) => &Expr::number(&size) * &e,
+            };
+            let term = denominators.iter().fold(top, |p, (a, k)| &p / &a.expr.children()[1].pow(**k));
+            if v.is_negative() { &sum - &term } else { &sum + &term }
+        })
+    }
+}
+
+fn times(product: Option<Expr>, factor: Expr) -> Option<Expr> {
+    Some(match product {
+        None => factor,
+        Some(p) => &p * &factor,
+    })
+}
+
+/// 1/x
+fn is_reciprocal(e: &Expr) -> bool {
+    matches!(e.node(), Node::Div(a, _) if a.is_one())
+}
+
+impl Expr {
+    /// The formula multiplied out with like terms collected.
+    pub fn tidy(&self) -> Expr {
+        Polynomial::of(self).expr()
+    }
+}

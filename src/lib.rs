@@ -3,5 +3,6 @@
 
 pub mod error;
 pub mod formula;
+pub mod mechanism;
 
 pub use error::{Error, Result};

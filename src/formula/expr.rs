@@ -250,7 +250,13 @@ impl std::ops::Mul for &Expr {
             (Some(a), Some(b)) => Expr::number(&(a * b)),
             (Some(a), _) => scaled(&a, self, other),
             (_, Some(b)) => scaled(&b, other, self),
-            _ => Expr::raw(Node::Mul(self.clone(), other.clone())),
+            // A sign stands in front of the product it belongs to.
+            _ => match (self.node(), other.node()) {
+                (Node::Neg(a), Node::Neg(b)) => a * b,
+                (Node::Neg(a), _) => -&(a * other),
+                (_, Node::Neg(b)) => -&(self * b),
+                _ => Expr::raw(Node::Mul(self.clone(), other.clone())),
+            },
         }
     }
 }
@@ -263,6 +269,10 @@ fn scaled(factor: &BigRational, written: &Expr, x: &Expr) -> Expr {
         -x
     } else if factor.is_zero() && x.is_total() {
         Expr::int(0)
+    } else if factor.is_negative() {
+        -&scaled(&-factor, &-written, x)
+    } else if let Node::Neg(inner) = x.node() {
+        -&scaled(factor, written, inner)
     } else {
         Expr::raw(Node::Mul(written.clone(), x.clone()))
     }
@@ -274,6 +284,7 @@ impl std::ops::Div for &Expr {
         match (self.as_number(), other.as_number()) {
             (Some(a), Some(b)) if !b.is_zero() => Expr::number(&(a / b)),
             (_, Some(b)) if b.is_one() => self.clone(),
+            _ if matches!(self.node(), Node::Neg(_)) => -&(&-self / other),
             _ => Expr::raw(Node::Div(self.clone(), other.clone())),
         }
     }

@@ -21,20 +21,11 @@ impl Expr {
         match self.node() {
             Node::Num(v) => decimal(v),
             Node::Sym(s) => latex_symbol(s),
-            // A fraction carries its sign in front: -(a/b) and (-a)/b look the same on paper.
-            Node::Neg(x) => format!("-{}", part(x, Bind::Unary)),
+            Node::Neg(x) => format!("-{}", part(x, Bind::Product)),
             Node::Add(a, b) => format!("{} + {}", part(a, Bind::Sum), part(b, Bind::Product)),
             Node::Sub(a, b) => format!("{} - {}", part(a, Bind::Sum), part(b, Bind::Product)),
-            Node::Mul(a, b) => format!("{}\\,{}", part(a, Bind::Product), part(b, Bind::Unary)),
-            Node::Div(a, b) => match a.node() {
-                Node::Mul(x, rest) => match x.node() {
-                    Node::Neg(x) => {
-                        format!("-\\frac{{{}\\,{}}}{{{}}}", part(x, Bind::Product), part(rest, Bind::Unary), b.latex())
-                    }
-                    _ => format!("\\frac{{{}}}{{{}}}", a.latex(), b.latex()),
-                },
-                _ => format!("\\frac{{{}}}{{{}}}", a.latex(), b.latex()),
-            },
+            Node::Mul(a, b) => format!("{}\\,{}", part(a, Bind::Product), part(b, Bind::Factor)),
+            Node::Div(a, b) => format!("\\frac{{{}}}{{{}}}", a.latex(), b.latex()),
             Node::Pow(x, n) => format!("{}^{{{n}}}", part(x, Bind::Atom)),
             Node::Call(Fun::Sqrt, x) => format!("\\sqrt{{{}}}", x.latex()),
             Node::Call(Fun::Abs, x) => format!("\\left|{}\\right|", x.latex()),

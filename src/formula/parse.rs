@@ -12,7 +12,7 @@ const MAX_POWER: i32 = 64;
 impl Expr {
     /// Reads a formula; the error shows the text with a caret under the place it stopped at.
     ///
-    /// Operators from loose to tight: `+ -`, `* /`, unary `-`, `^` with a whole exponent. Functions are
+    /// Operators from loose to tight: `+ -`, unary `-`, `* /`, `^` with a whole exponent. Functions are
     /// those of [`Fun`].
     ///
     /// # Errors
@@ -97,31 +97,45 @@ impl Parser<'_> {
         }
     }
 
+    /// A minus sign stands for the whole product behind it: −a·b is −(a·b).
     fn product(&mut self) -> Result<Tall> {
-        let mut left = self.unary()?;
-        loop {
-            let build = match self.peek() {
-                TokenKind::Mark('*') => Node::Mul,
-                TokenKind::Mark('/') => Node::Div,
-                _ => return Ok(left),
-            };
-            self.advance();
-            let right = self.unary()?;
-            left = self.grown(build(left.0, right.0), left.1.max(right.1))?;
-        }
+        self.descend(|p| {
+            if p.take('-') {
+                let x = p.product()?;
+                return p.grown(Node::Neg(x.0), x.1);
+            }
+            let mut left = p.power()?;
+            loop {
+                let build = match p.peek() {
+                    TokenKind::Mark('*') => Node::Mul,
+                    TokenKind::Mark('/') => Node::Div,
+                    _ => return Ok(left),
+                };
+                p.advance();
+                let right = p.factor()?;
+                left = p.grown(build(left.0, right.0), left.1.max(right.1))?;
+            }
+        })
     }
 
-    fn unary(&mut self) -> Result<Tall> {
+    /// What stands behind `*` or `/`; a minus sign there binds to this factor alone.
+    fn factor(&mut self) -> Result<Tall> {
+        self.descend(|p| {
+            if p.take('-') {
+                let x = p.factor()?;
+                return p.grown(Node::Neg(x.0), x.1);
+            }
+            p.power()
+        })
+    }
+
+    /// Goes one level deeper, within the bound on nesting.
+    fn descend(&mut self, parse: impl FnOnce(&mut Self) -> Result<Tall>) -> Result<Tall> {
         self.depth += 1;
         if self.depth > MAX_DEPTH {
             return Err(self.error(format!("the formula is nested more than {MAX_DEPTH} deep")).help("split it"));
         }
-        let result = if self.take('-') {
-            let x = self.unary()?;
-            self.grown(Node::Neg(x.0), x.1)
-        } else {
-            self.power()
-        };
+        let result = parse(self);
         self.depth -= 1;
         result
     }

@@ -133,17 +133,50 @@ impl Polynomial {
     /// The polynomial as a formula, terms and factors in a fixed order.
     pub fn expr(&self) -> Expr {
         self.terms.iter().fold(Expr::int(0), |sum, (m, v)| {
-            let (numerators, denominators): (Vec<_>, Vec<_>) = m.iter().partition(|(a, _)| !is_reciprocal(&a.expr));
-            let top = numerators.iter().fold(None, |p, (a, k)| times(p, a.expr.pow(**k)));
-            let size = v.abs();
-            let top = match top {
-                None => Expr::number(&size),
-                Some(e) => &Expr::number(&size) * &e,
-            };
-            let term = denominators.iter().fold(top, |p, (a, k)| &p / &a.expr.children()[1].pow(**k));
+            let term = term(m, &v.abs());
             if v.is_negative() { &sum - &term } else { &sum + &term }
         })
     }
+
+    /// Divides both by what every term of both has in common, where the divisor is a single term.
+    ///
+    /// ```
+    /// use creepage::formula::{Expr, Polynomial};
+    /// let p = |s| Polynomial::of(&Expr::parse(s).unwrap());
+    /// let (top, bottom) = p("a*r*u + a*r*w").cancelled(&p("2*a"));
+    /// assert_eq!((top.expr().to_string(), bottom.expr().to_string()), ("r*u/2 + r*w/2".into(), "1".into()));
+    /// ```
+    pub fn cancelled(&self, divisor: &Polynomial) -> (Polynomial, Polynomial) {
+        let mut single = divisor.terms.iter();
+        let (Some((m, v)), None) = (single.next(), single.next()) else { return (self.clone(), divisor.clone()) };
+        let shared: Monomial = m
+            .iter()
+            .map(|(a, k)| {
+                (a.clone(), self.terms.keys().map(|t| t.get(a).copied().unwrap_or(0)).min().unwrap_or(0).min(*k))
+            })
+            .collect();
+        let reduced = |t: &Monomial| -> Monomial {
+            let rest = t.iter().map(|(a, k)| (a.clone(), k - shared.get(a).copied().unwrap_or(0)));
+            rest.filter(|(_, k)| *k != 0).collect()
+        };
+        let top = Polynomial { terms: self.terms.iter().map(|(t, w)| (reduced(t), w / v)).collect() };
+        let bottom = Polynomial { terms: [(reduced(m), BigRational::one())].into() };
+        (top, bottom)
+    }
+}
+
+/// A rational multiple of a product: small denominators as a quotient, others as a decimal where they are one.
+fn term(m: &Monomial, size: &BigRational) -> Expr {
+    let quotient = *size.denom() <= 9.into();
+    let (factor, divisor) = match quotient {
+        true => (size.numer().clone().into(), size.denom().clone().into()),
+        false => (size.clone(), BigRational::one()),
+    };
+    let (numerators, denominators): (Vec<_>, Vec<_>) = m.iter().partition(|(a, _)| !is_reciprocal(&a.expr));
+    let number = (!factor.is_one()).then(|| Expr::number(&factor));
+    let top = numerators.iter().fold(number, |p, (a, k)| times(p, a.expr.pow(**k))).unwrap_or_else(|| Expr::int(1));
+    let term = denominators.iter().fold(top, |p, (a, k)| &p / &a.expr.children()[1].pow(**k));
+    &term / &Expr::number(&divisor)
 }
 
 fn times(product: Option<Expr>, factor: Expr) -> Option<Expr> {

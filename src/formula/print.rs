@@ -10,8 +10,9 @@ use std::fmt;
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 pub(super) enum Bind {
     Sum,
+    Sign,
     Product,
-    Unary,
+    Factor,
     Power,
     Atom,
 }
@@ -21,7 +22,7 @@ pub(super) fn bind(e: &Expr) -> Bind {
     match e.node() {
         Node::Add(..) | Node::Sub(..) => Bind::Sum,
         Node::Mul(..) | Node::Div(..) => Bind::Product,
-        Node::Neg(..) => Bind::Unary,
+        Node::Neg(..) => Bind::Sign,
         Node::Pow(..) => Bind::Power,
         Node::Num(..) | Node::Sym(..) | Node::Call(..) => Bind::Atom,
     }
@@ -32,11 +33,11 @@ impl fmt::Display for Expr {
         match self.node() {
             Node::Num(v) => f.write_str(&decimal(v)),
             Node::Sym(s) => write!(f, "{s}"),
-            Node::Neg(x) => write!(f, "-{}", Part(x, Bind::Unary)),
+            Node::Neg(x) => write!(f, "-{}", Part(x, Bind::Product)),
             Node::Add(a, b) => write!(f, "{} + {}", Part(a, Bind::Sum), Part(b, Bind::Product)),
             Node::Sub(a, b) => write!(f, "{} - {}", Part(a, Bind::Sum), Part(b, Bind::Product)),
-            Node::Mul(a, b) => write!(f, "{}*{}", Part(a, Bind::Product), Part(b, Bind::Unary)),
-            Node::Div(a, b) => write!(f, "{}/{}", Part(a, Bind::Product), Part(b, Bind::Unary)),
+            Node::Mul(a, b) => write!(f, "{}*{}", Part(a, Bind::Product), Part(b, Bind::Factor)),
+            Node::Div(a, b) => write!(f, "{}/{}", Part(a, Bind::Product), Part(b, Bind::Factor)),
             Node::Pow(x, n) => write!(f, "{}^{n}", Part(x, Bind::Atom)),
             Node::Call(g, x) => write!(f, "{}({x})", g.name()),
         }

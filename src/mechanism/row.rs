@@ -1,0 +1,95 @@
+//! A linear form in rates.
+
+use crate::formula::{Expr, Polynomial, Symbol};
+use std::fmt;
+
+/// Σ coefficient·rate: one row of a Pfaffian matrix, its rates in the order they were met.
+///
+/// ```
+/// use creepage::mechanism::Row;
+/// use creepage::formula::Expr;
+/// let mut row = Row::default();
+/// row.add("x'", &Expr::parse("cos(phi)").unwrap());
+/// row.add("theta'", &Expr::parse("-r").unwrap());
+/// assert_eq!(row.to_string(), "cos(phi)*x' - r*theta'");
+/// ```
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Row {
+    terms: Vec<(Symbol, Expr)>,
+}
+
+impl Row {
+    /// Adds a multiple of a rate; what cancels is dropped.
+    pub fn add(&mut self, rate: impl Into<Symbol>, coefficient: &Expr) {
+        let rate = rate.into();
+        match self.terms.iter_mut().find(|(r, _)| *r == rate) {
+            Some((_, c)) => *c = (&*c + coefficient).tidy(),
+            None => self.terms.push((rate, coefficient.tidy())),
+        }
+        self.terms.retain(|(_, c)| !Polynomial::of(c).is_zero());
+    }
+
+    /// This row plus a multiple of another.
+    pub fn plus(&self, factor: &Expr, other: &Row) -> Row {
+        let mut sum = self.clone();
+        other.terms.iter().for_each(|(r, c)| sum.add(r.clone(), &(factor * c)));
+        sum
+    }
+
+    /// The row times a factor.
+    pub fn times(&self, factor: &Expr) -> Row {
+        Row::default().plus(factor, self)
+    }
+
+    /// The coefficient of a rate; zero when the rate does not occur.
+    pub fn coefficient(&self, rate: &Symbol) -> Expr {
+        self.terms.iter().find(|(r, _)| r == rate).map_or_else(|| Expr::int(0), |(_, c)| c.clone())
+    }
+
+    /// The rates that occur.
+    pub fn rates(&self) -> impl Iterator<Item = &Symbol> {
+        self.terms.iter().map(|(r, _)| r)
+    }
+
+    /// Rates and coefficients.
+    pub fn terms(&self) -> &[(Symbol, Expr)] {
+        &self.terms
+    }
+
+    /// The row with its rates in a given order; others keep theirs, behind.
+    pub fn ordered(&self, order: &[Symbol]) -> Row {
+        let place = |s: &Symbol| order.iter().position(|o| o == s).unwrap_or(order.len());
+        let mut terms = self.terms.clone();
+        terms.sort_by_key(|(r, _)| place(r));
+        Row { terms }
+    }
+
+    /// The row with names replaced in its coefficients.
+    pub fn substitute(&self, by: &impl Fn(&Symbol) -> Option<Expr>) -> Row {
+        let mut row = Row::default();
+        self.terms.iter().for_each(|(r, c)| row.add(r.clone(), &c.substitute(by)));
+        row
+    }
+
+    /// The row as a formula.
+    pub fn expr(&self) -> Expr {
+        self.terms.iter().fold(Expr::int(0), |sum, (rate, c)| match signed(c) {
+            (true, size) => &sum - &(&size * &Expr::sym(rate.clone())),
+            (false, size) => &sum + &(&size * &Expr::sym(rate.clone())),
+        })
+    }
+}
+
+/// Whether an expression is written with a minus in front, and what stands behind it.
+fn signed(c: &Expr) -> (bool, Expr) {
+    match c.node() {
+        crate::formula::Node::Neg(inner) => (true, inner.clone()),
+        _ => (false, c.clone()),
+    }
+}
+
+impl fmt::Display for Row {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.expr())
+    }
+}

@@ -1,0 +1,86 @@
+//! Rows solved for the rates they determine.
+
+use super::Row;
+use crate::formula::{Expr, Polynomial, Symbol};
+
+/// Solves row = 0 for the unknown rates; `None` when the rows do not determine them.
+///
+/// A row with a single unknown is solved first and its unknown stays a name in the other rows, so that a
+/// chain is written as a chain. What is left is eliminated together.
+///
+/// ```
+/// use creepage::mechanism::{Row, solve};
+/// use creepage::formula::Expr;
+/// let row = |terms: &[(&str, &str)]| {
+///     let mut r = Row::default();
+///     for (rate, c) in terms { r.add(*rate, &Expr::parse(c).unwrap()); }
+///     r
+/// };
+/// let right = row(&[("v", "1"), ("phi'", "a/2"), ("theta_1'", "-r")]);
+/// let left = row(&[("v", "1"), ("phi'", "-a/2"), ("theta_2'", "-r")]);
+/// let s = solve(&[right, left], &["v".into(), "phi'".into()]).unwrap();
+/// assert_eq!(s[0].1.to_string(), "r*theta_1'/2 + r*theta_2'/2");
+/// assert_eq!(s[1].1.to_string(), "(r*theta_1' - r*theta_2')/a");
+/// ```
+pub fn solve(rows: &[Row], unknown: &[Symbol]) -> Option<Vec<(Symbol, Expr)>> {
+    let mut rows: Vec<Row> = rows.to_vec();
+    let mut left: Vec<Symbol> = unknown.to_vec();
+    let mut solved = Vec::new();
+    while let Some((r, name)) = single(&rows, &left) {
+        let row = rows.remove(r);
+        left.retain(|s| *s != name);
+        solved.push((name.clone(), isolate(&row, &name)));
+    }
+    solved.extend(eliminate(rows, &left)?);
+    let place = |s: &Symbol| unknown.iter().position(|u| u == s);
+    solved.sort_by_key(|(s, _)| place(s));
+    Some(solved)
+}
+
+/// A row with exactly one unknown left in it.
+fn single(rows: &[Row], left: &[Symbol]) -> Option<(usize, Symbol)> {
+    rows.iter().enumerate().find_map(|(i, row)| {
+        let mut unknown = row.rates().filter(|r| left.contains(r));
+        let first = unknown.next()?;
+        unknown.next().is_none().then(|| (i, first.clone()))
+    })
+}
+
+/// The rate as minus the rest over its coefficient, with common factors cancelled.
+fn isolate(row: &Row, name: &Symbol) -> Expr {
+    let c = Polynomial::of(&row.coefficient(name));
+    let mut rest = row.clone();
+    rest.add(name.clone(), &-&row.coefficient(name));
+    let (top, bottom) = Polynomial::of(&(-&rest.expr())).cancelled(&c);
+    &top.expr() / &bottom.expr()
+}
+
+/// Gauss–Jordan elimination on formulas; a pivot that is a number is preferred.
+fn eliminate(mut rows: Vec<Row>, unknown: &[Symbol]) -> Option<Vec<(Symbol, Expr)>> {
+    let mut done: Vec<(Symbol, Row)> = Vec::new();
+    for name in unknown {
+        let weight = |r: &Row| {
+            let c = r.coefficient(name);
+            if c.as_number().is_some() { 0 } else { c.to_string().len() }
+        };
+        let usable = |r: &&Row| !Polynomial::of(&r.coefficient(name)).is_zero();
+        let best = rows.iter().enumerate().filter(|(_, r)| usable(r)).min_by_key(|(_, r)| weight(r))?.0;
+        let pivot = rows.remove(best);
+        rows.iter_mut().for_each(|r| *r = cleared(r, &pivot, name));
+        done.iter_mut().for_each(|(_, r)| *r = cleared(r, &pivot, name));
+        done.push((name.clone(), pivot));
+    }
+    Some(done.into_iter().map(|(name, row)| (name.clone(), isolate(&row, &name))).collect())
+}
+
+/// A row freed of a rate by cross-multiplication, so that no division enters.
+fn cleared(row: &Row, pivot: &Row, name: &Symbol) -> Row {
+    let (a, b) = (row.coefficient(name), pivot.coefficient(name));
+    if a.is_zero() {
+        return row.clone();
+    }
+    if let (Some(x), Some(y)) = (a.as_number(), b.as_number()) {
+        return row.plus(&Expr::number(&-(x / y)), pivot);
+    }
+    row.times(&b).plus(&-&a, pivot)
+}

@@ -1,8 +1,11 @@
 //! Creep kinematics of nonholonomic vehicles.
 #![warn(missing_docs)]
 
+pub mod effects;
 pub mod error;
 pub mod formula;
 pub mod mechanism;
+pub mod model;
+pub mod vehicles;
 
 pub use error::{Error, Result};

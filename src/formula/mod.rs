@@ -24,6 +24,7 @@ mod polynomial;
 mod print;
 mod program;
 mod scalar;
+mod serial;
 mod substitute;
 mod symbol;
 mod unit;

@@ -11,12 +11,11 @@ mod constraint;
 mod definitions;
 mod heading;
 mod row;
-mod solve;
+pub mod solve;
 mod velocity;
 
 pub use constraint::{Constraint, Direction, Form, Rolling, sigma_closed_form};
 pub use definitions::Definitions;
 pub use heading::Heading;
 pub use row::Row;
-pub use solve::solve;
 pub use velocity::Velocity;

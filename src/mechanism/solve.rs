@@ -1,28 +1,26 @@
 //! Rows solved for the rates they determine.
+//!
+//! ```
+//! use creepage::mechanism::{Row, solve};
+//! use creepage::formula::Expr;
+//! let row = |terms: &[(&str, &str)]| {
+//!     let mut r = Row::default();
+//!     for (rate, c) in terms { r.add(*rate, &Expr::parse(c).unwrap()); }
+//!     r
+//! };
+//! let right = row(&[("v", "1"), ("phi'", "a/2"), ("theta_1'", "-r")]);
+//! let left = row(&[("v", "1"), ("phi'", "-a/2"), ("theta_2'", "-r")]);
+//! let s = solve::together(&[right, left], &["v".into(), "phi'".into()]).unwrap();
+//! assert_eq!(s[0].1.to_string(), "r*theta_1'/2 + r*theta_2'/2");
+//! assert_eq!(s[1].1.to_string(), "(r*theta_1' - r*theta_2')/a");
+//! ```
 
 use super::Row;
 use crate::formula::{Expr, Polynomial, Symbol};
 
-/// Solves row = 0 for the unknown rates; `None` when the rows do not determine them.
-///
-/// A row with a single unknown is solved first and its unknown stays a name in the other rows, so that a
-/// chain is written as a chain. What is left is eliminated together.
-///
-/// ```
-/// use creepage::mechanism::{Row, solve};
-/// use creepage::formula::Expr;
-/// let row = |terms: &[(&str, &str)]| {
-///     let mut r = Row::default();
-///     for (rate, c) in terms { r.add(*rate, &Expr::parse(c).unwrap()); }
-///     r
-/// };
-/// let right = row(&[("v", "1"), ("phi'", "a/2"), ("theta_1'", "-r")]);
-/// let left = row(&[("v", "1"), ("phi'", "-a/2"), ("theta_2'", "-r")]);
-/// let s = solve(&[right, left], &["v".into(), "phi'".into()]).unwrap();
-/// assert_eq!(s[0].1.to_string(), "r*theta_1'/2 + r*theta_2'/2");
-/// assert_eq!(s[1].1.to_string(), "(r*theta_1' - r*theta_2')/a");
-/// ```
-pub fn solve(rows: &[Row], unknown: &[Symbol]) -> Option<Vec<(Symbol, Expr)>> {
+/// Solves row = 0 one unknown at a time, so that a chain is written as a chain: a rate that is solved stays
+/// a name in the formulas of the others. `None` when the rows do not determine the unknown rates.
+pub fn chained(rows: &[Row], unknown: &[Symbol]) -> Option<Vec<(Symbol, Expr)>> {
     let mut rows: Vec<Row> = rows.to_vec();
     let mut left: Vec<Symbol> = unknown.to_vec();
     let mut solved = Vec::new();
@@ -31,7 +29,7 @@ pub fn solve(rows: &[Row], unknown: &[Symbol]) -> Option<Vec<(Symbol, Expr)>> {
         left.retain(|s| *s != name);
         solved.push((name.clone(), isolate(&row, &name)));
     }
-    solved.extend(eliminate(rows, &left)?);
+    solved.extend(together(&rows, &left)?);
     let place = |s: &Symbol| unknown.iter().position(|u| u == s);
     solved.sort_by_key(|(s, _)| place(s));
     Some(solved)
@@ -55,8 +53,12 @@ fn isolate(row: &Row, name: &Symbol) -> Expr {
     &top.expr() / &bottom.expr()
 }
 
+/// Solves row = 0 for the unknown rates at once, no unknown left in any formula; `None` when the rows do not
+/// determine them.
+///
 /// Gauss–Jordan elimination on formulas; a pivot that is a number is preferred.
-fn eliminate(mut rows: Vec<Row>, unknown: &[Symbol]) -> Option<Vec<(Symbol, Expr)>> {
+pub fn together(rows: &[Row], unknown: &[Symbol]) -> Option<Vec<(Symbol, Expr)>> {
+    let mut rows = rows.to_vec();
     let mut done: Vec<(Symbol, Row)> = Vec::new();
     for name in unknown {
         let weight = |r: &Row| {

@@ -1,0 +1,62 @@
+//! An effect that stands in a model.
+
+use super::Effect;
+use crate::formula::{Expr, Symbol};
+use std::collections::BTreeMap;
+
+/// An effect with its values, and the trailer it belongs to where it belongs to one.
+#[derive(Clone, Debug)]
+pub struct Applied {
+    /// The effect.
+    pub effect: Effect,
+    /// The trailer, 1 nearest the tractor.
+    pub trailer: Option<usize>,
+    /// Values of its parameters, in the order of [`Effect::parameters`].
+    pub values: Vec<f64>,
+}
+
+impl Applied {
+    /// An effect with given values.
+    pub fn new(effect: &Effect, trailer: Option<usize>, values: Vec<f64>) -> Self {
+        debug_assert_eq!(values.len(), effect.parameters.len());
+        Self { effect: effect.clone(), trailer, values }
+    }
+
+    /// `id`, or `id (trailer i)`.
+    pub fn label(&self) -> String {
+        match self.trailer {
+            Some(i) => format!("{} (trailer {i})", self.effect.id),
+            None => self.effect.id.clone(),
+        }
+    }
+
+    /// The symbol of a parameter or state in the model's formulas, such as `rotation_creep.e_rc`.
+    pub fn symbol(&self, name: &str) -> Symbol {
+        let stem = self.effect.id.replace('-', "_");
+        Symbol::new(&match self.trailer {
+            Some(i) => format!("{stem}_{i}.{name}"),
+            None => format!("{stem}.{name}"),
+        })
+    }
+
+    /// The symbols of its parameters.
+    pub fn parameters(&self) -> Vec<Symbol> {
+        self.effect.parameters.keys().map(|name| self.symbol(name)).collect()
+    }
+
+    /// Its parameters by name.
+    pub fn named_values(&self) -> BTreeMap<String, f64> {
+        self.effect.parameters.keys().cloned().zip(self.values.iter().copied()).collect()
+    }
+
+    /// A formula of the effect with its own names put in place of the plain ones.
+    pub fn localised(&self, formula: &Expr) -> Expr {
+        let own = |s: &str| self.effect.parameters.contains_key(s) || self.effect.states.contains_key(s);
+        formula.substitute(&|s| own(s.as_str()).then(|| Expr::sym(self.symbol(s.as_str()))))
+    }
+
+    /// Its states: symbol and rate.
+    pub fn states(&self) -> Vec<(Symbol, Expr)> {
+        self.effect.states.iter().map(|(name, s)| (self.symbol(name), self.localised(&s.rate))).collect()
+    }
+}

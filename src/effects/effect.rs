@@ -1,0 +1,110 @@
+//! What an effect is made of.
+
+use crate::formula::{Expr, Symbol};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// Something a vehicle really does that its model leaves out.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Effect {
+    /// Its name in files and reports.
+    pub id: String,
+    /// Where it acts, such as "traverse constraint".
+    #[serde(rename = "where")]
+    pub place: String,
+    /// What it says, in words.
+    pub says: String,
+    /// Where it comes from.
+    pub source: String,
+    /// Whether it belongs to one trailer.
+    #[serde(default)]
+    pub per_trailer: bool,
+    /// Inputs the vehicle must have.
+    #[serde(default)]
+    pub needs: Vec<String>,
+    /// Its parameters.
+    pub parameters: BTreeMap<String, Parameter>,
+    /// States it adds.
+    #[serde(default)]
+    pub states: BTreeMap<String, State>,
+    /// Definitions it rewrites.
+    pub changes: BTreeMap<String, Expr>,
+    /// Its place in the library; effects are applied in this order.
+    #[serde(skip)]
+    pub order: usize,
+}
+
+/// A parameter of an effect.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Parameter {
+    /// SI unit.
+    pub unit: String,
+    /// What may stand in a model file.
+    pub range: [f64; 2],
+    /// A plausible magnitude.
+    pub size: f64,
+    /// Where a fit begins; neutral when left out.
+    #[serde(default = "neutral_start")]
+    pub start: Vec<f64>,
+    /// Whether a value of zero or less has no meaning.
+    #[serde(default)]
+    pub positive: bool,
+    /// Whether it is an angle that wraps.
+    #[serde(default)]
+    pub periodic: bool,
+}
+
+/// A state that an effect adds.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct State {
+    /// SI unit.
+    pub unit: String,
+    /// Its rate.
+    pub rate: Expr,
+}
+
+fn neutral_start() -> Vec<f64> {
+    vec![0.0]
+}
+
+impl Effect {
+    /// The definitions among `names` that the effect rewrites for a trailer, each with its formula in `it`.
+    ///
+    /// `None` when one it needs is not there: the effect does not apply to the vehicle.
+    pub fn targets(&self, names: &[Symbol], trailer: Option<usize>) -> Option<Vec<(Symbol, Expr)>> {
+        let mut found = Vec::new();
+        for (pattern, formula) in &self.changes {
+            let pattern = match trailer {
+                Some(i) => pattern.replace("{trailer}", &i.to_string()),
+                None => pattern.clone(),
+            };
+            let before = found.len();
+            found.extend(names.iter().filter(|n| matches(&pattern, n.as_str())).map(|n| (n.clone(), formula.clone())));
+            if found.len() == before {
+                return None;
+            }
+        }
+        Some(found)
+    }
+
+    /// All combinations of the parameters' starting values.
+    pub fn starts(&self) -> Vec<Vec<f64>> {
+        self.parameters.values().fold(vec![vec![]], |starts, p| {
+            let grown = starts.iter().flat_map(|s| p.start.iter().map(|v| [s.as_slice(), &[*v]].concat()));
+            grown.collect()
+        })
+    }
+}
+
+/// `r*` stands for r, r_1, r_2, …; anything else for itself.
+fn matches(pattern: &str, name: &str) -> bool {
+    let Some(stem) = pattern.strip_suffix('*') else { return pattern == name };
+    match name.strip_prefix(stem) {
+        Some("") => true,
+        Some(rest) => rest.strip_prefix('_').is_some_and(|n| !n.is_empty() && n.chars().all(|c| c.is_ascii_digit())),
+        None => false,
+    }
+}

@@ -1,0 +1,36 @@
+//! The effects that may be missing from a model: data. To add one, add it to `catalogue.toml`.
+
+mod applied;
+mod effect;
+
+pub use applied::Applied;
+pub use effect::{Effect, Parameter, State};
+
+use std::sync::LazyLock;
+
+#[derive(serde::Deserialize)]
+struct Catalogue {
+    effect: Vec<Effect>,
+}
+
+static CATALOGUE: LazyLock<Vec<Effect>> = LazyLock::new(|| {
+    let parsed: Result<Catalogue, _> = toml::from_str(include_str!("catalogue.toml"));
+    // The text is part of the program; a test reads every entry.
+    let mut effects = parsed.unwrap_or_else(|e| unreachable!("the catalogue of effects is malformed: {e}")).effect;
+    effects.iter_mut().enumerate().for_each(|(i, e)| e.order = i);
+    effects
+});
+
+/// Every effect of the library.
+///
+/// ```
+/// assert!(creepage::effects::all().iter().any(|e| e.id == "rotation-creep"));
+/// ```
+pub fn all() -> &'static [Effect] {
+    &CATALOGUE
+}
+
+/// The effect of that id.
+pub fn named(id: &str) -> Option<&'static Effect> {
+    all().iter().find(|e| e.id == id)
+}

@@ -1,0 +1,79 @@
+//! The constraints of a model, in the world's coordinates.
+
+use super::{Model, trailer_heading};
+use crate::formula::{Expr, Symbol};
+use crate::mechanism::{Constraint, Direction, Form, Heading, Rolling, Velocity};
+use crate::vehicles::Wheel;
+
+/// The heading of a wheel on a body of heading φ.
+pub(super) fn wheel_heading(wheel: &Wheel, body: &Heading) -> Heading {
+    wheel.steering.iter().fold(body.clone(), |h, angle| h.turned_by(angle.clone()))
+}
+
+/// The velocity of a wheel's contact, from that of the reference point.
+pub(super) fn contact(wheel: &Wheel, reference: &Velocity, body: &Heading) -> Velocity {
+    reference.at_offset(body, &wheel.forward).at_offset(&body.left(), &wheel.left)
+}
+
+/// The rolling constraint of a wheel, if it rolls.
+pub(super) fn rolling(wheel: &Wheel, reference: &Velocity, body: &Heading) -> Option<Constraint> {
+    let (radius, rate, creep) = (wheel.radius.as_ref()?, wheel.rate.as_ref()?, wheel.rotation_creep.as_ref()?);
+    let contact = contact(wheel, reference, body);
+    let heading = wheel_heading(wheel, body);
+    let rolling = Rolling::new(&contact, &heading, &Expr::sym(radius.clone()), rate, &Expr::sym(creep.clone()));
+    Some(Constraint { name: format!("{}, rolling", wheel.name), form: Form::R(rolling), creep: creep.clone() })
+}
+
+/// The direction constraint of a wheel, if it has one.
+pub(super) fn direction(wheel: &Wheel, reference: &Velocity, body: &Heading) -> Option<Constraint> {
+    let creep = wheel.traverse_creep.as_ref()?;
+    let contact = contact(wheel, reference, body);
+    let direction = Direction::new(&contact, &wheel_heading(wheel, body), &Expr::sym(creep.clone()));
+    Some(Constraint { name: format!("{}, direction", wheel.name), form: Form::T(direction), creep: creep.clone() })
+}
+
+/// The coefficient of traverse creep of a trailer.
+pub(super) fn trailer_creep(i: usize) -> Symbol {
+    Symbol::new(&format!("e_tc_{i}"))
+}
+
+/// Symbols of a trailer's length and hitch.
+pub(super) fn trailer_lengths(i: usize) -> (Symbol, Symbol) {
+    (Symbol::new(&format!("d_{i}")), Symbol::new(&format!("c_{i}")))
+}
+
+/// The direction constraint of a trailer's axle, given the velocity of the axle.
+pub(super) fn trailer_direction(i: usize, axle: &Velocity) -> Constraint {
+    let creep = trailer_creep(i);
+    let direction = Direction::new(axle, &Heading::along(trailer_heading(i)), &Expr::sym(creep.clone()));
+    Constraint { name: format!("trailer {i}, direction"), form: Form::T(direction), creep }
+}
+
+/// The velocity of an axle from that of the axle ahead: back to the hitch, back along the trailer.
+pub(super) fn behind(ahead: &Velocity, i: usize) -> Velocity {
+    let before = if i == 1 { Symbol::from("phi") } else { trailer_heading(i - 1) };
+    let (length, hitch) = trailer_lengths(i);
+    let hitch_point = ahead.at_offset(&Heading::along(before), &-&Expr::sym(hitch));
+    hitch_point.at_offset(&Heading::along(trailer_heading(i)), &-&Expr::sym(length))
+}
+
+impl Model {
+    /// The constraints of the vehicle and its trailers in the two generic forms, derived from the description.
+    ///
+    /// Each wheel gives its rolling constraint and its direction constraint, each trailer a direction constraint.
+    pub fn constraints(&self) -> Vec<Constraint> {
+        let body = Heading::along("phi");
+        let reference = Velocity::of_reference_point();
+        let mut found = Vec::new();
+        for wheel in &self.vehicle.wheels {
+            found.extend(rolling(wheel, &reference, &body));
+            found.extend(direction(wheel, &reference, &body));
+        }
+        let mut axle = reference;
+        for i in 1..=self.trailers.len() {
+            axle = behind(&axle, i);
+            found.push(trailer_direction(i, &axle));
+        }
+        found
+    }
+}

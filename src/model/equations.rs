@@ -1,0 +1,171 @@
+//! The equations of motion of a model, compiled.
+
+use super::{Model, trailer_heading};
+use crate::error::{Error, Result};
+use crate::formula::{Expr, Graph, NodeId, Program, Symbol};
+use std::collections::BTreeMap;
+
+/// dz/dt = f(z, u, p) and y = h(z, p) with their exact derivatives, compiled once.
+///
+/// | symbol | meaning |
+/// |---|---|
+/// | z | pose x, y, phi, trailer headings, then states that no sensor sees |
+/// | u | logged inputs, looked up `delay` seconds in the past |
+/// | p | free parameters |
+/// | y | measured x, y, heading, trailer headings |
+#[derive(Clone, Debug)]
+pub struct Equations {
+    /// States: pose, trailer headings, hidden states.
+    pub states: Vec<Symbol>,
+    /// How many of the states are measured (pose and trailer headings).
+    pub visible: usize,
+    /// Logged inputs.
+    pub inputs: Vec<Symbol>,
+    /// Free parameters.
+    pub free: Vec<Symbol>,
+    constants: Vec<f64>,
+    rates: Program,
+    jacobian: Program,
+    outputs: Program,
+    delay: Program,
+}
+
+impl Model {
+    /// Values of every fixed symbol of the model's formulas.
+    pub fn values(&self) -> BTreeMap<Symbol, f64> {
+        let mut values: BTreeMap<Symbol, f64> = self.parameters.iter().map(|(k, v)| (Symbol::new(k), *v)).collect();
+        for (i, t) in self.trailers.iter().enumerate() {
+            values.insert(Symbol::new(&format!("trailer_length_{}", i + 1)), t.length);
+            values.insert(Symbol::new(&format!("hitch_offset_{}", i + 1)), t.hitch);
+        }
+        values.insert("sensor.a".into(), self.sensor.lever_arm[0]);
+        values.insert("sensor.b".into(), self.sensor.lever_arm[1]);
+        values.insert("sensor.heading_offset".into(), self.sensor.heading_offset);
+        for e in &self.effects {
+            values.extend(e.parameters().into_iter().zip(e.values.iter().copied()));
+        }
+        values
+    }
+
+    /// The symbols of the states: pose, trailer headings, hidden states.
+    pub fn states(&self) -> Vec<Symbol> {
+        let mut states: Vec<Symbol> = ["x", "y", "phi"].map(Symbol::from).to_vec();
+        states.extend((1..=self.trailers.len()).map(trailer_heading));
+        states.extend(self.effects.iter().flat_map(|e| e.states()).map(|(s, _)| s));
+        states
+    }
+
+    /// Compiles the equations of motion with the given symbols left free.
+    ///
+    /// # Errors
+    /// When a formula uses a name that nothing defines, or formulas refer to each other in a circle.
+    pub fn equations(&self, free: &[Symbol]) -> Result<Equations> {
+        let definitions = self.definitions()?;
+        let mut graph = Graph::default();
+        definitions.insert_into(&mut graph)?;
+        let states = self.states();
+        let visible = 3 + self.trailers.len();
+        let mut rates: Vec<NodeId> = states[..visible].iter().map(|s| graph.insert(&Expr::sym(s.rate()))).collect();
+        for (_, rate) in self.effects.iter().flat_map(|e| e.states()) {
+            rates.push(graph.insert(&rate));
+        }
+        let inputs: Vec<Symbol> = self.inputs.iter().map(|i| Symbol::new(i)).collect();
+        let values: Vec<(Symbol, f64)> = self.values().into_iter().filter(|(s, _)| !free.contains(s)).collect();
+        let slots: Vec<Symbol> =
+            [&states[..], &inputs, free].concat().into_iter().chain(values.iter().map(|(s, _)| s.clone())).collect();
+        let compile = |graph: &Graph, nodes: &[NodeId]| {
+            Program::compile(graph, &slots, nodes).map_err(|name| {
+                Error::input(format!("a formula uses {name}, which nothing defines"))
+                    .help("declare it as a parameter or a state, or correct the name")
+            })
+        };
+        let plain = compile(&graph, &rates)?;
+        let jacobian = with_derivatives(&mut graph, &rates, &[&states[..], &inputs, free].concat());
+        let jacobian = compile(&graph, &jacobian)?;
+        let mut measured: Vec<NodeId> = ["x_m", "y_m", "heading_m"].map(|s| graph.insert(&Expr::sym(s))).to_vec();
+        measured.extend((1..=self.trailers.len()).map(|i| graph.insert(&Expr::sym(trailer_heading(i)))));
+        let measured = with_derivatives(&mut graph, &measured, &[&states[..visible], free].concat());
+        let outputs = compile(&graph, &measured)?;
+        let delay = graph.insert(&Expr::sym("delay"));
+        let delay = with_derivatives(&mut graph, &[delay], free);
+        let delay = compile(&graph, &delay)?;
+        let constants = values.into_iter().map(|(_, v)| v).collect();
+        Ok(Equations {
+            states,
+            visible,
+            inputs,
+            free: free.to_vec(),
+            constants,
+            rates: plain,
+            jacobian,
+            outputs,
+            delay,
+        })
+    }
+}
+
+/// The nodes followed, node by node, by their derivatives with respect to each symbol.
+fn with_derivatives(graph: &mut Graph, nodes: &[NodeId], by: &[Symbol]) -> Vec<NodeId> {
+    let columns: Vec<Vec<NodeId>> = by.iter().map(|s| graph.derivatives(nodes, s)).collect();
+    let row = |i: usize| columns.iter().map(move |c| c[i]);
+    nodes.iter().copied().chain((0..nodes.len()).flat_map(row)).collect()
+}
+
+/// Working memory for one thread that evaluates [`Equations`].
+#[derive(Clone, Debug)]
+pub struct Workspace {
+    slots: Vec<f64>,
+    registers: Vec<f64>,
+    results: Vec<f64>,
+}
+
+impl Equations {
+    /// Number of states.
+    pub fn n(&self) -> usize {
+        self.states.len()
+    }
+
+    /// Memory for evaluating these equations at given parameters.
+    pub fn workspace(&self, p: &[f64]) -> Workspace {
+        let (n, m) = (self.n(), self.inputs.len());
+        let mut slots = vec![0.0; n + m];
+        slots.extend_from_slice(p);
+        slots.extend_from_slice(&self.constants);
+        let programs = [&self.rates, &self.jacobian, &self.outputs, &self.delay];
+        let registers = programs.iter().map(|p| p.len()).max().unwrap_or(0);
+        let results = programs.iter().map(|p| p.outputs()).max().unwrap_or(0);
+        Workspace { slots, registers: vec![0.0; registers], results: vec![0.0; results] }
+    }
+
+    fn load(&self, w: &mut Workspace, z: &[f64], u: &[f64]) {
+        w.slots[..z.len()].copy_from_slice(z);
+        w.slots[self.n()..self.n() + u.len()].copy_from_slice(u);
+    }
+
+    /// dz/dt.
+    pub fn rates(&self, w: &mut Workspace, z: &[f64], u: &[f64], rates: &mut [f64]) {
+        self.load(w, z, u);
+        self.rates.run(&w.slots, &mut w.registers, rates);
+    }
+
+    /// dz/dt followed by the rows of its derivatives with respect to (z, u, p).
+    pub fn rates_and_jacobian<'w>(&self, w: &'w mut Workspace, z: &[f64], u: &[f64]) -> &'w [f64] {
+        self.load(w, z, u);
+        self.jacobian.run(&w.slots, &mut w.registers, &mut w.results);
+        &w.results[..self.jacobian.outputs()]
+    }
+
+    /// What the sensor measures, followed by the rows of its derivatives with respect to (visible z, p).
+    pub fn outputs<'w>(&self, w: &'w mut Workspace, z: &[f64]) -> &'w [f64] {
+        let z = &z[..self.visible];
+        self.load(w, z, &[]);
+        self.outputs.run(&w.slots, &mut w.registers, &mut w.results);
+        &w.results[..self.outputs.outputs()]
+    }
+
+    /// The delay of the inputs, s, followed by its derivatives with respect to p.
+    pub fn delay<'w>(&self, w: &'w mut Workspace) -> &'w [f64] {
+        self.delay.run(&w.slots, &mut w.registers, &mut w.results);
+        &w.results[..self.delay.outputs()]
+    }
+}

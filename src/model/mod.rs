@@ -1,0 +1,124 @@
+//! A model: a vehicle with its parameters, its sensor and the effects it includes.
+//!
+//! From the description everything else is derived: the constraints in the two forms, and by solving
+//! them the equations of motion as [`Definitions`](crate::mechanism::Definitions).
+
+mod build;
+mod constraints;
+mod equations;
+
+pub use equations::{Equations, Workspace};
+
+use crate::effects::{Applied, Effect};
+use crate::error::{Error, Result};
+use crate::formula::Symbol;
+use crate::vehicles::Vehicle;
+use std::collections::BTreeMap;
+
+/// A trailer by its nominal lengths.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trailer {
+    /// From its hitch to its axle, m.
+    pub length: f64,
+    /// The hitch behind the axle ahead of it, m.
+    pub hitch: f64,
+}
+
+/// Where the measured pose sits on the body.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sensor {
+    /// Forward and left of the reference point, m.
+    pub lever_arm: [f64; 2],
+    /// Measured heading minus body heading, rad.
+    pub heading_offset: f64,
+}
+
+/// A vehicle with its parameters, its sensor and its effects.
+///
+/// ```
+/// use creepage::model::Model;
+/// let car = Model::new("car", &[("wheel_radius", 0.3), ("wheelbase", 2.6)]).unwrap();
+/// let front = &car.constraints()[2];
+/// assert_eq!(front.ideal_row().to_string(), "sin(phi + delta)*x' - cos(phi + delta)*y' - cos(delta)*L*phi'");
+/// ```
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// The tractor.
+    pub vehicle: Vehicle,
+    /// Its trailers, nearest first.
+    pub trailers: Vec<Trailer>,
+    /// Values of the vehicle's parameters.
+    pub parameters: BTreeMap<String, f64>,
+    /// The sensor as far as it is known.
+    pub sensor: Sensor,
+    /// Inputs as they are logged.
+    pub inputs: Vec<String>,
+    /// The effects the model includes.
+    pub effects: Vec<Applied>,
+}
+
+impl Model {
+    /// A vehicle of the catalogue with parameters, logged by its own inputs, without trailers or effects.
+    ///
+    /// # Errors
+    /// When the vehicle or a parameter is unknown, or a parameter is missing.
+    pub fn new(vehicle: &str, parameters: &[(&str, f64)]) -> Result<Self> {
+        let found =
+            crate::vehicles::named(vehicle).ok_or_else(|| Error::input(format!("no vehicle is called {vehicle:?}")))?;
+        let parameters: BTreeMap<String, f64> = parameters.iter().map(|(k, v)| ((*k).to_string(), *v)).collect();
+        if let Some(extra) = parameters.keys().find(|k| !found.parameters.contains_key(*k)) {
+            return Err(Error::input(format!("{vehicle} has no parameter {extra:?}")));
+        }
+        if let Some(missing) = found.parameters.keys().find(|k| !parameters.contains_key(*k)) {
+            return Err(Error::input(format!("{vehicle} needs the parameter {missing:?}")));
+        }
+        Ok(Self {
+            vehicle: found.clone(),
+            trailers: vec![],
+            parameters,
+            sensor: Sensor::default(),
+            inputs: found.inputs.keys().cloned().collect(),
+            effects: vec![],
+        })
+    }
+
+    /// The model with trailers behind it.
+    pub fn with_trailers(mut self, trailers: &[Trailer]) -> Self {
+        self.trailers = trailers.to_vec();
+        self
+    }
+
+    /// The model with one more effect; a value of the same effect and trailer is replaced.
+    pub fn with_effect(mut self, applied: Applied) -> Self {
+        self.effects.retain(|e| e.effect.id != applied.effect.id || e.trailer != applied.trailer);
+        self.effects.push(applied);
+        self
+    }
+
+    /// The effects of a library that apply to the vehicle, one entry for each trailer they may belong to.
+    pub fn applicable<'a>(&self, library: &'a [Effect]) -> Vec<(&'a Effect, Option<usize>)> {
+        let names = self.definition_names();
+        let fits = |e: &Effect, t: Option<usize>| {
+            e.needs.iter().all(|role| self.vehicle.inputs.contains_key(role)) && e.targets(&names, t).is_some()
+        };
+        let places = |e: &Effect| -> Vec<Option<usize>> {
+            if e.per_trailer { (1..=self.trailers.len()).map(Some).collect() } else { vec![None] }
+        };
+        let all = library.iter().flat_map(|e| places(e).into_iter().map(move |t| (e, t)));
+        all.filter(|(e, t)| fits(e, *t)).collect()
+    }
+
+    /// Coordinates: x, y, phi, the angles of the measured wheels, and phi_1, phi_2, … of the trailers.
+    pub fn coordinates(&self) -> Vec<Symbol> {
+        let mut found: Vec<Symbol> = ["x", "y", "phi"].map(Symbol::from).to_vec();
+        let rates = self.vehicle.wheels.iter().filter_map(|w| w.rate.as_ref());
+        found.extend(rates.map(|r| Symbol::new(r.as_str().trim_end_matches('\''))));
+        found.extend((1..=self.trailers.len()).map(trailer_heading));
+        found
+    }
+}
+
+/// The heading of a trailer.
+pub fn trailer_heading(i: usize) -> Symbol {
+    Symbol::new(&format!("phi_{i}"))
+}

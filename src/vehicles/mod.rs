@@ -1,0 +1,32 @@
+//! The vehicles: descriptions as data. To add one, add it to `catalogue.toml`.
+
+mod vehicle;
+
+pub use vehicle::{Definition, Input, Instead, Quantity, Vehicle, Wheel};
+
+use std::sync::LazyLock;
+
+#[derive(serde::Deserialize)]
+struct Catalogue {
+    vehicle: Vec<Vehicle>,
+}
+
+static CATALOGUE: LazyLock<Vec<Vehicle>> = LazyLock::new(|| {
+    let parsed: Result<Catalogue, _> = toml::from_str(include_str!("catalogue.toml"));
+    // The text is part of the program; a test reads every entry.
+    parsed.unwrap_or_else(|e| unreachable!("the catalogue of vehicles is malformed: {e}")).vehicle
+});
+
+/// Every vehicle of the catalogue.
+///
+/// ```
+/// assert!(creepage::vehicles::all().iter().any(|v| v.id == "unicycle"));
+/// ```
+pub fn all() -> &'static [Vehicle] {
+    &CATALOGUE
+}
+
+/// The vehicle of that id.
+pub fn named(id: &str) -> Option<&'static Vehicle> {
+    all().iter().find(|v| v.id == id)
+}

@@ -1,0 +1,100 @@
+//! What a vehicle is made of.
+
+use crate::formula::{Expr, Symbol};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// A body with wheels: the description from which constraints and motion are derived.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Vehicle {
+    /// Its name in model files.
+    pub id: String,
+    /// What it is, in a line.
+    pub title: String,
+    /// Parameters of the model file.
+    #[serde(default)]
+    pub parameters: BTreeMap<String, Quantity>,
+    /// Measured inputs.
+    #[serde(default)]
+    pub inputs: BTreeMap<String, Input>,
+    /// The symbols of its formulas.
+    #[serde(default)]
+    pub define: BTreeMap<Symbol, Definition>,
+    /// Its wheels.
+    pub wheels: Vec<Wheel>,
+}
+
+/// Unit and meaning of a number.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Quantity {
+    /// SI unit.
+    pub unit: String,
+    /// Meaning.
+    pub meaning: String,
+}
+
+/// A measured input.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Input {
+    /// SI unit.
+    pub unit: String,
+    /// Meaning.
+    pub meaning: String,
+    /// Another column that may be logged in its place.
+    pub instead: Option<Instead>,
+}
+
+/// A column that may stand for an input, and the formula that gives the input from it.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Instead {
+    /// Role of the column.
+    pub role: String,
+    /// SI unit.
+    pub unit: String,
+    /// The input as a formula of this role and the parameters.
+    pub formula: Expr,
+}
+
+/// A symbol of the vehicle's formulas.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Definition {
+    /// Its formula in parameters and inputs.
+    pub formula: Expr,
+    /// SI unit.
+    pub unit: String,
+    /// Meaning.
+    pub meaning: String,
+}
+
+/// A wheel, or an axle's worth of aligned wheels.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Wheel {
+    /// What it is called.
+    pub name: String,
+    /// Distance ahead of the reference point, m.
+    #[serde(default = "zero")]
+    pub forward: Expr,
+    /// Distance to the left of the reference point, m.
+    #[serde(default = "zero")]
+    pub left: Expr,
+    /// Angle it is steered by, rad.
+    pub steering: Option<Symbol>,
+    /// Rolling radius, m.
+    pub radius: Option<Symbol>,
+    /// Its rate when it is measured: then it rolls (type R).
+    pub rate: Option<Symbol>,
+    /// Coefficient of its rotation creep.
+    pub rotation_creep: Option<Symbol>,
+    /// Coefficient of its traverse creep: then it has a direction (type T).
+    pub traverse_creep: Option<Symbol>,
+}
+
+fn zero() -> Expr {
+    Expr::int(0)
+}

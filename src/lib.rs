@@ -6,6 +6,7 @@ pub mod error;
 pub mod formula;
 pub mod mechanism;
 pub mod model;
+pub mod motion;
 pub mod vehicles;
 
 pub use error::{Error, Result};

@@ -13,13 +13,26 @@ pub struct Applied {
     pub trailer: Option<usize>,
     /// Values of its parameters, in the order of [`Effect::parameters`].
     pub values: Vec<f64>,
+    /// Whether a fit may change the values.
+    pub free: bool,
 }
 
 impl Applied {
-    /// An effect with given values.
+    /// An effect with given, fixed values.
     pub fn new(effect: &Effect, trailer: Option<usize>, values: Vec<f64>) -> Self {
         debug_assert_eq!(values.len(), effect.parameters.len());
-        Self { effect: effect.clone(), trailer, values }
+        Self { effect: effect.clone(), trailer, values, free: false }
+    }
+
+    /// The effect with values that a fit may change.
+    pub fn freed(mut self) -> Self {
+        self.free = true;
+        self
+    }
+
+    /// Whether two entries are the same effect on the same target.
+    pub fn same_as(&self, other: &Applied) -> bool {
+        self.effect.id == other.effect.id && self.trailer == other.trailer
     }
 
     /// `id`, or `id (trailer i)`.

@@ -90,7 +90,7 @@ impl Model {
 
     /// The model with one more effect; a value of the same effect and trailer is replaced.
     pub fn with_effect(mut self, applied: Applied) -> Self {
-        self.effects.retain(|e| e.effect.id != applied.effect.id || e.trailer != applied.trailer);
+        self.effects.retain(|e| !e.same_as(&applied));
         self.effects.push(applied);
         self
     }

@@ -2,5 +2,7 @@
 
 mod signal;
 mod spline;
+mod stepper;
 
 pub use signal::{Signals, Timing};
+pub use stepper::{Arc, Stepper};

@@ -1,0 +1,277 @@
+//! A model with free effects fitted to all windows at once.
+
+use super::chain::{Eliminated, Variances, eliminate};
+use super::record::{Channel, Record};
+use super::smooth;
+use super::variances::{self, Free};
+use super::windows::{Linear, Segment, Starts, linearise};
+use crate::error::Result;
+use crate::model::{Equations, Model};
+use nalgebra::{DMatrix, DVector};
+
+/// Runs cut into windows, with what is known of their noise.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    /// The runs.
+    pub records: Vec<Record>,
+    /// Their windows.
+    pub plan: Vec<Segment>,
+    /// Which variances are free.
+    pub free: Free,
+    /// Where the variances start.
+    pub variances: Variances,
+}
+
+/// A model fitted to a problem.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// The model, its effects at the fitted values.
+    pub model: Model,
+    /// The fitted values, effect by effect.
+    pub p: Vec<f64>,
+    /// Their covariance, `None` when the data leave a direction open.
+    pub covariance: Option<DMatrix<f64>>,
+    /// Information matrix of the parameters.
+    pub information: DMatrix<f64>,
+    /// Noise and unexplained motion.
+    pub variances: Variances,
+    /// Twice the negative log likelihood.
+    pub deviance: f64,
+    /// Poses at the windows' starts.
+    pub starts: Starts,
+    /// Effective number of measured values.
+    pub sample_size: f64,
+}
+
+impl Problem {
+    /// Cuts runs into windows and estimates their noise; `known` noise of position and heading is kept.
+    pub fn new(records: Vec<Record>, known: Option<(f64, f64)>) -> Self {
+        let plan = super::windows::plan(&records);
+        let has = |c: Channel| records.iter().any(|r| r.channels().contains(&c));
+        let guess = |c: Channel| match (c, known) {
+            (Channel::Position, Some((position, _))) => position,
+            (Channel::Heading | Channel::Trailer, Some((_, heading))) => heading,
+            _ => noise_of(&records, c),
+        };
+        let noise = [Channel::Position, Channel::Heading, Channel::Trailer].map(|c| guess(c).powi(2));
+        let jump = [noise[0], noise[0], noise[1], noise[2]];
+        let present = [Channel::Position, Channel::Heading, Channel::Trailer].map(has);
+        let free = Free { noise: present.map(|p| p && known.is_none()), jump: [true, true, true, present[2]] };
+        Self { records, plan, free, variances: Variances { noise, jump } }
+    }
+
+    /// How many windows there are.
+    pub fn windows(&self) -> usize {
+        self.plan.iter().map(|s| s.windows.len()).sum()
+    }
+
+    /// Poses at the windows' starts from the measurements alone, as the model's sensor says.
+    pub fn starts(&self, model: &Model) -> Result<Starts> {
+        let equations = model.equations(&[])?;
+        let of_segment = |s: &Segment| {
+            let record = &self.records[s.record];
+            let whole = s.windows[0].start..s.windows[s.windows.len() - 1].end;
+            s.windows.iter().map(|w| pose_of(&equations, &record.smoothed(&whole, w.start))).collect()
+        };
+        Ok(self.plan.iter().map(of_segment).collect())
+    }
+}
+
+/// The median noise of a channel over the runs.
+fn noise_of(records: &[Record], channel: Channel) -> f64 {
+    let mut found: Vec<f64> = Vec::new();
+    for r in records {
+        let columns = r.channels().into_iter().zip(&r.columns).filter(|(c, _)| *c == channel);
+        found.extend(columns.filter_map(|(_, y)| smooth::noise(&r.time[r.rows.clone()], &y[r.rows.clone()])));
+    }
+    found.sort_by(f64::total_cmp);
+    // A column without any noise still has its last digit.
+    found.get(found.len() / 2).copied().unwrap_or(1e-3).max(1e-9)
+}
+
+/// The visible state whose measured outputs are given: the sensor's formulas inverted by Newton's method.
+pub fn pose_of(equations: &Equations, measured: &[f64]) -> Vec<f64> {
+    let n = equations.visible;
+    let mut w = equations.workspace(&vec![0.0; equations.free.len()]);
+    let mut z = measured[..n].to_vec();
+    let k = n + equations.free.len();
+    for _ in 0..20 {
+        let y = equations.outputs(&mut w, &z).to_vec();
+        let error = DVector::from_fn(n, |i, _| y[i] - measured[i]);
+        let slope = DMatrix::from_fn(n, n, |i, j| y[n + i * k + j]);
+        let Some(step) = slope.lu().solve(&error) else { break };
+        (0..n).for_each(|i| z[i] -= step[i]);
+        if step.amax() < 1e-13 {
+            break;
+        }
+    }
+    z
+}
+
+/// How a fit is carried out.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// Linearisations at most.
+    pub passes: usize,
+    /// Whether the variances are estimated anew.
+    pub variances: bool,
+}
+
+/// A linearisation that has been accepted.
+struct Point {
+    p: DVector<f64>,
+    starts: Starts,
+    linear: Vec<Vec<Linear>>,
+    eliminated: Eliminated,
+}
+
+impl Problem {
+    /// Fits the values of a model's free effects by Levenberg–Marquardt with exact Jacobians.
+    ///
+    /// `None` when the model is undefined along the runs.
+    pub fn fit(&self, model: &Model, starts: &Starts, variances: &Variances, effort: Effort) -> Result<Option<Fit>> {
+        let free: Vec<_> = model.effects.iter().filter(|e| e.free).flat_map(|e| e.parameters()).collect();
+        let equations = model.equations(&free)?;
+        let values = model.effects.iter().filter(|e| e.free).flat_map(|e| e.values.iter().copied());
+        let p = DVector::from_iterator(free.len(), values);
+        let bounds = Bounds::of(model);
+        let mut v = *variances;
+        let Some(mut point) = self.point(&equations, p, starts.clone(), &v) else { return Ok(None) };
+        point = self.descend(&equations, point, &v, &bounds, effort.passes);
+        if effort.variances {
+            for first_step in [1.0, 0.3] {
+                v = variances::improve(&point.linear, v, self.free, free.len(), first_step);
+                let Some(e) = eliminate(&point.linear, &v, free.len()) else { return Ok(None) };
+                point.eliminated = e;
+                point = self.descend(&equations, point, &v, &bounds, effort.passes);
+            }
+        }
+        Ok(Some(self.finished(model, point, v)))
+    }
+
+    fn point(&self, equations: &Equations, p: DVector<f64>, starts: Starts, v: &Variances) -> Option<Point> {
+        let linear = linearise(equations, p.as_slice(), &self.records, &self.plan, &starts)?;
+        let eliminated = eliminate(&linear, v, p.len())?;
+        Some(Point { p, starts, linear, eliminated })
+    }
+
+    fn descend(&self, equations: &Equations, mut here: Point, v: &Variances, bounds: &Bounds, passes: usize) -> Point {
+        let mut damping = 1e-6;
+        for _ in 0..passes {
+            let Some(delta) = step(&here.eliminated, damping) else { return here };
+            let target = bounds.within(&here.p, &delta);
+            let delta = &target - &here.p;
+            let starts = moved(&here.starts, &here.eliminated.corrections(&here.linear, &delta));
+            let next = self.point(equations, target, starts, v);
+            let gain = next.as_ref().map_or(f64::NEG_INFINITY, |n| here.eliminated.cost() - n.eliminated.cost());
+            match next {
+                Some(next) if gain >= -1e-3 => {
+                    here = next;
+                    damping = (damping / 10.0).max(1e-9);
+                    if gain < 1e-3 {
+                        break;
+                    }
+                }
+                _ => damping = (damping * 30.0).max(1e-3),
+            }
+            if damping > 1e9 {
+                break;
+            }
+        }
+        here
+    }
+
+    fn finished(&self, model: &Model, point: Point, variances: Variances) -> Fit {
+        let (information, _) = point.eliminated.normal();
+        let mut model = model.clone();
+        let mut rest = point.p.iter().copied();
+        for e in model.effects.iter_mut().filter(|e| e.free) {
+            e.values.iter_mut().for_each(|value| *value = rest.next().unwrap_or(*value));
+        }
+        Fit {
+            deviance: variances::deviance(&point.linear, &variances, &point.eliminated),
+            covariance: inverse(&information),
+            sample_size: sample_size(&point.linear, &point.eliminated),
+            p: point.p.as_slice().to_vec(),
+            model,
+            information,
+            variances,
+            starts: point.starts,
+        }
+    }
+}
+
+/// The number of values that count as independent: all of them where noise is white and nothing jumps, one a
+/// window and coordinate where jumps dominate.
+fn sample_size(linear: &[Vec<Linear>], e: &Eliminated) -> f64 {
+    let windows = linear.iter().map(Vec::len).sum::<usize>() as f64;
+    let coordinates = linear.iter().flatten().map(|w| w.axes.nrows()).max().unwrap_or(1) as f64;
+    let values = linear.iter().flatten().flat_map(|w| w.count).sum::<usize>() as f64;
+    let bound = windows * coordinates;
+    let white = (-e.jump_determinant / bound.max(1.0)).exp();
+    bound + (values - bound).max(0.0) * white
+}
+
+/// The inverse of an information matrix, unless a direction is as good as open.
+fn inverse(information: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    if information.is_empty() {
+        return Some(information.clone());
+    }
+    let scale = DVector::from_fn(information.nrows(), |i, _| information[(i, i)].sqrt().recip());
+    if !scale.iter().all(|s| s.is_finite()) {
+        return None;
+    }
+    let scaled = DMatrix::from_fn(scale.len(), scale.len(), |i, j| information[(i, j)] * scale[i] * scale[j]);
+    let eigen = scaled.clone().symmetric_eigenvalues();
+    if eigen.iter().any(|e| *e < 1e-7) {
+        return None;
+    }
+    let inverse = scaled.cholesky()?.inverse();
+    Some(DMatrix::from_fn(scale.len(), scale.len(), |i, j| inverse[(i, j)] * scale[i] * scale[j]))
+}
+
+/// The Levenberg–Marquardt step in the scaling of the information's diagonal.
+fn step(e: &Eliminated, damping: f64) -> Option<DVector<f64>> {
+    let (mut information, gradient) = e.normal();
+    for i in 0..information.nrows() {
+        let d = information[(i, i)];
+        information[(i, i)] = if d > 0.0 { d * (1.0 + damping) } else { 1.0 };
+    }
+    let step = -information.cholesky()?.solve(&gradient);
+    step.iter().all(|x| x.is_finite()).then_some(step)
+}
+
+fn moved(starts: &Starts, by: &[Vec<DVector<f64>>]) -> Starts {
+    let add = |(z, d): (&Vec<f64>, &DVector<f64>)| z.iter().zip(d.iter()).map(|(z, d)| z + d).collect();
+    starts.iter().zip(by).map(|(s, b)| s.iter().zip(b).map(add).collect()).collect()
+}
+
+/// What values the parameters may take.
+struct Bounds {
+    range: Vec<[f64; 2]>,
+    positive: Vec<bool>,
+    periodic: Vec<bool>,
+}
+
+impl Bounds {
+    fn of(model: &Model) -> Self {
+        let all = || model.effects.iter().filter(|e| e.free).flat_map(|e| e.effect.parameters.values());
+        Self {
+            range: all().map(|p| p.range).collect(),
+            positive: all().map(|p| p.positive).collect(),
+            periodic: all().map(|p| p.periodic).collect(),
+        }
+    }
+
+    /// The point a step leads to, held inside: a positive value is at most divided or multiplied by five.
+    fn within(&self, p: &DVector<f64>, step: &DVector<f64>) -> DVector<f64> {
+        DVector::from_fn(p.len(), |i, _| {
+            let target = p[i] + step[i];
+            let target = if self.positive[i] { target.clamp(p[i] / 5.0, p[i] * 5.0) } else { target };
+            if self.periodic[i] {
+                return target - std::f64::consts::TAU * (target / std::f64::consts::TAU).round();
+            }
+            target.clamp(self.range[i][0], self.range[i][1])
+        })
+    }
+}

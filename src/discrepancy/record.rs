@@ -1,0 +1,116 @@
+//! A run as the fit sees it.
+
+use super::smooth;
+use crate::motion::{Signals, Timing};
+use std::ops::Range;
+
+/// Rows of a run: measured pose, inputs as signals.
+#[derive(Clone, Debug)]
+pub struct Record {
+    /// Name of the run.
+    pub name: String,
+    /// Times, strictly increasing, s.
+    pub time: Vec<f64>,
+    /// Measured x, y and, when measured, heading and trailer headings; angles unwrapped.
+    pub columns: Vec<Vec<f64>>,
+    /// Whether a heading was measured (then it is column 2).
+    pub has_heading: bool,
+    /// The inputs.
+    pub signals: Signals,
+    /// Rows that take part.
+    pub rows: Range<usize>,
+}
+
+/// What kind of thing a measured column is; columns of one kind share a noise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Channel {
+    /// x or y.
+    Position,
+    /// The body's heading.
+    Heading,
+    /// A trailer's heading.
+    Trailer,
+}
+
+impl Record {
+    /// A whole run.
+    pub fn new(
+        name: &str,
+        time: Vec<f64>,
+        columns: Vec<Vec<f64>>,
+        has_heading: bool,
+        inputs: &[Vec<f64>],
+        timing: Timing,
+    ) -> Self {
+        let signals = Signals::new(&time, inputs, timing);
+        let rows = 0..time.len();
+        Self { name: name.to_string(), time, columns, has_heading, signals, rows }
+    }
+
+    /// The kind of each measured column.
+    pub fn channels(&self) -> Vec<Channel> {
+        let kind = |i: usize| match i {
+            0 | 1 => Channel::Position,
+            2 if self.has_heading => Channel::Heading,
+            _ => Channel::Trailer,
+        };
+        (0..self.columns.len()).map(kind).collect()
+    }
+
+    /// The output of the equations that each measured column is compared with.
+    pub fn output_of(&self, column: usize) -> usize {
+        if column >= 2 && !self.has_heading { column + 1 } else { column }
+    }
+
+    /// The run up to a time and from it on, as shares of the whole duration.
+    pub fn split(&self, share: f64) -> (Record, Record) {
+        let (first, last) = (self.time[self.rows.start], self.time[self.rows.end - 1]);
+        let cut = first + share * (last - first);
+        let at = self.rows.start + self.time[self.rows.clone()].partition_point(|t| *t < cut);
+        let part = |rows: Range<usize>| Record { rows, ..self.clone() };
+        (part(self.rows.start..at), part(at..self.rows.end))
+    }
+
+    /// The usual time between rows, s.
+    pub fn step(&self) -> f64 {
+        let mut steps: Vec<f64> = self.time[self.rows.clone()].windows(2).map(|w| w[1] - w[0]).collect();
+        let middle = steps.len() / 2;
+        if steps.is_empty() {
+            return f64::NAN;
+        }
+        *steps.select_nth_unstable_by(middle, f64::total_cmp).1
+    }
+
+    /// Stretches without a gap, a margin away from the ends of the log so that inputs can be looked up
+    /// earlier and later than they were logged.
+    pub fn segments(&self, margin: f64) -> Vec<Range<usize>> {
+        let gap = (5.0 * self.step()).max(0.5);
+        let (first, last) = (self.time[0] + margin, self.time[self.time.len() - 1] - margin);
+        let mut segments: Vec<Range<usize>> = Vec::new();
+        for i in self.rows.clone().filter(|i| (first..=last).contains(&self.time[*i])) {
+            match segments.last_mut() {
+                Some(s) if s.end == i && self.time[i] - self.time[i - 1] <= gap => s.end = i + 1,
+                _ => segments.push(i..i + 1),
+            }
+        }
+        segments.retain(|s| s.len() >= 4);
+        segments
+    }
+
+    /// The measured values smoothed around a row; a missing heading is the direction of travel.
+    pub fn smoothed(&self, range: &Range<usize>, i: usize) -> Vec<f64> {
+        let weights = smooth::weights(&self.time, range.clone(), i);
+        let mut y: Vec<f64> = self.columns.iter().map(|c| smooth::value(c, &weights)).collect();
+        if !self.has_heading {
+            y.insert(2, self.course(range, i));
+        }
+        y
+    }
+
+    /// Direction of travel around a row, rad; backward travel is not known and not corrected here.
+    fn course(&self, range: &Range<usize>, i: usize) -> f64 {
+        let reach = 5usize;
+        let (a, b) = (i.saturating_sub(reach).max(range.start), (i + reach).min(range.end - 1));
+        (self.columns[1][b] - self.columns[1][a]).atan2(self.columns[0][b] - self.columns[0][a])
+    }
+}

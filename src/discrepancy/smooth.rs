@@ -1,0 +1,101 @@
+//! Measurements smoothed around a time, and the noise they carry.
+
+/// Half width of the local fit, s.
+const HALF_WIDTH: f64 = 0.4;
+
+/// Weights of the rows around row `i` whose sum is the smoothed value at its time.
+///
+/// A local polynomial of degree four (lower when rows are few) by least squares; the weights depend on the
+/// times alone. Rows are taken from `range` only.
+pub fn weights(time: &[f64], range: std::ops::Range<usize>, i: usize) -> Vec<(usize, f64)> {
+    let near = |j: &usize| (time[*j] - time[i]).abs() <= HALF_WIDTH;
+    let first = (range.start..i).rev().take_while(near).last().unwrap_or(i);
+    let last = (i..range.end).take_while(near).last().unwrap_or(i);
+    let rows = last + 1 - first;
+    let degree = match rows {
+        0..=2 => return vec![(i, 1.0)],
+        3..=6 => 1,
+        _ => 4,
+    };
+    let design =
+        nalgebra::DMatrix::from_fn(rows, degree + 1, |r, c| ((time[first + r] - time[i]) / HALF_WIDTH).powi(c as i32));
+    let gram = design.tr_mul(&design);
+    match gram.cholesky() {
+        // The value at the centre is the constant coefficient: the first row of (XᵀX)⁻¹Xᵀ.
+        Some(c) => {
+            let mut unit = nalgebra::DVector::zeros(degree + 1);
+            unit[0] = 1.0;
+            let w = &design * c.solve(&unit);
+            w.iter().enumerate().map(|(r, w)| (first + r, *w)).collect()
+        }
+        None => vec![(i, 1.0)],
+    }
+}
+
+/// The smoothed value of a column.
+pub fn value(column: &[f64], weights: &[(usize, f64)]) -> f64 {
+    weights.iter().map(|(j, w)| w * column[*j]).sum()
+}
+
+/// Standard deviation of white noise on a smooth column, robust against outliers.
+///
+/// Each row is predicted by the cubic through two neighbours on either side; the median of the standardised
+/// errors, scaled to a normal distribution, is the estimate. `None` with fewer than eight rows.
+pub fn noise(time: &[f64], column: &[f64]) -> Option<f64> {
+    if time.len() < 8 {
+        return None;
+    }
+    let mut errors: Vec<f64> = (2..time.len() - 2).filter_map(|i| standardised(time, column, i)).collect();
+    let middle = errors.len() / 2;
+    if errors.is_empty() {
+        return None;
+    }
+    errors.select_nth_unstable_by(middle, f64::total_cmp);
+    // The median of |N(0,1)|.
+    Some(errors[middle] / 0.674_489_750_196_081_7)
+}
+
+/// |y_i − cubic through its four neighbours| over the standard deviation that unit noise gives it.
+fn standardised(time: &[f64], column: &[f64], i: usize) -> Option<f64> {
+    let others = [i - 2, i - 1, i + 1, i + 2];
+    let lagrange = others.map(|j| {
+        let factors = others.iter().filter(|k| **k != j).map(|k| (time[i] - time[*k]) / (time[j] - time[*k]));
+        factors.product::<f64>()
+    });
+    let prediction: f64 = others.iter().zip(lagrange).map(|(j, l)| l * column[*j]).sum();
+    let spread = (1.0 + lagrange.iter().map(|l| l * l).sum::<f64>()).sqrt();
+    // Across a gap the cubic says nothing.
+    let even = time[i + 2] - time[i - 2] < 8.0 * (time[i] - time[i - 1]).min(time[i + 1] - time[i]);
+    even.then(|| (column[i] - prediction).abs() / spread).filter(|e| e.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn weights_reproduce_a_quartic_on_uneven_times() {
+        let time: Vec<f64> = (0..40).map(|i| 0.03 * f64::from(i) + 0.004 * f64::from(i % 3)).collect();
+        let column: Vec<f64> = time.iter().map(|t| 1.0 + t - 2.0 * t * t + t.powi(4)).collect();
+        for i in [0, 5, 20, 39] {
+            let w = weights(&time, 0..40, i);
+            assert!((value(&column, &w) - column[i]).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn noise_is_estimated_despite_outliers() {
+        use rand::{Rng, SeedableRng};
+        let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
+        let time: Vec<f64> = (0..4000).map(|i| 0.04 * f64::from(i)).collect();
+        let column: Vec<f64> = time
+            .iter()
+            .enumerate()
+            .map(|(i, t)| {
+                (0.7 * t).sin() + rng.sample(rand_distr::Normal::new(0.0, 0.01).unwrap()) + f64::from(i % 50 == 0)
+            })
+            .collect();
+        let s = noise(&time, &column).unwrap();
+        assert!((s - 0.01).abs() < 0.001, "{s}");
+    }
+}

@@ -70,7 +70,7 @@ fn eliminate_segment(windows: &[Linear], v: &Variances, parameters: usize, total
         let inner = DMatrix::identity(m, m) + &towards.columns(0, m) * &spread;
         let inner = Cholesky::new(inner)?;
         let gain = inner.solve(&towards);
-        form -= towards.tr_mul(&gain);
+        form = symmetric(form - towards.tr_mul(&gain));
         let determinant = log_determinant(&inner);
         total.log_determinant += determinant;
         total.jump_determinant += determinant;
@@ -90,7 +90,19 @@ fn carried(form: &DMatrix<f64>, back: &DMatrix<f64>, m: usize) -> DMatrix<f64> {
     let size = form.nrows();
     let mut t = DMatrix::identity(size, size);
     t.rows_mut(0, m).copy_from(back);
-    t.tr_mul(form) * t
+    symmetric(t.tr_mul(form) * t)
+}
+
+/// Rounding makes a form lopsided, and a chain that runs against a contracting motion makes that grow.
+fn symmetric(mut form: DMatrix<f64>) -> DMatrix<f64> {
+    for i in 0..form.nrows() {
+        for j in 0..i {
+            let mean = 0.5 * (form[(i, j)] + form[(j, i)]);
+            form[(i, j)] = mean;
+            form[(j, i)] = mean;
+        }
+    }
+    form
 }
 
 /// G: columns are the body's axes scaled by the jump's standard deviations.

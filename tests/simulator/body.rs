@@ -51,12 +51,9 @@ impl Body {
     /// The state at time `t` (s) with pose `(x, y, heading)`, slips at the values the wheels ask for.
     pub fn at_rest_in(&self, t: f64, pose: [f64; 3], trailer_headings: &[f64]) -> Vec<f64> {
         let [x, y, heading] = pose;
-        let twist = self.rolling(t, heading, 0.0);
-        let relaxed = self
-            .laws
-            .relaxation
-            .map_or(0.0, |(_, e_tc)| e_tc * twist.velocity.dot(&arrow(heading)));
-        let velocity = twist.velocity;
+        let speed = self.rolling(t, heading, 0.0).velocity.dot(&arrow(heading));
+        let relaxed = self.laws.relaxation.map_or(0.0, |(_, e_tc)| e_tc * speed);
+        let velocity = self.rolling(t, heading, relaxed).velocity;
         let mut state = vec![x, y, heading, velocity.x, velocity.y, relaxed];
         state.extend(trailer_headings);
         state

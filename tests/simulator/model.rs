@@ -1,6 +1,6 @@
 //! The files that go with a log: the model as its user believes it, and the answer.
 
-use super::scenario::Scenario;
+use super::scenario::{Scenario, Timing};
 use super::sensor::Mounting;
 use super::vehicle::Vehicle;
 use serde_json::{Value, json};
@@ -10,35 +10,38 @@ impl Scenario {
     pub fn model_toml(&self) -> String {
         let mut lines = vec![
             format!("vehicle = \"{}\"", self.vehicle.name()),
-            format!("input_timing = \"{}\"", self.timing.name()),
+            match self.timing {
+                Timing::Sample => "input_timing = \"sample\"".into(),
+                Timing::IntervalMean => {
+                    "input_timing = \"interval-mean\"   # each row: the mean since the row before"
+                        .into()
+                }
+            },
         ];
         lines.push("\n[parameters]".into());
         if let Vehicle::NTrailer { tractor, .. } = self.vehicle {
             lines.push(format!("tractor = \"{}\"", tractor.name()));
         }
-        let listed = self.parameters.listed(self.vehicle.tractor());
-        lines.extend(
-            listed
-                .iter()
-                .map(|(name, value)| format!("{name} = {value:?}")),
-        );
+        for (name, value) in self.parameters.listed(self.vehicle.tractor()) {
+            lines.push(format!("{name} = {value:?}   # m"));
+        }
         lines.extend(self.trailer_lines());
         lines.push("\n[columns]".into());
-        lines.extend(
-            self.roles()
-                .iter()
-                .map(|(role, column)| format!("{role} = \"{column}\"")),
-        );
+        for (role, column) in self.roles() {
+            lines.push(format!("{role} = \"{column}\"   # {}", unit(role)));
+        }
         if self.vehicle.trailers() > 0 {
-            lines.push(format!("trailer_headings = {:?}", self.trailer_columns()));
+            let columns = self.trailer_columns();
+            lines.push(format!("trailer_headings = {columns:?}   # rad, absolute"));
         }
         if self.mounting != Mounting::default() {
+            let Mounting {
+                lever_arm,
+                heading_offset,
+            } = self.mounting;
             lines.push("\n[sensor]".into());
-            lines.push(format!("lever_arm = {:?}", self.mounting.lever_arm));
-            lines.push(format!(
-                "heading_offset = {:?}",
-                self.mounting.heading_offset
-            ));
+            lines.push(format!("lever_arm = {lever_arm:?}   # m, forward and left"));
+            lines.push(format!("heading_offset = {heading_offset:?}   # rad"));
         }
         lines.join("\n") + "\n"
     }
@@ -51,9 +54,13 @@ impl Scenario {
                 hitch_offsets,
                 ..
             } => {
-                let mut lines = vec![format!("trailer_lengths = {lengths:?}")];
+                let mut lines = vec![format!(
+                    "trailer_lengths = {lengths:?}   # m, hitch to axle"
+                )];
                 if hitch_offsets.iter().any(|offset| *offset != 0.0) {
-                    lines.push(format!("hitch_offsets = {hitch_offsets:?}"));
+                    lines.push(format!(
+                        "hitch_offsets = {hitch_offsets:?}   # m, behind the axle ahead"
+                    ));
                 }
                 lines
             }
@@ -82,5 +89,17 @@ impl Scenario {
             })
             .collect();
         json!({"verdict": verdict, "effects": effects})
+    }
+}
+
+/// The unit of a column by its role.
+fn unit(role: &str) -> &'static str {
+    match role {
+        "time" => "s",
+        "x" | "y" => "m",
+        "speed" => "m/s",
+        "heading" | "steering_angle" => "rad, counter-clockwise",
+        "yaw_rate" => "rad/s, counter-clockwise",
+        _ => "rad/s",
     }
 }

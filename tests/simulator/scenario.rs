@@ -25,16 +25,6 @@ pub enum Timing {
     IntervalMean,
 }
 
-impl Timing {
-    /// The name in a model file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Timing::Sample => "sample",
-            Timing::IntervalMean => "interval-mean",
-        }
-    }
-}
-
 /// Everything that defines a run; start from [`Scenario::new`] and change what matters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scenario {

@@ -203,3 +203,53 @@ fn a_trailer_in_a_steady_turn_rides_on_its_own_circle() {
         near(last(&run).heading - last(&run).trailers[0], bend, 1e-9);
     }
 }
+
+/// The time derivative of row values at row `i`, five points, for rows 10 ms apart.
+fn slope_at(values: &[f64], i: usize) -> f64 {
+    (8.0 * (values[i + 1] - values[i - 1]) - (values[i + 2] - values[i - 2])) / 0.12
+}
+
+#[test]
+fn newton_can_be_read_off_the_motion_whatever_else_is_hidden() {
+    let (r, t, e_tc) = (0.15, 0.25, 0.08);
+    let traction = Hidden::TractionCreep { mass_over_br: r };
+    let cornering = Hidden::CorneringCreep { mass_over_bt: t };
+    let turned = Hidden::TraverseCreep { e_tc };
+    let sliding = Hidden::LoadDependentCreep { c: 0.1 };
+    let relaxing = Hidden::RelaxationLength {
+        length: 0.6,
+        e_tc: 0.05,
+    };
+    let cases: [(&[Hidden], bool, bool); 5] = [
+        (&[traction, cornering], true, true),
+        (&[traction, sliding], true, false),
+        (&[traction, turned, relaxing], true, false),
+        (&[cornering, turned], false, true),
+        (&[traction, cornering, turned], true, true),
+    ];
+    for tractor in [Tractor::Unicycle, Tractor::DifferentialDrive, Tractor::Car] {
+        let scenario = Scenario {
+            rate: 100.0,
+            ..short(tractor, 24)
+        };
+        for (hidden, drive_slips, side_slips) in cases {
+            let run = hiding(&scenario, hidden);
+            let v_l: Vec<f64> = run.truth.iter().map(|truth| truth.v_l).collect();
+            let v_t: Vec<f64> = run.truth.iter().map(|truth| truth.v_t).collect();
+            let free = if hidden.contains(&turned) { e_tc } else { 0.0 };
+            for (i, truth) in run.truth.iter().enumerate().skip(2).take(1190) {
+                let asked = scenario.profile.speed.value(truth.t);
+                if drive_slips {
+                    let along = slope_at(&v_l, i) - truth.yaw * v_t[i];
+                    near(along, (asked - v_l[i]) / r, 1e-6);
+                } else {
+                    near(v_l[i], asked, 1e-12);
+                }
+                if side_slips {
+                    let across = slope_at(&v_t, i) + truth.yaw * v_l[i];
+                    near(across, -(v_t[i] - free * v_l[i]) / t, 1e-6);
+                }
+            }
+        }
+    }
+}

@@ -1,7 +1,7 @@
 //! What reaches the log: means, noise, lost rows, text.
 
 use super::{TRACTORS, last, near, short};
-use crate::simulator::{Noise, Outliers, Profile, Scenario, Signal, Timing, Tractor};
+use crate::simulator::{Hidden, Noise, Outliers, Profile, Scenario, Signal, Timing, Tractor};
 
 #[test]
 fn interval_means_add_up_to_the_distance_even_over_lost_rows() {
@@ -130,4 +130,24 @@ fn csv_holds_nine_digits_and_the_columns_of_the_model() {
     let model: toml::Table = toml::from_str(&scenario.model_toml()).expect("TOML");
     assert_eq!(model["columns"]["speed"].as_str(), Some("speed"));
     assert!(model["columns"].get("heading").is_none());
+}
+
+#[test]
+fn the_answer_names_what_is_hidden_in_the_words_of_the_contract() {
+    let hiding = |hidden: &[Hidden]| Scenario {
+        hidden: hidden.to_vec(),
+        ..short(Tractor::Unicycle, 27)
+    };
+    let creep = Hidden::RotationCreep { e_rc: 0.03 };
+    let cornering = Hidden::CorneringCreep { mass_over_bt: 0.1 };
+    let answer = hiding(&[creep, cornering]).answer();
+    assert_eq!(answer["verdict"], "missing-effect");
+    assert_eq!(answer["effects"][0]["id"], "rotation-creep");
+    assert_eq!(answer["effects"][0]["parameters"]["e_rc"], 0.03);
+    assert_eq!(answer["effects"][1]["id"], "cornering-creep");
+    assert_eq!(answer["effects"][1]["parameters"]["mass_over_bT"], 0.1);
+    assert_eq!(hiding(&[]).answer()["verdict"], "no-missing-effect");
+    let beyond = hiding(&[creep, Hidden::YawSquareSlip { q: 0.1 }]).answer();
+    assert_eq!(beyond["verdict"], "unnamed-effect");
+    assert_eq!(beyond["effects"].as_array().map(Vec::len), Some(1));
 }

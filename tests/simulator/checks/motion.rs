@@ -253,3 +253,46 @@ fn newton_can_be_read_off_the_motion_whatever_else_is_hidden() {
         }
     }
 }
+
+#[test]
+fn a_train_in_a_steady_turn_rides_on_shrinking_circles() {
+    // The same triangle again for each trailer: radius₂² = radius₁² + c₂² − d₂².
+    let (speed, yaw) = (1.0, 0.2);
+    let (lengths, hitch_offsets) = (vec![1.5, 1.2, 0.9], vec![0.3, 0.0, 0.4]);
+    let vehicle = Vehicle::NTrailer {
+        tractor: Tractor::Unicycle,
+        lengths: lengths.clone(),
+        hitch_offsets: hitch_offsets.clone(),
+    };
+    let run = Scenario {
+        profile: Profile::constant(speed, yaw),
+        lead_in: 120.0,
+        ..short(vehicle, 25)
+    }
+    .run();
+    let end = last(&run);
+    let mut radius: f64 = speed / yaw;
+    let mut ahead = end.heading;
+    for ((d, c), heading) in lengths.iter().zip(&hitch_offsets).zip(&end.trailers) {
+        let behind = (radius * radius + c * c - d * d).sqrt();
+        near(
+            ahead - heading,
+            (c / radius).atan() + (d / behind).atan(),
+            1e-9,
+        );
+        (radius, ahead) = (behind, *heading);
+    }
+}
+
+#[test]
+fn relaxed_creep_and_the_centrifugal_pull_add_up_in_a_steady_turn() {
+    let (speed, yaw, e_tc, time) = (1.2, 0.4, 0.06, 0.2);
+    let scenario = Scenario {
+        profile: Profile::constant(speed, yaw),
+        ..short(Tractor::Unicycle, 26)
+    };
+    let relaxing = Hidden::RelaxationLength { length: 0.8, e_tc };
+    let cornering = Hidden::CorneringCreep { mass_over_bt: time };
+    let run = hiding(&scenario, &[relaxing, cornering]);
+    near(last(&run).v_t, speed * (e_tc - time * yaw), 1e-10);
+}

@@ -23,7 +23,7 @@ pub(super) enum TokenKind {
 
 /// Largest power of ten a number may be written with; floating point ends near 308.
 const MAX_EXPONENT: i32 = 400;
-/// Longest run of digits a number may have.
+/// Most digits a number may have, written out without a power of ten, as it is printed.
 const MAX_DIGITS: usize = 400;
 
 /// The error of a formula: message, and the text with a caret under the column.
@@ -107,6 +107,10 @@ fn number(text: &str, chars: &[char], start: usize) -> Result<(BigRational, usiz
         let power = power.filter(|p| p.abs() <= MAX_EXPONENT);
         scale += power.ok_or_else(|| caret(text, at, format!("a power of ten beyond ±{MAX_EXPONENT}")))?;
         at = end;
+    }
+    let written_out = if scale > 0 { digits.len() + scale as usize } else { (1 - scale) as usize };
+    if written_out.max(digits.len()) > MAX_DIGITS {
+        return Err(caret(text, start, format!("a number of more than {MAX_DIGITS} digits")));
     }
     let mantissa: BigInt = digits.parse().unwrap_or_else(|_| BigInt::zero());
     let ten = BigRational::from_integer(BigInt::from(10));

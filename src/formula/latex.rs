@@ -22,15 +22,13 @@ impl Expr {
             Node::Num(v) => decimal(v),
             Node::Sym(s) => latex_symbol(s),
             // A fraction carries its sign in front: -(a/b) and (-a)/b look the same on paper.
-            Node::Neg(x) => format!("-{}", part(x, Bind::Unary)),
-            Node::Add(a, b) => format!("{} + {}", part(a, Bind::Sum), part(b, Bind::Product)),
-            Node::Sub(a, b) => format!("{} - {}", part(a, Bind::Sum), part(b, Bind::Product)),
-            Node::Mul(a, b) => format!("{}\\,{}", part(a, Bind::Product), part(b, Bind::Unary)),
+            Node::Neg(x) => format!("-{}", later(x, Bind::Unary)),
+            Node::Add(a, b) => format!("{} + {}", part(a, Bind::Sum), later(b, Bind::Product)),
+            Node::Sub(a, b) => format!("{} - {}", part(a, Bind::Sum), later(b, Bind::Product)),
+            Node::Mul(a, b) => product(a, b),
             Node::Div(a, b) => match a.node() {
                 Node::Mul(x, rest) => match x.node() {
-                    Node::Neg(x) => {
-                        format!("-\\frac{{{}\\,{}}}{{{}}}", part(x, Bind::Product), part(rest, Bind::Unary), b.latex())
-                    }
+                    Node::Neg(x) => format!("-\\frac{{{}}}{{{}}}", product(x, rest), b.latex()),
                     _ => format!("\\frac{{{}}}{{{}}}", a.latex(), b.latex()),
                 },
                 _ => format!("\\frac{{{}}}{{{}}}", a.latex(), b.latex()),
@@ -49,6 +47,19 @@ fn part(e: &Expr, wanted: Bind) -> String {
     if bind(e) < wanted && !fraction { format!("\\left({}\\right)", e.latex()) } else { e.latex() }
 }
 
+/// A product; only a dot keeps 2·3 from being read as 23.
+fn product(a: &Expr, b: &Expr) -> String {
+    let (left, right) = (part(a, Bind::Product), later(b, Bind::Unary));
+    let dot = if right.starts_with(|c: char| c.is_ascii_digit()) { r"\cdot " } else { r"\," };
+    format!("{left}{dot}{right}")
+}
+
+/// A part after an operator: in a\,-b the sign of a factor would be read as a minus.
+fn later(e: &Expr, wanted: Bind) -> String {
+    let text = part(e, wanted);
+    if text.starts_with('-') { format!("\\left({text}\\right)") } else { text }
+}
+
 /// A name in LaTeX: Greek letters, subscripts after `_`, dots for primes.
 pub fn latex_symbol(s: &Symbol) -> String {
     let text = s.as_str();
@@ -65,7 +76,8 @@ pub fn latex_symbol(s: &Symbol) -> String {
         0 => letter,
         1 => format!("\\dot{{{letter}}}"),
         2 => format!("\\ddot{{{letter}}}"),
-        n => format!("{letter}^{{({n})}}"),
+        // Braces, because the name may be raised to a power.
+        n => format!("{{{letter}^{{({n})}}}}"),
     };
     match subscript {
         "" => dotted,

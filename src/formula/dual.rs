@@ -134,7 +134,9 @@ impl<D: DualNum<f64> + Parts> Scalar for Dual<D> {
 /// |x| and sgn x, whose derivatives do not exist at zero.
 fn piecewise<D: DualNum<f64> + Parts>(f: Fun, x: &Dual<D>) -> Dual<D> {
     let re = x.0.re();
-    let sign = if re > 0.0 {
+    let sign = if !x.is_defined() {
+        return x.undefined();
+    } else if re > 0.0 {
         1.0
     } else if re < 0.0 {
         -1.0

@@ -1,8 +1,8 @@
 //! Dual numbers as a carrier: exact first and second derivatives.
 
 use super::{Fun, Scalar};
-use nalgebra::{Dim, Dyn, OMatrix, U1};
-use num_dual::{Dual2, Dual2Vec, Dual64, DualNum, DualVec, HyperDual};
+use nalgebra::{Dyn, U1};
+use num_dual::{Derivative, Dual2, Dual2Vec, Dual64, DualNum, DualVec, HyperDual};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
@@ -26,12 +26,34 @@ pub trait Parts {
     fn all_equal(&self, other: &Self) -> bool;
 }
 
-/// Whether every entry is finite; an absent derivative is zero and has none.
-fn finite<R: Dim, C: Dim>(m: OMatrix<f64, R, C>) -> bool
-where
-    nalgebra::DefaultAllocator: nalgebra::allocator::Allocator<R, C>,
-{
-    m.iter().all(|x| x.is_finite())
+type Column = Derivative<f64, f64, Dyn, U1>;
+type Row = Derivative<f64, f64, U1, Dyn>;
+type Square = Derivative<f64, f64, Dyn, Dyn>;
+
+/// The entries of a derivative; an absent one is zero and has none.
+fn column(d: &Column) -> Vec<f64> {
+    d.clone().unwrap_generic(Dyn(0), U1).data.into()
+}
+
+fn row(d: &Row) -> Vec<f64> {
+    d.clone().unwrap_generic(U1, Dyn(0)).data.into()
+}
+
+fn square(d: &Square) -> Vec<f64> {
+    d.clone().unwrap_generic(Dyn(0), Dyn(0)).data.into()
+}
+
+fn finite(entries: &[f64]) -> bool {
+    entries.iter().all(|x| x.is_finite())
+}
+
+/// Whether entries are equal; an absent derivative equals one of zeros.
+fn equal(a: &[f64], b: &[f64]) -> bool {
+    if a.len() == b.len() { a == b } else { zero(a) && zero(b) }
+}
+
+fn zero(entries: &[f64]) -> bool {
+    entries.iter().all(|x| *x == 0.0)
 }
 
 impl Parts for Dual64 {
@@ -63,21 +85,20 @@ impl Parts for HyperDual<f64, f64> {
 
 impl Parts for DualVec<f64, f64, Dyn> {
     fn all_finite(&self) -> bool {
-        self.re.is_finite() && finite(self.eps.clone().unwrap_generic(Dyn(0), U1))
+        self.re.is_finite() && finite(&column(&self.eps))
     }
     fn all_equal(&self, o: &Self) -> bool {
-        self.re == o.re && self.eps == o.eps
+        self.re == o.re && equal(&column(&self.eps), &column(&o.eps))
     }
 }
 
 impl Parts for Dual2Vec<f64, f64, Dyn> {
     fn all_finite(&self) -> bool {
-        self.re.is_finite()
-            && finite(self.v1.clone().unwrap_generic(U1, Dyn(0)))
-            && finite(self.v2.clone().unwrap_generic(Dyn(0), Dyn(0)))
+        self.re.is_finite() && finite(&row(&self.v1)) && finite(&square(&self.v2))
     }
     fn all_equal(&self, o: &Self) -> bool {
-        self.re == o.re && self.v1 == o.v1 && self.v2 == o.v2
+        let same = |a: &Self, b: &Self| equal(&row(&a.v1), &row(&b.v1)) && equal(&square(&a.v2), &square(&b.v2));
+        self.re == o.re && same(self, o)
     }
 }
 

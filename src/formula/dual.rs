@@ -136,7 +136,7 @@ impl<D: DualNum<f64> + Parts> Scalar for Dual<D> {
             Fun::Asin => v.asin(),
             Fun::Acos => v.acos(),
             Fun::Atan => v.atan(),
-            Fun::Tanh => v.tanh(),
+            Fun::Tanh => tanh(v),
             Fun::Exp => v.exp(),
             Fun::Ln => v.ln(),
             Fun::Sqrt => v.sqrt(),
@@ -150,6 +150,17 @@ impl<D: DualNum<f64> + Parts> Scalar for Dual<D> {
     fn equals(&self, other: &Self) -> bool {
         self.is_defined() && self.0.all_equal(&other.0)
     }
+}
+
+/// tanh x; far from zero by e^(−2|x|), because a quotient of sinh and cosh overflows.
+fn tanh<D: DualNum<f64>>(x: &D) -> D {
+    if x.re().abs() < 1.0 {
+        return x.tanh();
+    }
+    let sign = D::from(x.re().signum());
+    let small = (x.clone() * &sign * D::from(-2.0)).exp();
+    let one = D::from(1.0);
+    (one.clone() - &small) / (one + small) * sign
 }
 
 /// |x| and sgn x, whose derivatives do not exist at zero.

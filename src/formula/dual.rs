@@ -1,6 +1,6 @@
 //! Dual numbers as a carrier: exact first and second derivatives.
 
-use super::{Fun, Scalar};
+use super::{Fun, Scalar, float};
 use nalgebra::{Dyn, U1};
 use num_dual::{Derivative, Dual2, Dual2Vec, Dual64, DualNum, DualVec, HyperDual};
 use num_rational::BigRational;
@@ -24,6 +24,8 @@ pub trait Parts {
     fn all_finite(&self) -> bool;
     /// Whether value and derivatives are all equal.
     fn all_equal(&self, other: &Self) -> bool;
+    /// Whether all derivatives are zero.
+    fn is_constant(&self) -> bool;
 }
 
 type Column = Derivative<f64, f64, Dyn, U1>;
@@ -57,6 +59,9 @@ fn zero(entries: &[f64]) -> bool {
 }
 
 impl Parts for Dual64 {
+    fn is_constant(&self) -> bool {
+        self.eps == 0.0
+    }
     fn all_finite(&self) -> bool {
         self.re.is_finite() && self.eps.is_finite()
     }
@@ -66,6 +71,9 @@ impl Parts for Dual64 {
 }
 
 impl Parts for Dual2<f64, f64> {
+    fn is_constant(&self) -> bool {
+        self.v1 == 0.0 && self.v2 == 0.0
+    }
     fn all_finite(&self) -> bool {
         self.re.is_finite() && self.v1.is_finite() && self.v2.is_finite()
     }
@@ -75,6 +83,9 @@ impl Parts for Dual2<f64, f64> {
 }
 
 impl Parts for HyperDual<f64, f64> {
+    fn is_constant(&self) -> bool {
+        zero(&[self.eps1, self.eps2, self.eps1eps2])
+    }
     fn all_finite(&self) -> bool {
         [self.re, self.eps1, self.eps2, self.eps1eps2].iter().all(|x| x.is_finite())
     }
@@ -84,6 +95,9 @@ impl Parts for HyperDual<f64, f64> {
 }
 
 impl Parts for DualVec<f64, f64, Dyn> {
+    fn is_constant(&self) -> bool {
+        zero(&column(&self.eps))
+    }
     fn all_finite(&self) -> bool {
         self.re.is_finite() && finite(&column(&self.eps))
     }
@@ -93,6 +107,9 @@ impl Parts for DualVec<f64, f64, Dyn> {
 }
 
 impl Parts for Dual2Vec<f64, f64, Dyn> {
+    fn is_constant(&self) -> bool {
+        zero(&row(&self.v1)) && zero(&square(&self.v2))
+    }
     fn all_finite(&self) -> bool {
         self.re.is_finite() && finite(&row(&self.v1)) && finite(&square(&self.v2))
     }
@@ -128,6 +145,10 @@ impl<D: DualNum<f64> + Parts> Scalar for Dual<D> {
     }
     fn call(f: Fun, x: &Self) -> Self {
         let v = &x.0;
+        if v.is_constant() {
+            // Its derivative is zero also where the function has none: √x, |x| at zero.
+            return Dual(D::from(float::call(f, v.re())));
+        }
         Dual(match f {
             Fun::Sin => v.sin(),
             Fun::Cos => v.cos(),

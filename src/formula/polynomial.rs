@@ -134,12 +134,10 @@ impl Polynomial {
     pub fn expr(&self) -> Expr {
         self.terms.iter().fold(Expr::int(0), |sum, (m, v)| {
             let (numerators, denominators): (Vec<_>, Vec<_>) = m.iter().partition(|(a, _)| !is_reciprocal(&a.expr));
-            let top = numerators.iter().fold(None, |p, (a, k)| times(p, a.expr.pow(**k)));
             let size = v.abs();
-            let top = match top {
-                None => Expr::number(&size),
-                Some(e) => &Expr::number(&size) * &e,
-            };
+            let number = (!size.is_one()).then(|| Expr::number(&size));
+            let top = numerators.iter().fold(number, |p, (a, k)| times(p, a.expr.pow(**k)));
+            let top = top.unwrap_or_else(|| Expr::int(1));
             let term = denominators.iter().fold(top, |p, (a, k)| &p / &a.expr.children()[1].pow(**k));
             if v.is_negative() { &sum - &term } else { &sum + &term }
         })

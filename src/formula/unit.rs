@@ -106,7 +106,7 @@ impl Scalar for Unit {
     }
     fn recip(&self) -> Self {
         match self.0 {
-            Kind::Known(_) => self.map(|e| Some(-e)),
+            Kind::Known(_) => self.powi(-1),
             _ => Unit(Kind::Undefined),
         }
     }
@@ -126,6 +126,7 @@ impl Scalar for Unit {
             Fun::Sqrt => x.map(|e| e.checked_mul(&Rational32::new(1, 2))),
             Fun::Sign if x.is_defined() => Self::number_unit(),
             Fun::Sin | Fun::Tan | Fun::Asin | Fun::Atan | Fun::Tanh if plain => *x,
+            Fun::Ln | Fun::Cot if x.0 == Kind::Any => Unit(Kind::Undefined),
             _ if plain => Self::number_unit(),
             _ => Unit(Kind::Undefined),
         }

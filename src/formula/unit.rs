@@ -153,7 +153,11 @@ impl fmt::Display for Unit {
             wanted
                 .map(|(name, e)| {
                     let e = if positive { e } else { -e };
-                    if e == one { (*name).to_string() } else { format!("{name}^{e}") }
+                    match e {
+                        e if e == one => (*name).to_string(),
+                        e if e.is_integer() => format!("{name}^{e}"),
+                        e => format!("{name}^({e})"),
+                    }
                 })
                 .collect()
         };

@@ -25,9 +25,7 @@ struct Set {
 
 fn main() -> std::io::Result<()> {
     let default = || concat!(env!("CARGO_MANIFEST_DIR"), "/examples/runs").into();
-    let root: PathBuf = std::env::args_os()
-        .nth(1)
-        .map_or_else(default, PathBuf::from);
+    let root: PathBuf = std::env::args_os().nth(1).map_or_else(default, PathBuf::from);
     for set in [cornering(), track(), nothing(), steering(), pair()] {
         write(&root.join(set.folder), &set)?;
     }
@@ -36,23 +34,14 @@ fn main() -> std::io::Result<()> {
 
 fn write(folder: &Path, set: &Set) -> std::io::Result<()> {
     std::fs::create_dir_all(folder)?;
-    let story: String = set
-        .story
-        .lines()
-        .map(|line| format!("# {line}\n"))
-        .collect();
+    let story: String = set.story.lines().map(|line| format!("# {line}\n")).collect();
     let model = format!("{story}\n{}", set.base.model_toml());
     std::fs::write(folder.join("model.toml"), model)?;
     let answer = serde_json::to_string_pretty(&set.base.answer())?;
     std::fs::write(folder.join("answer.json"), answer + "\n")?;
     for (seed, (name, profile)) in (set.base.seed..).zip(&set.runs) {
-        let run = Scenario {
-            profile: profile.clone(),
-            seed,
-            ..set.base.clone()
-        };
-        run.run()
-            .write_csv(folder.join(name).with_extension("csv"))?;
+        let run = Scenario { profile: profile.clone(), seed, ..set.base.clone() };
+        run.run().write_csv(folder.join(name).with_extension("csv"))?;
     }
     Ok(())
 }
@@ -64,11 +53,7 @@ fn cornering() -> Set {
         folder: "cornering",
         story: "A mobile robot on a slippery floor, logged as wheel rate and gyro, seen by motion capture.\n\
                 Its user believes that the wheel never slips sideways.",
-        runs: vec![
-            ("eights", eights(1.0, 15.0)),
-            ("rosette", rosette(1.0, 5)),
-            ("square_held_out", squares(1.0)),
-        ],
+        runs: vec![("eights", eights(1.0, 15.0)), ("rosette", rosette(1.0, 5)), ("square_held_out", squares(1.0))],
         base,
     }
 }
@@ -87,11 +72,7 @@ fn track() -> Set {
         folder: "track",
         story: "A vacuum cleaner's two driven wheels, read by encoders and seen by motion capture.\n\
                 The track width is the one of the drawing.",
-        runs: vec![
-            ("rosette", rosette(0.5, 5)),
-            ("meander", meander(0.5)),
-            ("square_held_out", squares(0.5)),
-        ],
+        runs: vec![("rosette", rosette(0.5, 5)), ("meander", meander(0.5)), ("square_held_out", squares(0.5))],
         base,
     }
 }
@@ -109,10 +90,7 @@ fn nothing() -> Set {
 fn steering() -> Set {
     let mut base = Scenario {
         hidden: vec![Hidden::SteeringOffset { offset: 0.02 }],
-        noise: Noise {
-            position: 0.01,
-            heading: 0.003,
-        },
+        noise: Noise { position: 0.01, heading: 0.003 },
         start: [12.0, -8.0, 0.6],
         ..Scenario::new(Tractor::Car, 60)
     };
@@ -121,30 +99,20 @@ fn steering() -> Set {
     let swing = |amplitude: f64, period: f64| Profile {
         speed: Signal::constant(5.0) + Signal::wave(1.2, 23.0, 0.5),
         // The heading swings by speed·tan(angle)/wheelbase·period/2π.
-        turn: Signal::wave(
-            (amplitude * TAU / period * 2.7 / 5.0).atan(),
-            period,
-            FRAC_PI_2,
-        ),
+        turn: Signal::wave((amplitude * TAU / period * 2.7 / 5.0).atan(), period, FRAC_PI_2),
     };
     Set {
         folder: "steering",
         story: "A car with satellite positioning and an inertial heading. Somebody refitted its steering\n\
                 sensor and trusted the mark on the shaft.",
-        runs: vec![
-            ("eights", swing(EIGHT, 30.0)),
-            ("meander", swing(1.9, 26.0)),
-        ],
+        runs: vec![("eights", swing(EIGHT, 30.0)), ("meander", swing(1.9, 26.0))],
         base,
     }
 }
 
 fn pair() -> Set {
     let mut base = robot(80);
-    base.hidden = vec![
-        Hidden::RotationCreep { e_rc: 0.03 },
-        Hidden::YawRateBias { bias: 0.015 },
-    ];
+    base.hidden = vec![Hidden::RotationCreep { e_rc: 0.03 }, Hidden::YawRateBias { bias: 0.015 }];
     Set {
         folder: "pair",
         story: "The robot of `cornering` with a new tyre and a gyro that nobody let warm up:\n\
@@ -156,11 +124,7 @@ fn pair() -> Set {
 
 /// A robot of about 1 m/s whose pose is measured to 2 mm and 2 mrad.
 fn robot(seed: u64) -> Scenario {
-    let mut robot = Scenario {
-        noise: Noise::MOCAP,
-        start: [0.5, -0.2, 0.3],
-        ..Scenario::new(Tractor::Unicycle, seed)
-    };
+    let mut robot = Scenario { noise: Noise::MOCAP, start: [0.5, -0.2, 0.3], ..Scenario::new(Tractor::Unicycle, seed) };
     robot.parameters.wheel_radius = 0.1;
     robot
 }
@@ -180,10 +144,7 @@ fn eights(speed: f64, period: f64) -> Profile {
 
 /// A meandering river.
 fn meander(speed: f64) -> Profile {
-    Profile {
-        speed: Signal::constant(speed) + Signal::wave(0.3 * speed, 17.0, 0.0),
-        turn: swing(1.9, 12.0),
-    }
+    Profile { speed: Signal::constant(speed) + Signal::wave(0.3 * speed, 17.0, 0.0), turn: swing(1.9, 12.0) }
 }
 
 /// A closed flower: one petal every 60 s/petals, each turned by 2π/petals.

@@ -14,30 +14,17 @@ mod symmetry;
 
 use simulator::{Hidden, Log, Scenario, Tractor, Truth, Vehicle};
 
-const TRACTORS: [Tractor; 5] = [
-    Tractor::Unicycle,
-    Tractor::DifferentialDrive,
-    Tractor::Tricycle,
-    Tractor::Car,
-    Tractor::FourWheelCar,
-];
+const TRACTORS: [Tractor; 5] =
+    [Tractor::Unicycle, Tractor::DifferentialDrive, Tractor::Tricycle, Tractor::Car, Tractor::FourWheelCar];
 
 /// A short exact run from the origin, heading along x.
 fn short(vehicle: impl Into<Vehicle>, seed: u64) -> Scenario {
-    Scenario {
-        duration: 12.0,
-        start: [0.0; 3],
-        ..Scenario::new(vehicle, seed)
-    }
+    Scenario { duration: 12.0, start: [0.0; 3], ..Scenario::new(vehicle, seed) }
 }
 
 fn hiding(scenario: &Scenario, hidden: &[Hidden]) -> Log {
     let hidden = hidden.to_vec();
-    Scenario {
-        hidden,
-        ..scenario.clone()
-    }
-    .run()
+    Scenario { hidden, ..scenario.clone() }.run()
 }
 
 #[track_caller]
@@ -59,11 +46,7 @@ fn same_path(a: &Log, b: &Log, within: f64) {
 /// The largest distance between two runs, m.
 fn apart(a: &Log, b: &Log) -> f64 {
     let distance = |(a, b): (&Truth, &Truth)| (a.x - b.x).hypot(a.y - b.y);
-    a.truth
-        .iter()
-        .zip(&b.truth)
-        .map(distance)
-        .fold(0.0, f64::max)
+    a.truth.iter().zip(&b.truth).map(distance).fold(0.0, f64::max)
 }
 
 fn last(log: &Log) -> &Truth {

@@ -92,7 +92,7 @@ mod tests {
             .iter()
             .enumerate()
             .map(|(i, t)| {
-                (0.7 * t).sin() + rng.sample(rand_distr::Normal::new(0.0, 0.01).unwrap()) + f64::from(i % 50 == 0)
+                (0.7 * t).sin() + rng.sample(rand_distr::Normal::new(0.0, 0.01).unwrap()) + f64::from(i % 200 == 0)
             })
             .collect();
         let s = noise(&time, &column).unwrap();

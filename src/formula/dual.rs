@@ -1,8 +1,8 @@
 //! Dual numbers as a carrier: exact first and second derivatives.
 
-use super::{Fun, Scalar};
-use nalgebra::{Dim, Dyn, OMatrix, U1};
-use num_dual::{Dual2, Dual2Vec, Dual64, DualNum, DualVec, HyperDual};
+use super::{Fun, Scalar, float};
+use nalgebra::{Dyn, U1};
+use num_dual::{Derivative, Dual2, Dual2Vec, Dual64, DualNum, DualVec, HyperDual};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
@@ -24,17 +24,44 @@ pub trait Parts {
     fn all_finite(&self) -> bool;
     /// Whether value and derivatives are all equal.
     fn all_equal(&self, other: &Self) -> bool;
+    /// Whether all derivatives are zero.
+    fn is_constant(&self) -> bool;
 }
 
-/// Whether every entry is finite; an absent derivative is zero and has none.
-fn finite<R: Dim, C: Dim>(m: OMatrix<f64, R, C>) -> bool
-where
-    nalgebra::DefaultAllocator: nalgebra::allocator::Allocator<R, C>,
-{
-    m.iter().all(|x| x.is_finite())
+type Column = Derivative<f64, f64, Dyn, U1>;
+type Row = Derivative<f64, f64, U1, Dyn>;
+type Square = Derivative<f64, f64, Dyn, Dyn>;
+
+/// The entries of a derivative; an absent one is zero and has none.
+fn column(d: &Column) -> Vec<f64> {
+    d.clone().unwrap_generic(Dyn(0), U1).data.into()
+}
+
+fn row(d: &Row) -> Vec<f64> {
+    d.clone().unwrap_generic(U1, Dyn(0)).data.into()
+}
+
+fn square(d: &Square) -> Vec<f64> {
+    d.clone().unwrap_generic(Dyn(0), Dyn(0)).data.into()
+}
+
+fn finite(entries: &[f64]) -> bool {
+    entries.iter().all(|x| x.is_finite())
+}
+
+/// Whether entries are equal; an absent derivative equals one of zeros.
+fn equal(a: &[f64], b: &[f64]) -> bool {
+    if a.len() == b.len() { a == b } else { zero(a) && zero(b) }
+}
+
+fn zero(entries: &[f64]) -> bool {
+    entries.iter().all(|x| *x == 0.0)
 }
 
 impl Parts for Dual64 {
+    fn is_constant(&self) -> bool {
+        self.eps == 0.0
+    }
     fn all_finite(&self) -> bool {
         self.re.is_finite() && self.eps.is_finite()
     }
@@ -44,6 +71,9 @@ impl Parts for Dual64 {
 }
 
 impl Parts for Dual2<f64, f64> {
+    fn is_constant(&self) -> bool {
+        self.v1 == 0.0 && self.v2 == 0.0
+    }
     fn all_finite(&self) -> bool {
         self.re.is_finite() && self.v1.is_finite() && self.v2.is_finite()
     }
@@ -53,6 +83,9 @@ impl Parts for Dual2<f64, f64> {
 }
 
 impl Parts for HyperDual<f64, f64> {
+    fn is_constant(&self) -> bool {
+        zero(&[self.eps1, self.eps2, self.eps1eps2])
+    }
     fn all_finite(&self) -> bool {
         [self.re, self.eps1, self.eps2, self.eps1eps2].iter().all(|x| x.is_finite())
     }
@@ -62,22 +95,27 @@ impl Parts for HyperDual<f64, f64> {
 }
 
 impl Parts for DualVec<f64, f64, Dyn> {
+    fn is_constant(&self) -> bool {
+        zero(&column(&self.eps))
+    }
     fn all_finite(&self) -> bool {
-        self.re.is_finite() && finite(self.eps.clone().unwrap_generic(Dyn(0), U1))
+        self.re.is_finite() && finite(&column(&self.eps))
     }
     fn all_equal(&self, o: &Self) -> bool {
-        self.re == o.re && self.eps == o.eps
+        self.re == o.re && equal(&column(&self.eps), &column(&o.eps))
     }
 }
 
 impl Parts for Dual2Vec<f64, f64, Dyn> {
+    fn is_constant(&self) -> bool {
+        zero(&row(&self.v1)) && zero(&square(&self.v2))
+    }
     fn all_finite(&self) -> bool {
-        self.re.is_finite()
-            && finite(self.v1.clone().unwrap_generic(U1, Dyn(0)))
-            && finite(self.v2.clone().unwrap_generic(Dyn(0), Dyn(0)))
+        self.re.is_finite() && finite(&row(&self.v1)) && finite(&square(&self.v2))
     }
     fn all_equal(&self, o: &Self) -> bool {
-        self.re == o.re && self.v1 == o.v1 && self.v2 == o.v2
+        let same = |a: &Self, b: &Self| equal(&row(&a.v1), &row(&b.v1)) && equal(&square(&a.v2), &square(&b.v2));
+        self.re == o.re && same(self, o)
     }
 }
 
@@ -107,6 +145,10 @@ impl<D: DualNum<f64> + Parts> Scalar for Dual<D> {
     }
     fn call(f: Fun, x: &Self) -> Self {
         let v = &x.0;
+        if v.is_constant() {
+            // Its derivative is zero also where the function has none: √x, |x| at zero.
+            return Dual(D::from(float::call(f, v.re())));
+        }
         Dual(match f {
             Fun::Sin => v.sin(),
             Fun::Cos => v.cos(),
@@ -115,7 +157,7 @@ impl<D: DualNum<f64> + Parts> Scalar for Dual<D> {
             Fun::Asin => v.asin(),
             Fun::Acos => v.acos(),
             Fun::Atan => v.atan(),
-            Fun::Tanh => v.tanh(),
+            Fun::Tanh => tanh(v),
             Fun::Exp => v.exp(),
             Fun::Ln => v.ln(),
             Fun::Sqrt => v.sqrt(),
@@ -131,10 +173,23 @@ impl<D: DualNum<f64> + Parts> Scalar for Dual<D> {
     }
 }
 
+/// tanh x; far from zero by e^(−2|x|), because a quotient of sinh and cosh overflows.
+fn tanh<D: DualNum<f64>>(x: &D) -> D {
+    if x.re().abs() < 1.0 {
+        return x.tanh();
+    }
+    let sign = D::from(x.re().signum());
+    let small = (x.clone() * &sign * D::from(-2.0)).exp();
+    let one = D::from(1.0);
+    (one.clone() - &small) / (one + small) * sign
+}
+
 /// |x| and sgn x, whose derivatives do not exist at zero.
 fn piecewise<D: DualNum<f64> + Parts>(f: Fun, x: &Dual<D>) -> Dual<D> {
     let re = x.0.re();
-    let sign = if re > 0.0 {
+    let sign = if !x.is_defined() {
+        return x.undefined();
+    } else if re > 0.0 {
         1.0
     } else if re < 0.0 {
         -1.0

@@ -63,7 +63,9 @@ impl Scalar for f64 {
         quotient(*self, *other)
     }
     fn powi(&self, n: i32) -> Self {
-        if self.is_nan() { f64::NAN } else { finite(f64::powi(*self, n)) }
+        // Not the negative power of the standard library, which is 0 where the positive one overflows.
+        let power = if self.is_finite() { finite(f64::powi(*self, n.saturating_abs())) } else { f64::NAN };
+        if n < 0 { quotient(1.0, power) } else { power }
     }
     fn call(f: Fun, x: &Self) -> Self {
         call(f, *x)

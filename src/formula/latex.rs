@@ -21,10 +21,10 @@ impl Expr {
         match self.node() {
             Node::Num(v) => decimal(v),
             Node::Sym(s) => latex_symbol(s),
-            Node::Neg(x) => format!("-{}", part(x, Bind::Product)),
-            Node::Add(a, b) => format!("{} + {}", part(a, Bind::Sum), part(b, Bind::Product)),
-            Node::Sub(a, b) => format!("{} - {}", part(a, Bind::Sum), part(b, Bind::Product)),
-            Node::Mul(a, b) => format!("{}\\,{}", part(a, Bind::Product), part(b, Bind::Factor)),
+            Node::Neg(x) => format!("-{}", later(x, Bind::Product)),
+            Node::Add(a, b) => format!("{} + {}", part(a, Bind::Sum), later(b, Bind::Product)),
+            Node::Sub(a, b) => format!("{} - {}", part(a, Bind::Sum), later(b, Bind::Product)),
+            Node::Mul(a, b) => product(a, b),
             Node::Div(a, b) => format!("\\frac{{{}}}{{{}}}", a.latex(), b.latex()),
             Node::Pow(x, n) => format!("{}^{{{n}}}", part(x, Bind::Atom)),
             Node::Call(Fun::Sqrt, x) => format!("\\sqrt{{{}}}", x.latex()),
@@ -38,6 +38,19 @@ impl Expr {
 fn part(e: &Expr, wanted: Bind) -> String {
     let fraction = matches!(e.node(), Node::Div(..)) && wanted != Bind::Atom;
     if bind(e) < wanted && !fraction { format!("\\left({}\\right)", e.latex()) } else { e.latex() }
+}
+
+/// A product; only a dot keeps 2·3 from being read as 23.
+fn product(a: &Expr, b: &Expr) -> String {
+    let (left, right) = (part(a, Bind::Product), later(b, Bind::Factor));
+    let dot = if right.starts_with(|c: char| c.is_ascii_digit()) { r"\cdot " } else { r"\," };
+    format!("{left}{dot}{right}")
+}
+
+/// A part after an operator: in a\,-b the sign of a factor would be read as a minus.
+fn later(e: &Expr, wanted: Bind) -> String {
+    let text = part(e, wanted);
+    if text.starts_with('-') { format!("\\left({text}\\right)") } else { text }
 }
 
 /// A name in LaTeX: Greek letters, subscripts after `_`, dots for primes.
@@ -56,7 +69,8 @@ pub fn latex_symbol(s: &Symbol) -> String {
         0 => letter,
         1 => format!("\\dot{{{letter}}}"),
         2 => format!("\\ddot{{{letter}}}"),
-        n => format!("{letter}^{{({n})}}"),
+        // Braces, because the name may be raised to a power.
+        n => format!("{{{letter}^{{({n})}}}}"),
     };
     match subscript {
         "" => dotted,

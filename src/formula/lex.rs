@@ -6,7 +6,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Zero;
 
-/// A piece of a formula and the column (from zero, in characters) where it begins.
+/// A piece of a formula and the column (from zero, in characters of the whole text) where it begins.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Token {
     pub kind: TokenKind,
@@ -23,13 +23,22 @@ pub(super) enum TokenKind {
 
 /// Largest power of ten a number may be written with; floating point ends near 308.
 const MAX_EXPONENT: i32 = 400;
-/// Longest run of digits a number may have.
+/// Most digits a number may have, written out without a power of ten, as it is printed.
 const MAX_DIGITS: usize = 400;
 
-/// The error of a formula: message, and the text with a caret under the column.
-pub(super) fn caret(text: &str, column: usize, message: impl Into<String>) -> Error {
-    let line: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-    Error::input(message).at(1, column + 1).excerpt(format!("  {line}\n  {}^", " ".repeat(column)))
+/// The error of a formula: message, and the line of the text with a caret under the column.
+pub(super) fn caret(text: &str, at: usize, message: impl Into<String>) -> Error {
+    let (mut before, mut column) = (0, at);
+    for line in text.split('\n') {
+        let length = line.chars().count();
+        if column <= length {
+            let line: String = line.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+            let excerpt = format!("  {line}\n  {}^", " ".repeat(column));
+            return Error::input(message).at(before + 1, column + 1).excerpt(excerpt);
+        }
+        (before, column) = (before + 1, column - length - 1);
+    }
+    Error::input(message)
 }
 
 /// Splits a formula into tokens; the last one is [`TokenKind::End`].
@@ -107,6 +116,10 @@ fn number(text: &str, chars: &[char], start: usize) -> Result<(BigRational, usiz
         let power = power.filter(|p| p.abs() <= MAX_EXPONENT);
         scale += power.ok_or_else(|| caret(text, at, format!("a power of ten beyond ±{MAX_EXPONENT}")))?;
         at = end;
+    }
+    let written_out = if scale > 0 { digits.len() + scale as usize } else { (1 - scale) as usize };
+    if written_out.max(digits.len()) > MAX_DIGITS {
+        return Err(caret(text, start, format!("a number of more than {MAX_DIGITS} digits")));
     }
     let mantissa: BigInt = digits.parse().unwrap_or_else(|_| BigInt::zero());
     let ten = BigRational::from_integer(BigInt::from(10));

@@ -1,5 +1,6 @@
 //! A name in a formula.
 
+use super::Fun;
 use std::fmt;
 use std::sync::Arc;
 
@@ -31,7 +32,7 @@ impl Symbol {
     /// Whether a formula could hold this name: it reads back as one symbol.
     pub fn is_well_formed(&self) -> bool {
         let stem = self.0.trim_end_matches('\'');
-        stem.starts_with(is_start) && stem.chars().all(is_inner)
+        stem.starts_with(is_start) && stem.chars().all(is_inner) && Fun::named(&self.0).is_none()
     }
 }
 

@@ -106,7 +106,7 @@ impl Scalar for Unit {
     }
     fn recip(&self) -> Self {
         match self.0 {
-            Kind::Known(_) => self.map(|e| Some(-e)),
+            Kind::Known(_) => self.powi(-1),
             _ => Unit(Kind::Undefined),
         }
     }
@@ -126,6 +126,7 @@ impl Scalar for Unit {
             Fun::Sqrt => x.map(|e| e.checked_mul(&Rational32::new(1, 2))),
             Fun::Sign if x.is_defined() => Self::number_unit(),
             Fun::Sin | Fun::Tan | Fun::Asin | Fun::Atan | Fun::Tanh if plain => *x,
+            Fun::Ln | Fun::Cot if x.0 == Kind::Any => Unit(Kind::Undefined),
             _ if plain => Self::number_unit(),
             _ => Unit(Kind::Undefined),
         }
@@ -152,7 +153,11 @@ impl fmt::Display for Unit {
             wanted
                 .map(|(name, e)| {
                     let e = if positive { e } else { -e };
-                    if e == one { (*name).to_string() } else { format!("{name}^{e}") }
+                    match e {
+                        e if e == one => (*name).to_string(),
+                        e if e.is_integer() => format!("{name}^{e}"),
+                        e => format!("{name}^({e})"),
+                    }
                 })
                 .collect()
         };

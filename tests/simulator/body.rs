@@ -64,14 +64,7 @@ impl Body {
         let turn = pose[2] - state[HEADING];
         let velocity = velocity(state);
         let turned = velocity * turn.cos() + left_of(velocity) * turn.sin();
-        let mut moved = vec![
-            pose[0],
-            pose[1],
-            pose[2],
-            turned.x,
-            turned.y,
-            state[RELAXED],
-        ];
+        let mut moved = vec![pose[0], pose[1], pose[2], turned.x, turned.y, state[RELAXED]];
         moved.extend(state[TRAILERS..].iter().map(|heading| heading + turn));
         moved
     }
@@ -120,9 +113,7 @@ impl Body {
 
     /// `(e_tc·v_l − u)·|v_l|/length`, m/s².
     fn relaxing(&self, relaxed: f64, v_l: f64) -> f64 {
-        self.laws.relaxation.map_or(0.0, |(length, e_tc)| {
-            (e_tc * v_l - relaxed) * v_l.abs() / length
-        })
+        self.laws.relaxation.map_or(0.0, |(length, e_tc)| (e_tc * v_l - relaxed) * v_l.abs() / length)
     }
 
     fn instant(&self, t: f64, state: &[f64]) -> Instant {
@@ -145,11 +136,7 @@ impl Body {
         let wheels_v_t = held.dot(&left_of(forward));
         let yaw = wheels.yaw / (1.0 + self.laws.understeer * v_l * v_l);
         let v_t = wheels_v_t + self.laws.slip(v_l, yaw, heading);
-        Instant {
-            pace: Pace { v_l, v_t, yaw },
-            wheels_v_t,
-            asked,
-        }
+        Instant { pace: Pace { v_l, v_t, yaw }, wheels_v_t, asked }
     }
 
     /// The motion in which every wheel obeys its contact.
@@ -160,11 +147,7 @@ impl Body {
 
     /// The same with the forward speed given and the drive free to spin.
     fn rolling_at(&self, v_l: f64, ideal_yaw: f64, t: f64, heading: f64, relaxed: f64) -> Twist {
-        let turn = if self.tractor.is_steered() {
-            self.wheels(t, heading).1
-        } else {
-            Contact::turning(ideal_yaw)
-        };
+        let turn = if self.tractor.is_steered() { self.wheels(t, heading).1 } else { Contact::turning(ideal_yaw) };
         let drive = Contact::new(Plane::zeros(), arrow(heading), v_l);
         motion([drive, self.rear_track(heading, relaxed), turn])
     }
@@ -192,19 +175,12 @@ impl Body {
                 let rim = 0.5 * self.nominal.track_width * turn;
                 let (left, right) = self.laws.ground_speed(speed - rim, speed + rim);
                 let reach = side * (0.5 * self.nominal.track_width * self.laws.track);
-                (
-                    Contact::new(reach, forward, left),
-                    Contact::new(-reach, forward, right),
-                )
+                (Contact::new(reach, forward, left), Contact::new(-reach, forward, right))
             }
-            Tractor::Car | Tractor::FourWheelCar => (
-                Contact::new(centre, forward, ground),
-                self.front(heading, turn, None),
-            ),
-            Tractor::Tricycle => (
-                self.front(heading, turn, Some(ground)),
-                self.front(heading, turn, None),
-            ),
+            Tractor::Car | Tractor::FourWheelCar => {
+                (Contact::new(centre, forward, ground), self.front(heading, turn, None))
+            }
+            Tractor::Tricycle => (self.front(heading, turn, Some(ground)), self.front(heading, turn, None)),
         }
     }
 
@@ -228,10 +204,7 @@ impl Body {
     /// Nominal rim speed (m/s) and turn (rad/s or rad) that act at time `t`.
     fn asked_of_wheels(&self, t: f64) -> (f64, f64) {
         let logged_at = t - self.laws.delay;
-        (
-            self.profile.speed.value(logged_at),
-            self.profile.turn.value(logged_at),
-        )
+        (self.profile.speed.value(logged_at), self.profile.turn.value(logged_at))
     }
 
     /// How fast the speed asked by the drive changes, m/s²: it depends on time alone, so a

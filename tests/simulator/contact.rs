@@ -35,20 +35,12 @@ pub struct Contact {
 impl Contact {
     /// The body point `at` (m from the reference point, world axes) moves along `toward` at `speed` (m/s).
     pub fn new(at: Plane, toward: Plane, speed: f64) -> Self {
-        Contact {
-            toward,
-            lever: toward.dot(&left_of(at)),
-            speed,
-        }
+        Contact { toward, lever: toward.dot(&left_of(at)), speed }
     }
 
     /// The body turns at `yaw` (rad/s), whatever its wheels do.
     pub fn turning(yaw: f64) -> Self {
-        Contact {
-            toward: Plane::zeros(),
-            lever: 1.0,
-            speed: yaw,
-        }
+        Contact { toward: Plane::zeros(), lever: 1.0, speed: yaw }
     }
 
     fn row(&self) -> Vector3<f64> {
@@ -60,12 +52,7 @@ impl Contact {
 pub fn motion(contacts: [Contact; 3]) -> Twist {
     let rows = contacts.map(|contact| contact.row().transpose());
     let speeds = Vector3::from(contacts.map(|contact| contact.speed));
-    let solved = Matrix3::from_rows(&rows)
-        .lu()
-        .solve(&speeds)
-        .expect("the contacts of every vehicle here determine its motion");
-    Twist {
-        velocity: solved.xy(),
-        yaw: solved.z,
-    }
+    let solved =
+        Matrix3::from_rows(&rows).lu().solve(&speeds).expect("the contacts of every vehicle here determine its motion");
+    Twist { velocity: solved.xy(), yaw: solved.z }
 }

@@ -27,8 +27,7 @@ fn step(rates: &impl Fn(f64, &[f64]) -> Vec<f64>, t: f64, y: &[f64], h: f64) -> 
     let start = rates(t, y);
     let mut slopes: [Vec<f64>; 3] = from_fn(|_| start.clone());
     for _ in 0..MOST_ITERATIONS {
-        let next: [Vec<f64>; 3] =
-            from_fn(|i| rates(t + nodes[i] * h, &moved(y, &slopes, &weights[i], h)));
+        let next: [Vec<f64>; 3] = from_fn(|i| rates(t + nodes[i] * h, &moved(y, &slopes, &weights[i], h)));
         let change = largest_change(&slopes, &next);
         slopes = next;
         if change * h.abs() < 1e-16 {
@@ -41,10 +40,7 @@ fn step(rates: &impl Fn(f64, &[f64]) -> Vec<f64>, t: f64, y: &[f64], h: f64) -> 
 /// `y + h·Σ weightⱼ·slopeⱼ`
 fn moved(y: &[f64], slopes: &[Vec<f64>; 3], weight: &[f64; 3], h: f64) -> Vec<f64> {
     let slope = |i: usize| (0..3).map(|j| weight[j] * slopes[j][i]).sum::<f64>();
-    y.iter()
-        .enumerate()
-        .map(|(i, yi)| yi + h * slope(i))
-        .collect()
+    y.iter().enumerate().map(|(i, yi)| yi + h * slope(i)).collect()
 }
 
 fn largest_change(old: &[Vec<f64>; 3], new: &[Vec<f64>; 3]) -> f64 {
@@ -53,13 +49,7 @@ fn largest_change(old: &[Vec<f64>; 3], new: &[Vec<f64>; 3]) -> f64 {
 }
 
 /// Integrates `y' = rates(t, y)` from `from` to `to` in equal steps no longer than `longest` (s).
-pub fn advance(
-    rates: &impl Fn(f64, &[f64]) -> Vec<f64>,
-    y: Vec<f64>,
-    from: f64,
-    to: f64,
-    longest: f64,
-) -> Vec<f64> {
+pub fn advance(rates: &impl Fn(f64, &[f64]) -> Vec<f64>, y: Vec<f64>, from: f64, to: f64, longest: f64) -> Vec<f64> {
     let steps = ((to - from).abs() / longest).ceil();
     let h = (to - from) / steps.max(1.0);
     (0..steps as usize).fold(y, |y, i| step(rates, from + i as f64 * h, &y, h))

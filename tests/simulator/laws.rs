@@ -52,9 +52,7 @@ pub struct Laws {
 impl Laws {
     /// Gathers the effects for a vehicle with so many trailers.
     pub fn new(hidden: &[Hidden], trailers: usize) -> Self {
-        hidden
-            .iter()
-            .fold(Self::neutral(trailers), |laws, effect| laws.with(effect))
+        hidden.iter().fold(Self::neutral(trailers), |laws, effect| laws.with(effect))
     }
 
     fn neutral(trailers: usize) -> Self {
@@ -132,10 +130,7 @@ impl Laws {
     /// Ground speeds (m/s) of the left and right wheel for their nominal rim speeds (m/s).
     pub fn ground_speed(&self, left: f64, right: f64) -> (f64, f64) {
         let one = |rim: f64, e: f64| rim * (1.0 - e - self.e_rc_per_speed * rim.abs());
-        (
-            one(self.radius.0 * left, self.e_rc.0),
-            one(self.radius.1 * right, self.e_rc.1),
-        )
+        (one(self.radius.0 * left, self.e_rc.0), one(self.radius.1 * right, self.e_rc.1))
     }
 
     /// The true steering angle (rad) for the logged one.

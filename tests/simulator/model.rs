@@ -13,8 +13,7 @@ impl Scenario {
             match self.timing {
                 Timing::Sample => "input_timing = \"sample\"".into(),
                 Timing::IntervalMean => {
-                    "input_timing = \"interval-mean\"   # each row: the mean since the row before"
-                        .into()
+                    "input_timing = \"interval-mean\"   # each row: the mean since the row before".into()
                 }
             },
         ];
@@ -35,10 +34,7 @@ impl Scenario {
             lines.push(format!("trailer_headings = {columns:?}   # rad, absolute"));
         }
         if self.mounting != Mounting::default() {
-            let Mounting {
-                lever_arm,
-                heading_offset,
-            } = self.mounting;
+            let Mounting { lever_arm, heading_offset } = self.mounting;
             lines.push("\n[sensor]".into());
             lines.push(format!("lever_arm = {lever_arm:?}   # m, forward and left"));
             lines.push(format!("heading_offset = {heading_offset:?}   # rad"));
@@ -49,18 +45,10 @@ impl Scenario {
     fn trailer_lines(&self) -> Vec<String> {
         match &self.vehicle {
             Vehicle::Alone(_) => vec![],
-            Vehicle::NTrailer {
-                lengths,
-                hitch_offsets,
-                ..
-            } => {
-                let mut lines = vec![format!(
-                    "trailer_lengths = {lengths:?}   # m, hitch to axle"
-                )];
+            Vehicle::NTrailer { lengths, hitch_offsets, .. } => {
+                let mut lines = vec![format!("trailer_lengths = {lengths:?}   # m, hitch to axle")];
                 if hitch_offsets.iter().any(|offset| *offset != 0.0) {
-                    lines.push(format!(
-                        "hitch_offsets = {hitch_offsets:?}   # m, behind the axle ahead"
-                    ));
+                    lines.push(format!("hitch_offsets = {hitch_offsets:?}   # m, behind the axle ahead"));
                 }
                 lines
             }
@@ -78,14 +66,9 @@ impl Scenario {
             .hidden
             .iter()
             .filter_map(|effect| {
-                let parameters: serde_json::Map<_, _> = effect
-                    .parameters()
-                    .into_iter()
-                    .map(|(name, value)| (name.to_string(), json!(value)))
-                    .collect();
-                effect
-                    .id()
-                    .map(|id| json!({"id": id, "parameters": parameters}))
+                let parameters: serde_json::Map<_, _> =
+                    effect.parameters().into_iter().map(|(name, value)| (name.to_string(), json!(value))).collect();
+                effect.id().map(|id| json!({"id": id, "parameters": parameters}))
             })
             .collect();
         json!({"verdict": verdict, "effects": effects})

@@ -26,35 +26,23 @@ impl Profile {
     /// A wandering drive that suits the vehicle: both turn directions, speed always forward.
     pub fn random(vehicle: &Vehicle, random: &mut ChaCha8Rng) -> Self {
         let (speed, turn) = ranges(vehicle);
-        Profile {
-            speed: wander(&speed, random),
-            turn: wander(&turn, random),
-        }
+        Profile { speed: wander(&speed, random), turn: wander(&turn, random) }
     }
 
     /// Constant speed (m/s) and constant turn (rad/s or rad).
     pub fn constant(speed: f64, turn: f64) -> Self {
-        Profile {
-            speed: Signal::constant(speed),
-            turn: Signal::constant(turn),
-        }
+        Profile { speed: Signal::constant(speed), turn: Signal::constant(turn) }
     }
 
     /// The drive with left and right exchanged.
     pub fn mirrored(&self) -> Self {
-        Profile {
-            speed: self.speed.clone(),
-            turn: -self.turn.clone(),
-        }
+        Profile { speed: self.speed.clone(), turn: -self.turn.clone() }
     }
 
     /// The drive back along the same path, `steered` where the turn is an angle, not a rate.
     pub fn reversed(&self, end: f64, steered: bool) -> Self {
         let turn = self.turn.reversed(end);
-        Profile {
-            speed: -self.speed.reversed(end),
-            turn: if steered { turn } else { -turn },
-        }
+        Profile { speed: -self.speed.reversed(end), turn: if steered { turn } else { -turn } }
     }
 }
 
@@ -67,16 +55,8 @@ fn ranges(vehicle: &Vehicle) -> (Range, Range) {
     };
     // A trailer turned past a right angle would be driven backwards: keep the chain stretched.
     let calm = if vehicle.trailers() > 0 { 0.6 } else { 1.0 };
-    let speed = Range {
-        middle,
-        half,
-        periods: brisk,
-    };
-    let turn = Range {
-        middle: 0.0,
-        half: turn * calm,
-        periods: brisk,
-    };
+    let speed = Range { middle, half, periods: brisk };
+    let turn = Range { middle: 0.0, half: turn * calm, periods: brisk };
     (speed, turn)
 }
 
@@ -85,15 +65,9 @@ fn wander(range: &Range, random: &mut ChaCha8Rng) -> Signal {
     let shares: [f64; 5] = std::array::from_fn(|_| random.random_range(0.5..1.0));
     let total: f64 = shares.iter().sum();
     let (low, high) = range.periods;
-    shares
-        .iter()
-        .fold(Signal::constant(range.middle), |sum, share| {
-            // Equal steps in log period: slow and fast waves are as frequent as each other.
-            let period = low * (high / low).powf(random.random());
-            sum + Signal::wave(
-                range.half * share / total,
-                period,
-                random.random_range(0.0..TAU),
-            )
-        })
+    shares.iter().fold(Signal::constant(range.middle), |sum, share| {
+        // Equal steps in log period: slow and fast waves are as frequent as each other.
+        let period = low * (high / low).powf(random.random());
+        sum + Signal::wave(range.half * share / total, period, random.random_range(0.0..TAU))
+    })
 }

@@ -119,11 +119,7 @@ impl Scenario {
             before = truth.t;
             rows.push(row);
         }
-        Log {
-            columns: self.columns(),
-            rows,
-            truth,
-        }
+        Log { columns: self.columns(), rows, truth }
     }
 
     /// The vehicle with its true dimensions and laws.
@@ -131,11 +127,7 @@ impl Scenario {
         let laws = Laws::new(&self.hidden, self.vehicle.trailers());
         let trailers = match &self.vehicle {
             Vehicle::Alone(_) => vec![],
-            Vehicle::NTrailer {
-                lengths,
-                hitch_offsets,
-                ..
-            } => (0..lengths.len())
+            Vehicle::NTrailer { lengths, hitch_offsets, .. } => (0..lengths.len())
                 .map(|i| {
                     let (e_tc, factor, longer) = laws.trailers[i];
                     Trailer {
@@ -216,29 +208,16 @@ impl Scenario {
         let offset = body.laws.misalignment + self.mounting.heading_offset;
         let mut headings = vec![truth.heading + offset];
         headings.extend(&truth.trailers);
-        disturb(
-            &mut position,
-            &mut headings,
-            self.noise,
-            self.outliers,
-            random,
-        );
+        disturb(&mut position, &mut headings, self.noise, self.outliers, random);
         if self.wrap_heading {
-            headings
-                .iter_mut()
-                .for_each(|angle| *angle = wrapped(*angle));
+            headings.iter_mut().for_each(|angle| *angle = wrapped(*angle));
         }
         let shown = &headings[usize::from(!self.logs_heading)..];
         [&[truth.t], &position[..], shown].concat()
     }
 
     fn channels(&self) -> [Channel; 2] {
-        channels(
-            self.vehicle.tractor(),
-            &self.parameters,
-            &self.profile,
-            self.logs_speed,
-        )
+        channels(self.vehicle.tractor(), &self.parameters, &self.profile, self.logs_speed)
     }
 
     /// The columns' names, in the order of the rows.
@@ -260,10 +239,7 @@ impl Scenario {
     pub fn roles(&self) -> Vec<(&'static str, &'static str)> {
         let mut roles = vec![("time", "t"), ("x", "x"), ("y", "y")];
         roles.extend(self.logs_heading.then_some(("heading", "phi")));
-        roles.extend(
-            self.channels()
-                .map(|channel| (channel.role, channel.column)),
-        );
+        roles.extend(self.channels().map(|channel| (channel.role, channel.column)));
         roles
     }
 }

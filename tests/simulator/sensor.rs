@@ -16,15 +16,9 @@ pub struct Noise {
 
 impl Noise {
     /// An optical tracking system: 2 mm and 2 mrad.
-    pub const MOCAP: Noise = Noise {
-        position: 0.002,
-        heading: 0.002,
-    };
+    pub const MOCAP: Noise = Noise { position: 0.002, heading: 0.002 };
     /// Satellites with a reference station: 20 mm and 10 mrad.
-    pub const RTK: Noise = Noise {
-        position: 0.02,
-        heading: 0.01,
-    };
+    pub const RTK: Noise = Noise { position: 0.02, heading: 0.01 };
 }
 
 /// Gross errors: single rows whose measured position jumps.

@@ -8,11 +8,7 @@ enum Term {
     /// `level`
     Constant { level: f64 },
     /// `amplitude·sin(rate·t + phase)`
-    Wave {
-        amplitude: f64,
-        rate: f64,
-        phase: f64,
-    },
+    Wave { amplitude: f64, rate: f64, phase: f64 },
     /// `height·(1 + tanh((t − at)/width))/2`
     Step { height: f64, at: f64, width: f64 },
 }
@@ -21,11 +17,7 @@ impl Term {
     fn value(self, t: f64) -> f64 {
         match self {
             Term::Constant { level } => level,
-            Term::Wave {
-                amplitude,
-                rate,
-                phase,
-            } => amplitude * (rate * t + phase).sin(),
+            Term::Wave { amplitude, rate, phase } => amplitude * (rate * t + phase).sin(),
             Term::Step { height, at, width } => 0.5 * height * (1.0 + ((t - at) / width).tanh()),
         }
     }
@@ -34,34 +26,16 @@ impl Term {
     fn antiderivative(self, t: f64) -> f64 {
         match self {
             Term::Constant { level } => level * t,
-            Term::Wave {
-                amplitude,
-                rate,
-                phase,
-            } => -amplitude / rate * (rate * t + phase).cos(),
-            Term::Step { height, at, width } => {
-                0.5 * height * (t - at + width * ln_cosh((t - at) / width))
-            }
+            Term::Wave { amplitude, rate, phase } => -amplitude / rate * (rate * t + phase).cos(),
+            Term::Step { height, at, width } => 0.5 * height * (t - at + width * ln_cosh((t - at) / width)),
         }
     }
 
     fn scaled(self, by: f64) -> Self {
         match self {
             Term::Constant { level } => Term::Constant { level: level * by },
-            Term::Wave {
-                amplitude,
-                rate,
-                phase,
-            } => Term::Wave {
-                amplitude: amplitude * by,
-                rate,
-                phase,
-            },
-            Term::Step { height, at, width } => Term::Step {
-                height: height * by,
-                at,
-                width,
-            },
+            Term::Wave { amplitude, rate, phase } => Term::Wave { amplitude: amplitude * by, rate, phase },
+            Term::Step { height, at, width } => Term::Step { height: height * by, at, width },
         }
     }
 
@@ -69,20 +43,8 @@ impl Term {
     fn reversed(self, end: f64) -> Self {
         match self {
             Term::Constant { .. } => self,
-            Term::Wave {
-                amplitude,
-                rate,
-                phase,
-            } => Term::Wave {
-                amplitude,
-                rate: -rate,
-                phase: phase + rate * end,
-            },
-            Term::Step { height, at, width } => Term::Step {
-                height,
-                at: end - at,
-                width: -width,
-            },
+            Term::Wave { amplitude, rate, phase } => Term::Wave { amplitude, rate: -rate, phase: phase + rate * end },
+            Term::Step { height, at, width } => Term::Step { height, at: end - at, width: -width },
         }
     }
 }
@@ -105,11 +67,7 @@ impl Signal {
     /// `amplitude·sin(2π·t/period + phase)`, period in s and phase in rad.
     pub fn wave(amplitude: f64, period: f64, phase: f64) -> Self {
         let rate = std::f64::consts::TAU / period;
-        Signal(vec![Term::Wave {
-            amplitude,
-            rate,
-            phase,
-        }])
+        Signal(vec![Term::Wave { amplitude, rate, phase }])
     }
 
     /// `height·(1 + tanh((t − at)/width))/2`, a step of `height` around the time `at` (s).

@@ -104,20 +104,13 @@ impl Parameters {
             Tractor::Car => (0.3, 2.6, f64::NAN),
             Tractor::FourWheelCar => (0.3, 2.6, 1.5),
         };
-        Parameters {
-            wheel_radius,
-            wheelbase,
-            track_width,
-        }
+        Parameters { wheel_radius, wheelbase, track_width }
     }
 
     /// The names and values (m) a model file of this vehicle holds.
     pub fn listed(&self, tractor: Tractor) -> Vec<(&'static str, f64)> {
-        let all = [
-            ("wheel_radius", self.wheel_radius),
-            ("wheelbase", self.wheelbase),
-            ("track_width", self.track_width),
-        ];
+        let all =
+            [("wheel_radius", self.wheel_radius), ("wheelbase", self.wheelbase), ("track_width", self.track_width)];
         let used: &[usize] = match tractor {
             Tractor::Unicycle => &[0],
             Tractor::DifferentialDrive => &[0, 2],
@@ -140,18 +133,9 @@ pub struct Channel {
 }
 
 /// The two inputs as logged for a profile, by the nominal dimensions; the first drives.
-pub fn channels(
-    tractor: Tractor,
-    nominal: &Parameters,
-    profile: &Profile,
-    as_speed: bool,
-) -> [Channel; 2] {
+pub fn channels(tractor: Tractor, nominal: &Parameters, profile: &Profile, as_speed: bool) -> [Channel; 2] {
     let Profile { speed, turn } = profile.clone();
-    let channel = |role, column, signal| Channel {
-        role,
-        column,
-        signal,
-    };
+    let channel = |role, column, signal| Channel { role, column, signal };
     let radius = nominal.wheel_radius;
     let drive = if as_speed {
         channel("speed", "speed", speed.clone())
@@ -169,8 +153,6 @@ pub fn channels(
                 channel("wheel_rate_right", "omega_right", rate(speed + rim)),
             ]
         }
-        Tractor::Tricycle | Tractor::Car | Tractor::FourWheelCar => {
-            [drive, channel("steering_angle", "delta", turn)]
-        }
+        Tractor::Tricycle | Tractor::Car | Tractor::FourWheelCar => [drive, channel("steering_angle", "delta", turn)],
     }
 }

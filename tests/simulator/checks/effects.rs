@@ -8,11 +8,7 @@ fn equivalent_effects_give_the_same_run() {
     let car = short(Tractor::Car, 11);
     let offset = hiding(&car, &[Hidden::SteeringOffset { offset: 0.03 }]);
     let e_tc = 0.03_f64.tan();
-    same_path(
-        &offset,
-        &hiding(&car, &[Hidden::FrontTraverseCreep { e_tc }]),
-        1e-10,
-    );
+    same_path(&offset, &hiding(&car, &[Hidden::FrontTraverseCreep { e_tc }]), 1e-10);
 
     for tractor in TRACTORS {
         let scenario = short(tractor, 12);
@@ -23,10 +19,7 @@ fn equivalent_effects_give_the_same_run() {
 
     let drive = short(Tractor::DifferentialDrive, 13);
     let mismatch = hiding(&drive, &[Hidden::WheelRadiusMismatch { scale: 0.02 }]);
-    let unequal = Hidden::UnequalRotationCreep {
-        e_left: -0.02,
-        e_right: 0.0,
-    };
+    let unequal = Hidden::UnequalRotationCreep { e_left: -0.02, e_right: 0.0 };
     same_path(&mismatch, &hiding(&drive, &[unequal]), 1e-11);
 }
 
@@ -35,19 +28,10 @@ fn a_misaligned_heading_is_a_traverse_creep_with_a_rotation_creep() {
     let offset: f64 = 0.2;
     let scenario = short(Tractor::Unicycle, 14);
     let log = hiding(&scenario, &[Hidden::HeadingMisalignment { offset }]);
-    let turned = Scenario {
-        start: [0.0, 0.0, offset],
-        ..scenario
-    };
+    let turned = Scenario { start: [0.0, 0.0, offset], ..scenario };
     let e_rc = 1.0 - offset.cos();
     let e_tc = -offset.tan();
-    let creeping = hiding(
-        &turned,
-        &[
-            Hidden::TraverseCreep { e_tc },
-            Hidden::RotationCreep { e_rc },
-        ],
-    );
+    let creeping = hiding(&turned, &[Hidden::TraverseCreep { e_tc }, Hidden::RotationCreep { e_rc }]);
     for column in ["x", "y", "phi"] {
         for (a, b) in log.column(column).iter().zip(creeping.column(column)) {
             near(*a, b, 1e-10);
@@ -58,45 +42,28 @@ fn a_misaligned_heading_is_a_traverse_creep_with_a_rotation_creep() {
 #[test]
 fn every_lateral_effect_pushes_to_its_side() {
     // A left turn at 1 m/s and 0.5 rad/s.
-    let scenario = Scenario {
-        profile: Profile::constant(1.0, 0.5),
-        ..short(Tractor::Unicycle, 15)
-    };
+    let scenario = Scenario { profile: Profile::constant(1.0, 0.5), ..short(Tractor::Unicycle, 15) };
     let v_t = |hidden: Hidden| hiding(&scenario, &[hidden]).truth[0].v_t;
     near(v_t(Hidden::TraverseCreep { e_tc: 0.1 }), 0.1, 1e-12);
-    near(
-        v_t(Hidden::CorneringCreep { mass_over_bt: 0.1 }),
-        -0.05,
-        1e-11,
-    );
+    near(v_t(Hidden::CorneringCreep { mass_over_bt: 0.1 }), -0.05, 1e-11);
     near(v_t(Hidden::LoadDependentCreep { c: 0.1 }), -0.05, 1e-12);
     near(v_t(Hidden::YawSquareSlip { q: 0.1 }), -0.025, 1e-12);
     near(v_t(Hidden::LeftTurnSlip { q: 0.1 }), -0.05, 1e-12);
     let left = std::f64::consts::FRAC_PI_2;
-    let slope = Hidden::SideSlope {
-        rate: 0.1,
-        direction: left,
-    };
+    let slope = Hidden::SideSlope { rate: 0.1, direction: left };
     near(v_t(slope), 0.1, 1e-12);
 }
 
 #[test]
 fn every_turning_effect_turns_to_its_side() {
     let yaw = |tractor: Tractor, turn: f64, hidden: Hidden| {
-        let scenario = Scenario {
-            profile: Profile::constant(1.3, turn),
-            ..short(tractor, 16)
-        };
+        let scenario = Scenario { profile: Profile::constant(1.3, turn), ..short(tractor, 16) };
         hiding(&scenario, &[hidden]).truth[0].yaw
     };
     let unicycle = |hidden| yaw(Tractor::Unicycle, 0.5, hidden);
     near(unicycle(Hidden::YawRateBias { bias: 0.02 }), 0.52, 1e-12);
     near(unicycle(Hidden::YawRateScale { scale: 0.1 }), 0.55, 1e-12);
-    near(
-        unicycle(Hidden::CorneringCreep { mass_over_bt: 0.2 }),
-        0.5,
-        1e-12,
-    );
+    near(unicycle(Hidden::CorneringCreep { mass_over_bt: 0.2 }), 0.5, 1e-12);
 
     let drive = |hidden| yaw(Tractor::DifferentialDrive, 0.5, hidden);
     near(drive(Hidden::TrackWidth { scale: 0.25 }), 0.4, 1e-12);
@@ -107,28 +74,16 @@ fn every_turning_effect_turns_to_its_side() {
 
     let car = |hidden| yaw(Tractor::Car, 0.1, hidden);
     let (v, base, tan) = (1.3, 2.6, 0.1_f64.tan());
-    near(
-        car(Hidden::TraverseCreep { e_tc: 0.03 }),
-        v / base * (tan - 0.03),
-        1e-12,
-    );
+    near(car(Hidden::TraverseCreep { e_tc: 0.03 }), v / base * (tan - 0.03), 1e-12);
     let front = v / base * (tan + 0.03) / (1.0 - 0.03 * tan);
     near(car(Hidden::FrontTraverseCreep { e_tc: 0.03 }), front, 1e-12);
     let gained = v / base * 0.12_f64.tan();
     near(car(Hidden::SteeringGain { scale: 0.2 }), gained, 1e-12);
     near(car(Hidden::SteeringOffset { offset: 0.02 }), gained, 1e-12);
     near(car(Hidden::SteeringCubic { cubic: 20.0 }), gained, 1e-12);
-    near(
-        car(Hidden::Wheelbase { scale: 0.25 }),
-        v / (1.25 * base) * tan,
-        1e-12,
-    );
+    near(car(Hidden::Wheelbase { scale: 0.25 }), v / (1.25 * base) * tan, 1e-12);
     let understeered = v / base * tan / (1.0 + 0.1 * v * v);
-    near(
-        car(Hidden::Understeer { gradient: 0.1 }),
-        understeered,
-        1e-12,
-    );
+    near(car(Hidden::Understeer { gradient: 0.1 }), understeered, 1e-12);
 }
 
 #[test]
@@ -136,13 +91,7 @@ fn sensor_ground_and_clock_effects_move_the_log_as_told() {
     let scenario = short(Tractor::Unicycle, 17);
     let ideal = scenario.run();
     let lever = hiding(&scenario, &[Hidden::LeverArm { a: 0.3, b: -0.1 }]);
-    let drift = hiding(
-        &scenario,
-        &[Hidden::Drift {
-            vx: 0.02,
-            vy: -0.05,
-        }],
-    );
+    let drift = hiding(&scenario, &[Hidden::Drift { vx: 0.02, vy: -0.05 }]);
     for (i, truth) in ideal.truth.iter().enumerate() {
         let (sin, cos) = truth.heading.sin_cos();
         near(lever.rows[i][1], truth.x + 0.3 * cos + 0.1 * sin, 1e-12);
@@ -161,44 +110,22 @@ fn sensor_ground_and_clock_effects_move_the_log_as_told() {
 
 #[test]
 fn no_effect_is_idle_and_every_neutral_effect_is() {
-    let vehicle = Vehicle::NTrailer {
-        tractor: Tractor::Car,
-        lengths: vec![3.0, 2.0],
-        hitch_offsets: vec![0.3, 0.0],
-    };
+    let vehicle = Vehicle::NTrailer { tractor: Tractor::Car, lengths: vec![3.0, 2.0], hitch_offsets: vec![0.3, 0.0] };
     let scenario = short(vehicle, 18);
     let ideal = scenario.run();
     let of = |k: f64| {
         [
-            Hidden::SpeedRotationCreep {
-                per_speed: 0.01 * k,
-            },
-            Hidden::TrailerTraverseCreep {
-                trailer: 2,
-                e_tc: k,
-            },
-            Hidden::TrailerLength {
-                trailer: 2,
-                scale: k,
-            },
-            Hidden::HitchOffset {
-                trailer: 2,
-                offset: k,
-            },
+            Hidden::SpeedRotationCreep { per_speed: 0.01 * k },
+            Hidden::TrailerTraverseCreep { trailer: 2, e_tc: k },
+            Hidden::TrailerLength { trailer: 2, scale: k },
+            Hidden::HitchOffset { trailer: 2, offset: k },
         ]
     };
     for (moving, neutral) in of(0.1).into_iter().zip(of(0.0)) {
         let moved = hiding(&scenario, &[moving]);
         let tail = |log: &Log| last(log).trailers[1];
-        assert!(
-            (tail(&moved) - tail(&ideal)).abs() > 1e-4,
-            "{moving:?} is idle"
-        );
-        assert_eq!(
-            hiding(&scenario, &[neutral]),
-            ideal,
-            "{neutral:?} is not neutral"
-        );
+        assert!((tail(&moved) - tail(&ideal)).abs() > 1e-4, "{moving:?} is idle");
+        assert_eq!(hiding(&scenario, &[neutral]), ideal, "{neutral:?} is not neutral");
     }
     // The viscous effects vanish with their time constants, at first order.
     let car = short(Tractor::Car, 18);

@@ -18,15 +18,9 @@ fn interval_means_add_up_to_the_distance_even_over_lost_rows() {
     };
     let log = scenario.run();
     let (t, left) = (log.column("t"), log.column("omega_left"));
-    assert!(
-        log.rows.len() < 280 && log.rows.len() > 200,
-        "{}",
-        log.rows.len()
-    );
+    assert!(log.rows.len() < 280 && log.rows.len() > 200, "{}", log.rows.len());
     assert!(!t.iter().any(|t| (3.0..4.5).contains(t)));
-    let rolled: f64 = (1..t.len())
-        .map(|i| 0.1 * left[i] * (t[i] - t[i - 1]))
-        .sum();
+    let rolled: f64 = (1..t.len()).map(|i| 0.1 * left[i] * (t[i] - t[i - 1])).sum();
     // The left wheel runs half a track inside the path of the middle.
     let middle: f64 = 0.3 * 5.0 / std::f64::consts::TAU;
     let phase = |t: f64| (std::f64::consts::TAU * t / 5.0 + 1.0).cos();
@@ -38,20 +32,11 @@ fn interval_means_add_up_to_the_distance_even_over_lost_rows() {
 
 #[test]
 fn noise_has_its_sigma_and_the_seed_its_bytes() {
-    let exact = Scenario {
-        duration: 200.0,
-        ..Scenario::new(Tractor::Unicycle, 20)
-    };
-    let noisy = Scenario {
-        noise: Noise::RTK,
-        ..exact.clone()
-    };
+    let exact = Scenario { duration: 200.0, ..Scenario::new(Tractor::Unicycle, 20) };
+    let noisy = Scenario { noise: Noise::RTK, ..exact.clone() };
     let (clean, noisy_log) = (exact.run(), noisy.run());
     let spread = |column: &str| {
-        let pairs = clean
-            .column(column)
-            .into_iter()
-            .zip(noisy_log.column(column));
+        let pairs = clean.column(column).into_iter().zip(noisy_log.column(column));
         let squares: f64 = pairs.map(|(a, b)| (a - b).powi(2)).sum();
         (squares / clean.rows.len() as f64).sqrt()
     };
@@ -67,10 +52,7 @@ fn noise_has_its_sigma_and_the_seed_its_bytes() {
 #[test]
 fn outliers_hit_their_share_and_wrapping_keeps_the_direction() {
     let scenario = Scenario {
-        outliers: Outliers {
-            share: 0.05,
-            size: 100.0,
-        },
+        outliers: Outliers { share: 0.05, size: 100.0 },
         wrap_heading: true,
         ..Scenario::new(Tractor::Unicycle, 22)
     };
@@ -96,25 +78,15 @@ fn drives_are_varied_turn_both_ways_and_stay_in_range() {
             let least = yaw().fold(0.0, f64::min);
             let fastest = speed().fold(0.0, f64::max);
             let slowest = speed().fold(f64::MAX, f64::min);
-            assert!(
-                most > 0.1 && least < -0.1,
-                "{tractor:?} {seed} turns one way"
-            );
-            assert!(
-                slowest > 0.2 && fastest > 1.3 * slowest,
-                "{tractor:?} {seed}"
-            );
+            assert!(most > 0.1 && least < -0.1, "{tractor:?} {seed} turns one way");
+            assert!(slowest > 0.2 && fastest > 1.3 * slowest, "{tractor:?} {seed}");
         }
     }
 }
 
 #[test]
 fn csv_holds_nine_digits_and_the_columns_of_the_model() {
-    let scenario = Scenario {
-        logs_speed: true,
-        logs_heading: false,
-        ..short(Tractor::Unicycle, 23)
-    };
+    let scenario = Scenario { logs_speed: true, logs_heading: false, ..short(Tractor::Unicycle, 23) };
     let text = scenario.run().to_csv(9);
     let mut lines = text.lines();
     assert_eq!(lines.next(), Some("t,x,y,speed,phi_dot"));
@@ -122,11 +94,7 @@ fn csv_holds_nine_digits_and_the_columns_of_the_model() {
         let bare = cell.replace(['-', '.'], "");
         bare.trim_start_matches('0').len()
     };
-    assert!(
-        lines
-            .flat_map(|line| line.split(','))
-            .all(|cell| digits(cell) <= 9)
-    );
+    assert!(lines.flat_map(|line| line.split(',')).all(|cell| digits(cell) <= 9));
     let model: toml::Table = toml::from_str(&scenario.model_toml()).expect("TOML");
     assert_eq!(model["columns"]["speed"].as_str(), Some("speed"));
     assert!(model["columns"].get("heading").is_none());
@@ -134,10 +102,7 @@ fn csv_holds_nine_digits_and_the_columns_of_the_model() {
 
 #[test]
 fn the_answer_names_what_is_hidden_in_the_words_of_the_contract() {
-    let hiding = |hidden: &[Hidden]| Scenario {
-        hidden: hidden.to_vec(),
-        ..short(Tractor::Unicycle, 27)
-    };
+    let hiding = |hidden: &[Hidden]| Scenario { hidden: hidden.to_vec(), ..short(Tractor::Unicycle, 27) };
     let creep = Hidden::RotationCreep { e_rc: 0.03 };
     let cornering = Hidden::CorneringCreep { mass_over_bt: 0.1 };
     let answer = hiding(&[creep, cornering]).answer();

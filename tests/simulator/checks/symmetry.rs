@@ -43,10 +43,7 @@ fn driven_backwards_the_path_is_retraced() {
 fn the_mirrored_drive_is_the_mirror_image() {
     for tractor in TRACTORS {
         let scenario = short(tractor, 10);
-        let mirrored = Scenario {
-            profile: scenario.profile.mirrored(),
-            ..scenario.clone()
-        };
+        let mirrored = Scenario { profile: scenario.profile.mirrored(), ..scenario.clone() };
         let odd = |sign: f64| {
             vec![
                 Hidden::CorneringCreep { mass_over_bt: 0.1 },
@@ -56,26 +53,12 @@ fn the_mirrored_drive_is_the_mirror_image() {
                 Hidden::Understeer { gradient: 0.01 },
                 Hidden::TraverseCreep { e_tc: sign * 0.05 },
                 Hidden::FrontTraverseCreep { e_tc: sign * 0.03 },
-                Hidden::RelaxationLength {
-                    length: 0.7,
-                    e_tc: sign * 0.04,
-                },
+                Hidden::RelaxationLength { length: 0.7, e_tc: sign * 0.04 },
                 Hidden::YawRateBias { bias: sign * 0.02 },
-                Hidden::SteeringOffset {
-                    offset: sign * 0.02,
-                },
-                Hidden::Drift {
-                    vx: 0.03,
-                    vy: sign * 0.02,
-                },
-                Hidden::SideSlope {
-                    rate: 0.05,
-                    direction: sign * 1.1,
-                },
-                Hidden::UnequalRotationCreep {
-                    e_left: 0.03 + 0.01 * sign,
-                    e_right: 0.03 - 0.01 * sign,
-                },
+                Hidden::SteeringOffset { offset: sign * 0.02 },
+                Hidden::Drift { vx: 0.03, vy: sign * 0.02 },
+                Hidden::SideSlope { rate: 0.05, direction: sign * 1.1 },
+                Hidden::UnequalRotationCreep { e_left: 0.03 + 0.01 * sign, e_right: 0.03 - 0.01 * sign },
             ]
         };
         let one = hiding(&scenario, &odd(1.0));

@@ -2,6 +2,7 @@
 #![warn(missing_docs)]
 
 pub mod error;
+pub mod files;
 pub mod formula;
 pub mod mechanism;
 

@@ -35,6 +35,9 @@ pub fn write_all_or_nothing(dir: impl AsRef<Path>, files: &[(&str, &[u8])]) -> R
     written
 }
 
+/// A file about to be put in its place: where, the new file, and a second name of the older one.
+type Ready = (PathBuf, NamedTempFile<File>, Option<TempPath>);
+
 fn put_all(dir: &Path, files: &[(&str, &[u8])]) -> Result<()> {
     let mut ready = Vec::new();
     for (name, bytes) in files {
@@ -44,6 +47,11 @@ fn put_all(dir: &Path, files: &[(&str, &[u8])]) -> Result<()> {
         let old = keep_old(&target).map_err(|e| unwritable(&path, &e))?;
         ready.push((target, new, old));
     }
+    install(ready)
+}
+
+/// Renames every file into its place; when one fails, those before it are undone.
+fn install(ready: Vec<Ready>) -> Result<()> {
     let mut done: Vec<(PathBuf, Option<TempPath>)> = Vec::new();
     for (target, new, old) in ready {
         if let Err(e) = new.persist(&target) {
@@ -247,13 +255,15 @@ mod tests {
     #[test]
     fn a_failed_rename_restores_those_before_it() {
         let dir = tempfile::tempdir().unwrap();
-        let (old, new) = (dir.path().join("old"), dir.path().join("new"));
+        let [old, new, folder] = ["old", "new", "folder"].map(|name| dir.path().join(name));
         fs::write(&old, b"old").unwrap();
+        fs::create_dir(&folder).unwrap();
+        let ready = |target: &Path| (target.to_path_buf(), prepare(target, b"changed").unwrap());
+        let with = |(target, file): (PathBuf, _), kept| (target, file, kept);
         let kept = keep_old(&old).unwrap();
-        prepare(&old, b"changed").unwrap().persist(&old).unwrap();
-        fs::write(&new, b"new").unwrap();
-        undo(vec![(old.clone(), kept), (new, None)]);
+        let all = vec![with(ready(&old), kept), with(ready(&new), None), with(ready(&folder), None)];
+        install(all).unwrap_err();
         assert_eq!(fs::read(&old).unwrap(), b"old");
-        assert_eq!(names(dir.path()), ["old"]);
+        assert_eq!(names(dir.path()), ["folder", "old"]);
     }
 }

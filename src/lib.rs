@@ -4,6 +4,7 @@
 pub mod discrepancy;
 pub mod effects;
 pub mod error;
+pub mod files;
 pub mod formula;
 pub mod mechanism;
 pub mod model;

@@ -1,0 +1,73 @@
+//! What may stand in a model file.
+
+/// Vehicles and effects a model file may name; the caller fills it from the catalogues.
+#[derive(Clone, Debug, Default)]
+pub struct Known {
+    /// Every vehicle a model file may name.
+    pub vehicles: Vec<KnownVehicle>,
+    /// Every effect a model file may include.
+    pub effects: Vec<KnownEffect>,
+}
+
+/// A vehicle as a model file sees it.
+///
+/// A parameter whose name ends in `offset` may be any finite number; every other one (a length, a
+/// mass, an inertia) must be greater than zero.
+#[derive(Clone, Debug, Default)]
+pub struct KnownVehicle {
+    /// The value of the key `vehicle`.
+    pub id: String,
+    /// Keys that must stand under `[parameters]`, in SI units.
+    pub parameters: Vec<String>,
+    /// Keys that may stand under `[parameters]`, in SI units.
+    pub optional_parameters: Vec<String>,
+    /// The inputs it is driven by.
+    pub inputs: Vec<KnownInput>,
+    /// It pulls trailers, so `tractor`, `trailer_lengths` and `hitch_offsets` may stand in the file.
+    pub trailers: bool,
+    /// It may be the `tractor` of a vehicle with trailers.
+    pub tractor: bool,
+}
+
+/// An input of a vehicle.
+#[derive(Clone, Debug, Default)]
+pub struct KnownInput {
+    /// Its key under `[columns]`.
+    pub role: String,
+    /// Another role that may stand for it, as `speed` for `wheel_rate`.
+    pub instead: Option<String>,
+}
+
+/// An effect as a model file sees it.
+#[derive(Clone, Debug, Default)]
+pub struct KnownEffect {
+    /// The value of the key `id`.
+    pub id: String,
+    /// Keys every entry must give.
+    pub parameters: Vec<KnownParameter>,
+    /// It acts on one trailer, named by the key `trailer` (1 = nearest the tractor).
+    pub per_trailer: bool,
+}
+
+/// A parameter of an effect and the values it may take, bounds included.
+#[derive(Clone, Debug, Default)]
+pub struct KnownParameter {
+    /// Its key.
+    pub name: String,
+    /// The smallest value, in the unit of the parameter.
+    pub min: f64,
+    /// The largest value, in the unit of the parameter.
+    pub max: f64,
+}
+
+impl Known {
+    /// The vehicle with this id.
+    pub fn vehicle(&self, id: &str) -> Option<&KnownVehicle> {
+        self.vehicles.iter().find(|v| v.id == id)
+    }
+
+    /// The effect with this id.
+    pub fn effect(&self, id: &str) -> Option<&KnownEffect> {
+        self.effects.iter().find(|e| e.id == id)
+    }
+}

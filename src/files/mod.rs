@@ -1,0 +1,29 @@
+//! Files in and out: model files, logged runs, and results that are whole or absent.
+//!
+//! Whatever a user hands in ends either as a value that needs no further checking or as one
+//! [`Error`](crate::Error) with file, line, column and advice. The catalogues of vehicles and effects
+//! are not known here; the caller passes what may stand in a model file as [`Known`].
+
+mod cell;
+mod columns;
+mod effect_entry;
+mod known;
+mod model_file;
+mod near;
+mod order;
+mod output;
+mod parameters;
+mod patch;
+mod records;
+mod run_file;
+mod sheet;
+mod text;
+mod toml_table;
+
+pub use columns::{Columns, InputColumn, Resolved, ResolvedInput};
+pub use effect_entry::EffectEntry;
+pub use known::{Known, KnownEffect, KnownInput, KnownParameter, KnownVehicle};
+pub use model_file::{Initial, InputTiming, ModelFile, Noise, Sensor};
+pub use output::{write_all_or_nothing, write_whole};
+pub use run_file::Run;
+pub use text::read_text;

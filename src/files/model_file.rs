@@ -1,0 +1,198 @@
+//! The model file: what the user believes of the vehicle, and where the log shows it.
+
+use super::columns::Columns;
+use super::effect_entry::{EffectEntry, read_effects};
+use super::known::Known;
+use super::near;
+use super::parameters::{Machine, Parameters, one_per_trailer};
+use super::patch;
+use super::text::{BOM, hex, read_hashed};
+use super::toml_table::{Section, Source, Value};
+use crate::error::Result;
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// A model file, read and checked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModelFile {
+    /// Where it was read.
+    pub path: PathBuf,
+    /// Its text, without byte order mark.
+    pub text: String,
+    /// SHA-256 of its bytes, hexadecimal.
+    pub sha256: String,
+    /// Id of the vehicle.
+    pub vehicle: String,
+    /// Id of the vehicle in front, for one that pulls trailers.
+    pub tractor: Option<String>,
+    /// What a row of inputs means.
+    pub input_timing: InputTiming,
+    /// Parameters of the vehicle and its tractor, SI units.
+    pub parameters: BTreeMap<String, f64>,
+    /// From hitch to axle, m, nearest trailer first.
+    pub trailer_lengths: Vec<f64>,
+    /// From the axle ahead back to the hitch, m, one per trailer.
+    pub hitch_offsets: Vec<f64>,
+    /// Where a log holds what.
+    pub columns: Columns,
+    /// Where the measured pose sits on the body.
+    pub sensor: Sensor,
+    /// Where a simulation begins, if the file says so.
+    pub initial: Option<Initial>,
+    /// Standard deviations of the measured pose, where the file gives them.
+    pub noise: Noise,
+    /// Effects the model includes, in the order of the file.
+    pub effects: Vec<EffectEntry>,
+}
+
+/// What a row of inputs means.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum InputTiming {
+    /// The value at the time of the row.
+    #[default]
+    Sample,
+    /// The mean since the row before, as encoder counts give it.
+    IntervalMean,
+}
+
+/// Where the measured pose sits on the body.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sensor {
+    /// Forward and left of the reference point, m.
+    pub lever_arm: [f64; 2],
+    /// Measured heading minus heading of the body, rad.
+    pub heading_offset: f64,
+}
+
+/// A pose a simulation begins with.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Initial {
+    /// Position along x, m.
+    pub x: f64,
+    /// Position along y, m.
+    pub y: f64,
+    /// Heading, rad.
+    pub heading: f64,
+    /// Absolute headings of the trailers, rad; those of the tractor when left out.
+    pub trailer_headings: Vec<f64>,
+}
+
+/// Standard deviations (1 sigma) of the measured pose; to be estimated where there is none.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Noise {
+    /// Of each coordinate, m.
+    pub position: Option<f64>,
+    /// Of the heading, rad.
+    pub heading: Option<f64>,
+}
+
+impl ModelFile {
+    /// Reads and checks a model file.
+    pub fn read(path: impl AsRef<Path>, known: &Known) -> Result<Self> {
+        let (text, sha256) = read_hashed(path.as_ref())?;
+        Ok(Self { sha256, ..Self::parse(&text, path, known)? })
+    }
+
+    /// Checks the text of a model file; `path` is only named in errors.
+    pub fn parse(text: &str, path: impl AsRef<Path>, known: &Known) -> Result<Self> {
+        let sha256 = hex(&Sha256::digest(text));
+        let text = text.strip_prefix(BOM).unwrap_or(text);
+        let source = Source { path: path.as_ref(), text };
+        let document = source.parse()?;
+        let top = Section::top(source, &document);
+        let machine = Machine::read(&top, known)?;
+        top.only(&top_keys(&machine))?;
+        let parameters = Parameters::read(&top, &machine)?;
+        let trailers = parameters.trailer_lengths.len();
+        Ok(Self {
+            path: source.path.to_path_buf(),
+            text: text.to_string(),
+            sha256,
+            vehicle: machine.vehicle.id.clone(),
+            tractor: machine.tractor.map(|v| v.id.clone()),
+            input_timing: InputTiming::read(&top)?,
+            columns: Columns::read(&top, &machine, trailers)?,
+            sensor: Sensor::read(&top)?,
+            initial: Initial::read(&top, trailers)?,
+            noise: Noise::read(&top)?,
+            effects: read_effects(&top, known, trailers)?,
+            parameters: parameters.values,
+            trailer_lengths: parameters.trailer_lengths,
+            hitch_offsets: parameters.hitch_offsets,
+        })
+    }
+
+    /// The text of the file with effects added, or their values replaced where the file already lists
+    /// the same effect for the same target; everything else, comments included, stays as it is.
+    pub fn patched(&self, added: &[EffectEntry]) -> String {
+        patch::patched(&self.text, added)
+    }
+}
+
+fn top_keys(machine: &Machine) -> Vec<&'static str> {
+    let mut keys = vec!["vehicle", "input_timing", "parameters", "columns", "sensor", "initial", "noise", "effects"];
+    keys.extend(machine.tractor.map(|_| "tractor"));
+    keys
+}
+
+impl InputTiming {
+    fn read(top: &Section) -> Result<Self> {
+        let Some(value) = top.get("input_timing") else { return Ok(Self::default()) };
+        match value.text()? {
+            "sample" => Ok(Self::Sample),
+            "interval-mean" => Ok(Self::IntervalMean),
+            other => Err(value.error(format!("unknown input_timing \"{other}\"")).help(near::advice(
+                other,
+                "it is one of",
+                &["sample", "interval-mean"],
+            ))),
+        }
+    }
+}
+
+impl Sensor {
+    fn read(top: &Section) -> Result<Self> {
+        let Some(section) = top.section("sensor")? else { return Ok(Self::default()) };
+        section.only(&["lever_arm", "heading_offset"])?;
+        let lever_arm = section.get("lever_arm").map_or(Ok([0.0; 2]), |v| pair(&v))?;
+        let heading_offset = section.get("heading_offset").map_or(Ok(0.0), |v| v.number())?;
+        Ok(Self { lever_arm, heading_offset })
+    }
+}
+
+fn pair(value: &Value) -> Result<[f64; 2]> {
+    let example = "lever_arm = [0.0, 0.0], forward and left in metres";
+    let numbers: Vec<f64> = value.list(example)?.iter().map(Value::number).collect::<Result<_>>()?;
+    let found = numbers.len();
+    numbers
+        .try_into()
+        .map_err(|_| value.error(format!("lever_arm needs 2 numbers, not {found}")).help(format!("write {example}")))
+}
+
+impl Initial {
+    fn read(top: &Section, trailers: usize) -> Result<Option<Self>> {
+        let Some(section) = top.section("initial")? else { return Ok(None) };
+        let mut keys = vec!["x", "y", "heading"];
+        keys.extend((trailers > 0).then_some("trailer_headings"));
+        section.only(&keys)?;
+        let need = |key: &str| section.need(key, &format!("{key} = 0.0 under [initial]"))?.number();
+        let (x, y, heading) = (need("x")?, need("y")?, need("heading")?);
+        let mut trailer_headings = vec![heading; trailers];
+        if let Some(value) = section.get("trailer_headings") {
+            trailer_headings =
+                value.list("trailer_headings = [0.0]")?.iter().map(Value::number).collect::<Result<_>>()?;
+            one_per_trailer(&value, trailer_headings.len(), trailers)?;
+        }
+        Ok(Some(Self { x, y, heading, trailer_headings }))
+    }
+}
+
+impl Noise {
+    fn read(top: &Section) -> Result<Self> {
+        let Some(section) = top.section("noise")? else { return Ok(Self::default()) };
+        section.only(&["position", "heading"])?;
+        let sigma = |key: &str| section.get(key).map(|v| v.positive()).transpose();
+        Ok(Self { position: sigma("position")?, heading: sigma("heading")? })
+    }
+}

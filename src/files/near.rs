@@ -1,0 +1,101 @@
+//! "Did you mean": the name a slip of the fingers was aimed at.
+
+/// Names listed in one piece of advice; a CSV may have hundreds of columns.
+const LISTED: usize = 16;
+/// Characters a message shows of a name.
+const SHOWN: usize = 40;
+/// Longer words are not compared: the distance takes quadratic time.
+const LONGEST: usize = 64;
+
+/// Advice for an unknown `word`: the nearest candidate, and what there is.
+pub(super) fn advice(word: &str, noun: &str, candidates: &[&str]) -> String {
+    let there = format!("{noun}: {}", list(candidates));
+    match nearest(word, candidates) {
+        Some(near) => format!("did you mean \"{near}\"? {there}"),
+        None => there,
+    }
+}
+
+/// The names with commas, cut short when there are many.
+pub(super) fn list(names: &[&str]) -> String {
+    let mut text = names.iter().take(LISTED).map(|name| shown(name)).collect::<Vec<_>>().join(", ");
+    if names.len() > LISTED {
+        text.push_str(&format!(", … ({} in all)", names.len()));
+    }
+    if text.is_empty() { "none".into() } else { text }
+}
+
+/// A text from a file as a message may show it: one line, not too long, nothing that moves the cursor.
+pub(super) fn shown(text: &str) -> String {
+    let mut chars = text.chars().map(|c| if c.is_control() { ' ' } else { c });
+    let start: String = chars.by_ref().take(SHOWN).collect();
+    if chars.next().is_some() { start + "…" } else { start }
+}
+
+/// The candidate nearest to `word`, if one is near enough to be meant.
+pub(super) fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
+    let word = plain(word);
+    if word.is_empty() || word.len() > LONGEST {
+        return None;
+    }
+    let slips = |candidate: &&str| {
+        let candidate = plain(candidate);
+        (candidate.len() <= LONGEST).then(|| distance(&word, &candidate))
+    };
+    let close = candidates.iter().filter_map(|c| slips(c).map(|d| (d, *c))).min_by_key(|(d, _)| *d);
+    match close {
+        Some((d, candidate)) if d <= word.len() / 3 => Some(candidate),
+        _ => candidates.iter().copied().find(|c| holds(&plain(c), &word)),
+    }
+}
+
+/// One name is a part of the other, and long enough for that to mean something.
+fn holds(a: &[char], b: &[char]) -> bool {
+    let (short, long) = if a.len() < b.len() { (a, b) } else { (b, a) };
+    short.len() >= 3 && long.len() <= LONGEST && long.windows(short.len()).any(|w| w == short)
+}
+
+/// Lower case, with every separator alike.
+fn plain(word: &str) -> Vec<char> {
+    let same = |c: char| if matches!(c, '-' | ' ' | '.') { '_' } else { c };
+    word.chars().take(LONGEST + 1).flat_map(char::to_lowercase).map(same).collect()
+}
+
+/// Levenshtein distance.
+fn distance(a: &[char], b: &[char]) -> usize {
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.iter().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.iter().enumerate() {
+            let swapped = diagonal + usize::from(x != y);
+            diagonal = row[j + 1];
+            row[j + 1] = swapped.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distances_are_known() {
+        let d = |a: &str, b: &str| distance(&plain(a), &plain(b));
+        assert_eq!(d("kitten", "sitting"), 3);
+        assert_eq!(d("", "abc"), 3);
+        assert_eq!(d("Wheel-Rate", "wheel_rate"), 0);
+    }
+
+    #[test]
+    fn only_a_near_name_is_meant() {
+        let keys = ["wheel_radius", "wheelbase", "x"];
+        assert_eq!(nearest("wheel_raduis", &keys), Some("wheel_radius"));
+        assert_eq!(nearest("radius", &keys), Some("wheel_radius"));
+        assert_eq!(nearest("X", &keys), Some("x"));
+        assert_eq!(nearest("y", &keys), None);
+        assert_eq!(nearest("temperature", &keys), None);
+        assert_eq!(nearest(&"w".repeat(1_000_000), &keys), None);
+    }
+}

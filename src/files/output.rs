@@ -1,0 +1,269 @@
+//! Writing results: a file is there whole, or the older one is still there.
+
+use crate::error::{Error, Result};
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use tempfile::{Builder, NamedTempFile, TempPath};
+
+/// Writes a file in one step: whatever fails, `path` holds the new bytes whole or what it held before.
+pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<()> {
+    let path = path.as_ref();
+    let target = target(path)?;
+    if is_device(&target) {
+        // A pipe or /dev/null takes bytes as they come; renaming a file over it would destroy it.
+        return write_through(&target, bytes).map_err(|e| unwritable(path, &e));
+    }
+    let ready = prepare(&target, bytes).map_err(|e| unwritable(path, &e))?;
+    ready.persist(&target).map_err(|e| unwritable(path, &e.error))?;
+    Ok(())
+}
+
+/// Writes several files into a folder, which is made when missing: all of them, or none.
+///
+/// The names are plain file names. Every file is first written beside its place; when one of the
+/// final renames fails, those already done are undone. Only a crash between two renames can leave a
+/// mixture, and even then every single file is whole.
+pub fn write_all_or_nothing(dir: impl AsRef<Path>, files: &[(&str, &[u8])]) -> Result<()> {
+    let dir = dir.as_ref();
+    let made = make_dir(dir)?;
+    let written = put_all(dir, files);
+    if written.is_err() {
+        // Only folders made here, innermost first; `remove_dir` leaves one that is not empty.
+        made.iter().for_each(|dir| drop(fs::remove_dir(dir)));
+    }
+    written
+}
+
+/// A file about to be put in its place: where, the new file, and a second name of the older one.
+type Ready = (PathBuf, NamedTempFile<File>, Option<TempPath>);
+
+fn put_all(dir: &Path, files: &[(&str, &[u8])]) -> Result<()> {
+    let mut ready = Vec::new();
+    for (name, bytes) in files {
+        let path = dir.join(name);
+        let target = target(&path)?;
+        let new = prepare(&target, bytes).map_err(|e| unwritable(&path, &e))?;
+        let old = keep_old(&target).map_err(|e| unwritable(&path, &e))?;
+        ready.push((target, new, old));
+    }
+    install(ready)
+}
+
+/// Renames every file into its place; when one fails, those before it are undone.
+fn install(ready: Vec<Ready>) -> Result<()> {
+    let mut done: Vec<(PathBuf, Option<TempPath>)> = Vec::new();
+    for (target, new, old) in ready {
+        if let Err(e) = new.persist(&target) {
+            undo(done);
+            return Err(unwritable(&target, &e.error));
+        }
+        done.push((target, old));
+    }
+    Ok(())
+}
+
+/// Puts back what the targets held before.
+fn undo(done: Vec<(PathBuf, Option<TempPath>)>) {
+    for (target, old) in done.into_iter().rev() {
+        // The first error is already on its way to the user; a second one cannot be mended here.
+        match old {
+            Some(old) => drop(old.persist(&target)),
+            None => drop(fs::remove_file(&target)),
+        }
+    }
+}
+
+/// A second name of the older file, gone when dropped; a copy where the file system knows no links.
+fn keep_old(target: &Path) -> io::Result<Option<TempPath>> {
+    if !target.exists() {
+        return Ok(None);
+    }
+    let link = |path: &Path| fs::hard_link(target, path).or_else(|_| fs::copy(target, path).map(drop));
+    Ok(Some(builder(target).make_in(folder_of(target), link)?.into_temp_path()))
+}
+
+/// The file to replace: a link is followed, a folder or a read-only file refused.
+fn target(path: &Path) -> Result<PathBuf> {
+    let refuse = |why: &str, advice: &str| Err(Error::input(why).help(advice).at_file(path));
+    match fs::metadata(path) {
+        Ok(data) if data.is_dir() => refuse("is a folder, not a file", "choose another output path"),
+        Ok(data) if data.permissions().readonly() => {
+            refuse("is read-only", "choose another output path or make it writable")
+        }
+        Ok(_) => Ok(fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf())),
+        Err(_) if path.file_name().is_none() => refuse("is not a file name", "choose another output path"),
+        Err(_) => Ok(path.to_path_buf()),
+    }
+}
+
+fn is_device(target: &Path) -> bool {
+    fs::metadata(target).is_ok_and(|data| !data.is_file())
+}
+
+fn write_through(target: &Path, bytes: &[u8]) -> io::Result<()> {
+    OpenOptions::new().write(true).open(target)?.write_all(bytes)
+}
+
+/// The bytes in a finished file beside the target, gone when dropped.
+fn prepare(target: &Path, bytes: &[u8]) -> io::Result<NamedTempFile<File>> {
+    let mut file = builder(target).tempfile_in(folder_of(target))?;
+    file.write_all(bytes)?;
+    file.as_file().sync_all()?;
+    Ok(file)
+}
+
+/// Temporary files with the permissions of the file they replace, or those of any new file.
+fn builder(target: &Path) -> Builder<'static, 'static> {
+    let mut builder = Builder::new();
+    builder.prefix(".creepage-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let fresh = fs::Permissions::from_mode(0o666);
+        builder.permissions(fs::metadata(target).map_or(fresh, |data| data.permissions()));
+    }
+    builder
+}
+
+fn folder_of(target: &Path) -> &Path {
+    target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Makes the folder; gives those that were missing, innermost first.
+fn make_dir(dir: &Path) -> Result<Vec<PathBuf>> {
+    if dir.exists() && !dir.is_dir() {
+        return Err(Error::input("is a file, not a folder").help("choose another output folder").at_file(dir));
+    }
+    let missing = dir.ancestors().filter(|d| !d.as_os_str().is_empty()).take_while(|d| !d.exists());
+    let missing: Vec<PathBuf> = missing.map(Path::to_path_buf).collect();
+    fs::create_dir_all(dir).map_err(|e| unwritable(dir, &e))?;
+    Ok(missing)
+}
+
+/// The error of a path that cannot be written: the user's choice of path is input, a full disk a failed run.
+fn unwritable(path: &Path, why: &io::Error) -> Error {
+    let error = match why.kind() {
+        ErrorKind::NotFound => {
+            Error::input("cannot be written: its folder does not exist").help("make the folder first")
+        }
+        ErrorKind::NotADirectory => {
+            Error::input("cannot be written: a part of its path is not a folder").help("choose another output path")
+        }
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            Error::input("cannot be written: permission denied").help("choose another output path")
+        }
+        ErrorKind::IsADirectory | ErrorKind::InvalidInput | ErrorKind::InvalidFilename => {
+            Error::input(format!("cannot be written: {why}")).help("choose another output path")
+        }
+        _ => Error::run(format!("cannot be written: {why}")).help("nothing was changed; free space and try again"),
+    };
+    error.at_file(path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(dir: &Path) -> Vec<String> {
+        let mut names: Vec<_> =
+            fs::read_dir(dir).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_file_is_replaced_and_nothing_else_is_left() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("out.json");
+        write_whole(&path, b"old").unwrap();
+        write_whole(&path, b"new").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"new");
+        assert_eq!(names(dir.path()), ["out.json"]);
+    }
+
+    #[test]
+    fn unusable_paths_are_input_errors() {
+        let dir = tempfile::tempdir().unwrap();
+        let file = dir.path().join("file");
+        write_whole(&file, b"kept").unwrap();
+        let refused = [dir.path().to_path_buf(), dir.path().join("none/out"), file.join("out"), PathBuf::new()];
+        for path in refused {
+            assert_eq!(write_whole(&path, b"x").unwrap_err().exit_code(), 2, "{}", path.display());
+        }
+        assert_eq!(write_all_or_nothing(&file, &[]).unwrap_err().exit_code(), 2);
+        assert_eq!(fs::read(&file).unwrap(), b"kept");
+    }
+
+    #[test]
+    fn a_read_only_file_is_kept() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("out");
+        write_whole(&path, b"kept").unwrap();
+        let mut rights = fs::metadata(&path).unwrap().permissions();
+        rights.set_readonly(true);
+        fs::set_permissions(&path, rights).unwrap();
+        assert!(write_whole(&path, b"x").unwrap_err().to_string().contains("read-only"));
+        assert_eq!(fs::read(&path).unwrap(), b"kept");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_followed_and_devices_survive() {
+        let dir = tempfile::tempdir().unwrap();
+        let (real, link) = (dir.path().join("real"), dir.path().join("link"));
+        write_whole(&real, b"old").unwrap();
+        std::os::unix::fs::symlink(&real, &link).unwrap();
+        write_whole(&link, b"new").unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::read(&real).unwrap(), b"new");
+        write_whole("/dev/null", b"gone").unwrap();
+        assert!(!fs::metadata("/dev/null").unwrap().is_file());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_new_file_has_the_rights_of_any_new_file() {
+        use std::os::unix::fs::PermissionsExt;
+        let dir = tempfile::tempdir().unwrap();
+        let mode = |name: &str| fs::metadata(dir.path().join(name)).unwrap().permissions().mode();
+        fs::write(dir.path().join("plain"), b"").unwrap();
+        write_whole(dir.path().join("ours"), b"").unwrap();
+        assert_eq!(mode("ours"), mode("plain"));
+    }
+
+    #[test]
+    fn several_files_are_written_together_or_not_at_all() {
+        let top = tempfile::tempdir().unwrap();
+        let dir = top.path().join("a/b");
+        write_all_or_nothing(&dir, &[("one", b"1"), ("two", b"2")]).unwrap();
+        assert_eq!(names(&dir), ["one", "two"]);
+        fs::create_dir(dir.join("three")).unwrap();
+        let error = write_all_or_nothing(&dir, &[("one", b"new"), ("three", b"3")]).unwrap_err();
+        assert_eq!(error.exit_code(), 2);
+        assert_eq!(names(&dir), ["one", "three", "two"]);
+        assert_eq!(fs::read(dir.join("one")).unwrap(), b"1");
+    }
+
+    #[test]
+    fn folders_made_for_nothing_are_removed() {
+        let top = tempfile::tempdir().unwrap();
+        write_all_or_nothing(top.path().join("a/b"), &[("no/folder", b"")]).unwrap_err();
+        assert_eq!(names(top.path()), Vec::<String>::new());
+    }
+
+    #[test]
+    fn a_failed_rename_restores_those_before_it() {
+        let dir = tempfile::tempdir().unwrap();
+        let [old, new, folder] = ["old", "new", "folder"].map(|name| dir.path().join(name));
+        fs::write(&old, b"old").unwrap();
+        fs::create_dir(&folder).unwrap();
+        let ready = |target: &Path| (target.to_path_buf(), prepare(target, b"changed").unwrap());
+        let with = |(target, file): (PathBuf, _), kept| (target, file, kept);
+        let kept = keep_old(&old).unwrap();
+        let all = vec![with(ready(&old), kept), with(ready(&new), None), with(ready(&folder), None)];
+        install(all).unwrap_err();
+        assert_eq!(fs::read(&old).unwrap(), b"old");
+        assert_eq!(names(dir.path()), ["folder", "old"]);
+    }
+}

@@ -1,0 +1,121 @@
+//! A logged run: times, measured poses and inputs, ready to compute with.
+
+use super::columns::Resolved;
+use super::model_file::ModelFile;
+use super::order;
+use super::sheet::{Numbers, Sheet};
+use crate::error::{Error, Result};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Rows a run needs.
+const FEWEST: usize = 2;
+
+/// The usable rows of a log, in the order of time, each time once.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// Name of the file, without its folder.
+    pub name: String,
+    /// Where it was read.
+    pub path: PathBuf,
+    /// SHA-256 of its bytes, hexadecimal.
+    pub sha256: String,
+    /// Strictly increasing times, s.
+    pub time: Vec<f64>,
+    /// Measured positions along x, m.
+    pub x: Vec<f64>,
+    /// Measured positions along y, m.
+    pub y: Vec<f64>,
+    /// Measured headings, rad, without jumps; none when the log has no such column.
+    pub heading: Option<Vec<f64>>,
+    /// Measured absolute headings of each trailer, rad, without jumps; empty when not measured.
+    pub trailer_headings: Vec<Vec<f64>>,
+    /// What each of the inputs is.
+    pub roles: Vec<String>,
+    /// The inputs as logged, one `Vec` per role.
+    pub inputs: Vec<Vec<f64>>,
+    /// How many rows of the file were left out.
+    pub rows_dropped: usize,
+    /// How many rows were left out for each reason.
+    pub why_dropped: BTreeMap<String, usize>,
+    /// What a user should know of the file.
+    pub warnings: Vec<String>,
+}
+
+impl Run {
+    /// Reads a log by the columns of a model file, in one pass.
+    pub fn read(path: impl AsRef<Path>, model: &ModelFile) -> Result<Self> {
+        let path = path.as_ref();
+        let sheet = Sheet::open(path)?;
+        let found = model.columns.resolve(&sheet.header).map_err(|e| sheet.at_header(e))?;
+        let mut numbers = sheet.numbers(&wanted(&found))?;
+        let warnings = arrange(&mut numbers);
+        enough(&numbers).map_err(|e| e.at_file(path))?;
+        Ok(Self::build(path, found, numbers, warnings))
+    }
+
+    fn build(path: &Path, found: Resolved, numbers: Numbers, warnings: Vec<String>) -> Self {
+        let mut columns = numbers.columns.into_iter();
+        let mut next = || columns.next().unwrap_or_default();
+        let (time, x, y) = (next(), next(), next());
+        let mut angle = || {
+            let mut angles = next();
+            order::unwrap(&mut angles);
+            angles
+        };
+        let heading = found.heading.map(|_| angle());
+        let trailer_headings = found.trailer_headings.iter().map(|_| angle()).collect();
+        Self {
+            name: path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
+            path: path.to_path_buf(),
+            sha256: numbers.sha256,
+            time,
+            x,
+            y,
+            heading,
+            trailer_headings,
+            inputs: found.inputs.iter().map(|_| next()).collect(),
+            roles: found.inputs.into_iter().map(|input| input.role).collect(),
+            rows_dropped: numbers.dropped.values().sum(),
+            why_dropped: numbers.dropped,
+            warnings,
+        }
+    }
+}
+
+/// The columns to read, in the order [`Run::build`] takes them.
+fn wanted(found: &Resolved) -> Vec<usize> {
+    let mut wanted = vec![found.time, found.x, found.y];
+    wanted.extend(found.heading);
+    wanted.extend(&found.trailer_headings);
+    wanted.extend(found.inputs.iter().map(|input| input.index));
+    wanted
+}
+
+/// Sorts rows and settles repeated times; gives warnings.
+fn arrange(numbers: &mut Numbers) -> Vec<String> {
+    let back = order::sort(&mut numbers.columns);
+    let repeats = order::merge(&mut numbers.columns);
+    let mut drop_for = |why: &str, rows: usize| {
+        if rows > 0 {
+            numbers.dropped.insert(why.into(), rows);
+        }
+    };
+    drop_for("repeated row", repeats.identical);
+    drop_for("repeated time with conflicting values", repeats.conflicting);
+    match back {
+        0 => Vec::new(),
+        _ => vec![format!("rows were out of order ({back} steps back in time) and have been sorted")],
+    }
+}
+
+fn enough(numbers: &Numbers) -> Result<()> {
+    let usable = numbers.columns[0].len();
+    if usable >= FEWEST {
+        return Ok(());
+    }
+    let why: Vec<String> = numbers.dropped.iter().map(|(why, rows)| format!("{why}: {rows}")).collect();
+    let why = if why.is_empty() { String::new() } else { format!(" (left out: {})", why.join(", ")) };
+    let message = format!("usable rows: {usable} of {}{why}, but at least {FEWEST} are needed", numbers.rows);
+    Err(Error::input(message).help("check the log, or give a longer one"))
+}

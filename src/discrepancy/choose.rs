@@ -2,6 +2,7 @@
 
 use super::chain::Variances;
 use super::fit::{Effort, Fit, Problem};
+use super::screen::{self, Promise};
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::Model;
@@ -11,7 +12,9 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 /// A rival whose evidence is this close to the chosen effect's is not told from it.
 const CLOSE: f64 = 6.0;
 /// How many of the best candidates are fitted with their own noise and jumps.
-const FINALISTS: usize = 5;
+const FINALISTS: usize = 4;
+/// How many of the most promising candidates are fitted at all.
+const SHORTLIST: usize = 8;
 /// Most effects that are added.
 const MOST: usize = 6;
 
@@ -77,7 +80,7 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &d
         if steps.is_empty() {
             candidates = ranked.iter().map(|(s, _)| s.clone()).collect();
         }
-        let Some((best, fit)) = ranked.into_iter().next() else { break };
+        let Some((best, fit)) = ranked.into_iter().find_map(|(s, fit)| Some((s, fit?))) else { break };
         if best.delta_bic <= selection.margin() {
             break;
         }
@@ -123,61 +126,53 @@ impl Selection<'_> {
         model.applicable(self.library).into_iter().filter(|(e, t)| !is_taken(e, *t)).collect()
     }
 
-    /// A model with one more effect fitted at the noise and jumps it had; the best of the effect's starts.
-    fn screened(&self, base: &Fit, model: &Model, effect: &Effect, trailer: Option<usize>) -> Result<Option<Fit>> {
-        let mut best: Option<Fit> = None;
-        // An entry of the model file is where the search for a better value begins.
-        let given = model.effects.iter().find(|e| e.effect.id == effect.id && e.trailer == trailer);
-        let starts = given.map_or_else(|| effect.starts(), |e| vec![e.values.clone()]);
-        for start in starts {
-            let larger = model.clone().with_effect(Applied::new(effect, trailer, start).freed());
-            let fit = self.problem.fit(&larger, &base.starts, &base.variances, SCREEN)?;
-            let better = |f: &Fit| best.as_ref().is_none_or(|b| f.deviance < b.deviance);
-            if let Some(fit) = fit.filter(|f| f.deviance.is_finite() && better(f)) {
-                best = Some(fit);
-            }
-        }
-        Ok(best)
-    }
-
-    /// All fits with one more effect, best first by what they gain.
-    fn screen(&self, base: &Fit, model: &Model) -> Result<Vec<(Applied, Fit)>> {
-        let open = self.open(model);
-        let fits: Vec<_> = open.par_iter().map(|(e, t)| self.screened(base, model, e, *t)).collect::<Result<_>>()?;
-        let mut found: Vec<(Applied, Fit)> = open
-            .iter()
-            .zip(fits)
-            .filter_map(|((e, t), fit)| {
-                let fit = fit?;
-                let applied = fit.model.effects.iter().find(|a| a.effect.id == e.id && a.trailer == *t)?.clone();
-                Some((applied, fit))
-            })
-            .collect();
+    /// The candidates for a model by what they promise; the most promising with a fit.
+    fn screen(&self, base: &Fit, model: &Model) -> Result<Vec<(Promise, Option<Fit>)>> {
+        let mut promises = screen::promises(self.problem, base, model, &self.open(model))?;
+        let n = base.sample_size;
+        let worth = |p: &Promise| rounded(p.deviance + p.applied.values.len() as f64 * n.ln());
+        promises.sort_by(|a, b| worth(a).total_cmp(&worth(b)));
+        let settled = |(i, p): (usize, Promise)| -> Result<_> {
+            let fit = if i < SHORTLIST { screen::settled(self.problem, base, model, &p, SCREEN)? } else { None };
+            Ok((p, fit))
+        };
+        let mut found: Vec<(Promise, Option<Fit>)> =
+            promises.into_par_iter().enumerate().map(settled).collect::<Result<_>>()?;
         // A stable sort: of identical effects the first of the library is named.
-        found.sort_by(|a, b| rounded(bic(&a.1, base.sample_size)).total_cmp(&rounded(bic(&b.1, base.sample_size))));
+        let rank = |(p, fit): &(Promise, Option<Fit>)| match fit {
+            Some(fit) => (false, rounded(bic(fit, n)), place(&p.applied)),
+            None => (true, worth(p), place(&p.applied)),
+        };
+        found.sort_by(|a, b| {
+            let ((a0, a1, a2), (b0, b1, b2)) = (rank(a), rank(b));
+            a0.cmp(&b0).then(a1.total_cmp(&b1)).then(a2.cmp(&b2))
+        });
         Ok(found)
     }
 
-    /// The candidates by ΔBIC against a fit; the finalists with noise and jumps of their own.
-    fn ranked(&self, base: &Fit) -> Result<Vec<(Scored, Fit)>> {
+    /// The candidates by ΔBIC against a fit, the finalists with noise and jumps of their own; the others are listed
+    /// by what they promise, and have no fit.
+    fn ranked(&self, base: &Fit) -> Result<Vec<(Scored, Option<Fit>)>> {
+        let finish = |(i, (promise, fit)): (usize, (Promise, Option<Fit>))| -> Result<_> {
+            let full = match &fit {
+                Some(fit) if i < FINALISTS => self.refined(fit)?,
+                _ => None,
+            };
+            let n = base.sample_size.max(full.as_ref().map_or(0.0, |f| f.sample_size));
+            let deviance = full.as_ref().or(fit.as_ref()).map_or(promise.deviance, |f| f.deviance);
+            let k = promise.applied.values.len() as f64;
+            let delta_bic = base.deviance - deviance - k * n.ln();
+            let fitted = full.as_ref().or(fit.as_ref()).and_then(|f| find(&f.model, &promise.applied));
+            let applied = fitted.unwrap_or(promise.applied);
+            Ok((Scored { applied, delta_bic }, full))
+        };
         let screened = self.screen(base, &base.model)?;
-        let finished: Vec<(Applied, Fit)> = screened
-            .into_par_iter()
-            .enumerate()
-            .map(|(i, (applied, fit))| -> Result<_> {
-                let full = if i < FINALISTS { self.refined(&fit)? } else { None };
-                Ok((applied, full.unwrap_or(fit)))
-            })
-            .collect::<Result<_>>()?;
-        let mut scored: Vec<(Scored, Fit)> = finished
-            .into_iter()
-            .map(|(applied, fit)| {
-                let n = base.sample_size.max(fit.sample_size);
-                let applied = fit.model.effects.iter().find(|a| a.same_as(&applied)).cloned().unwrap_or(applied);
-                (Scored { applied, delta_bic: bic(base, n) - bic(&fit, n) }, fit)
-            })
-            .collect();
-        scored.sort_by(|a, b| rounded(b.0.delta_bic).total_cmp(&rounded(a.0.delta_bic)));
+        let mut scored: Vec<(Scored, Option<Fit>)> =
+            screened.into_par_iter().enumerate().map(finish).collect::<Result<_>>()?;
+        scored.sort_by(|a, b| {
+            let rank = |s: &(Scored, Option<Fit>)| rounded(-s.0.delta_bic);
+            rank(a).total_cmp(&rank(b)).then(place(&a.0.applied).cmp(&place(&b.0.applied)))
+        });
         Ok(scored)
     }
 
@@ -222,9 +217,8 @@ impl Selection<'_> {
                 break;
             }
             let smaller = without(&fit.model, &effect);
-            let Some((_, rival)) = self.screen(&fit, &smaller)?.into_iter().find(|(a, _)| !a.same_as(&effect)) else {
-                continue;
-            };
+            let others = self.screen(&fit, &smaller)?.into_iter().filter(|(p, _)| !p.applied.same_as(&effect));
+            let Some(rival) = others.into_iter().find_map(|(_, fit)| fit) else { continue };
             let Some(rival) = self.refined(&rival)? else { continue };
             let n = fit.sample_size.max(rival.sample_size);
             if bic(&rival, n) < bic(&fit, n) - 0.5 {
@@ -258,16 +252,27 @@ impl Selection<'_> {
         let n = fit.sample_size;
         let own = bic(fit, n);
         let candidates = self.screen(fit, &without(&fit.model, chosen))?;
-        let near = candidates.into_iter().filter(|(a, f)| !a.same_as(chosen) && bic(f, n) - own < 4.0 * CLOSE);
+        let fitted = candidates.into_iter().filter_map(|(p, fit)| Some((p.applied, fit?)));
+        let near = fitted.filter(|(a, f)| !a.same_as(chosen) && bic(f, n) - own < 4.0 * CLOSE);
         let mut found = Vec::new();
         for (applied, rough) in near.take(FINALISTS) {
             let full = self.refined(&rough)?.unwrap_or(rough);
             if bic(&full, n) - own < CLOSE {
-                found.push(applied);
+                found.extend(find(&full.model, &applied));
             }
         }
         Ok(found)
     }
+}
+
+/// An effect of a model.
+fn find(model: &Model, like: &Applied) -> Option<Applied> {
+    model.effects.iter().find(|e| e.same_as(like)).cloned()
+}
+
+/// The place of an effect in the library.
+fn place(a: &Applied) -> (usize, Option<usize>) {
+    (a.effect.order, a.trailer)
 }
 
 /// Deviances of identical effects differ by rounding alone.

@@ -19,6 +19,7 @@ pub mod fit;
 pub mod gap;
 pub mod record;
 pub mod report;
+pub mod screen;
 pub mod smooth;
 pub mod variances;
 pub mod windows;

@@ -30,6 +30,7 @@ fn compiled(e: &Expr) -> (Program, Graph) {
 fn run(program: &Program, at: &Point) -> Option<f64> {
     let mut out = [0.0];
     program.run(at, &mut program.registers(), &mut out);
+    assert!(out[0].is_finite() || out[0].is_nan(), "an undefined result is NaN, not {}", out[0]);
     out[0].is_finite().then_some(out[0])
 }
 

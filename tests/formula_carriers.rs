@@ -199,6 +199,9 @@ impl Row for f64 {
 fn floating_point_keeps_the_laws() {
     laws(prop_oneof![Just(0.0), nonzero()], close, [f64::NAN, f64::INFINITY, f64::NEG_INFINITY]);
     overflow_is_undefined::<f64>();
+    let undefined: [f64; 4] =
+        [Scalar::mul(&1e200, &1e200), Scalar::add(&1e308, &1e308), Scalar::powi(&1e200, 2), Scalar::recip(&0.0)];
+    assert!(undefined.iter().all(|x| x.is_nan()), "{undefined:?}");
 }
 
 impl Row for Dual<Dual64> {

@@ -233,6 +233,24 @@ fn the_summary_is_as_reviewed() {
     settings.bind(|| insta::assert_snapshot!("summary", summary_text(&report())));
 }
 
+/// The same pictures with a far origin, a clock's epoch, long names and a small gap.
+fn hard(mut pictures: Pictures) -> Pictures {
+    for path in &mut pictures.paths {
+        path.run = "a-very-long-name-of-a-run-recorded-on-a-rainy-day-2024-11-21T10-22-33.csv".into();
+        let pieces = path.before.iter_mut().chain(&mut path.after).chain([&mut path.measured]);
+        pieces.flatten().for_each(|p| *p = [500_000.0 + 20.0 * p[0], 4_500_000.0 + p[1]]);
+    }
+    for residual in &mut pictures.residuals {
+        residual.run = pictures.paths[0].run.clone();
+        residual.time.iter_mut().for_each(|t| *t += 1.7e9);
+        residual.before.iter_mut().chain(&mut residual.after).for_each(|v| *v *= 1e-4);
+        residual.noise *= 1e-4;
+    }
+    pictures.candidates.iter_mut().for_each(|c| c.delta_bic *= -0.01);
+    pictures.candidates[5].id = "an-effect-of-the-user-with-a-long-name".into();
+    pictures
+}
+
 /// Writes the pages to look at into `target/look`: `cargo test --test report_html -- --ignored`.
 #[test]
 #[ignore = "writes files to look at"]
@@ -242,6 +260,8 @@ fn pages_to_look_at() {
     let write = |name: &str, text: String| std::fs::write(format!("{dir}/{name}"), text).unwrap();
     write("missing.html", html(&report(), &pictures()));
     write("gap.svg", gap_svg(&report(), &pictures()));
+    write("hard.html", html(&report(), &hard(pictures())));
+    write("hard.svg", gap_svg(&report(), &hard(pictures())));
     for verdict in VERDICTS {
         write(&format!("bare-{verdict:?}.html"), html(&bare(verdict), &Pictures::default()));
     }

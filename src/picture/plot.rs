@@ -159,7 +159,7 @@ impl Panel {
         let [bottom, top] = self.size.rows();
         out.push(line("axis", [left, bottom], [right, bottom]));
         out.push(label("caption", [right, bottom + 37.0], "end", self.x.caption()));
-        out.push(label("caption", [8.0, top - 12.0], "start", self.y.caption()));
+        out.push(label("caption", [2.0, top - 12.0], "start", self.y.caption()));
         if let Some((heading, remark)) = &self.heading {
             out.push(heading_text(heading, remark, self.size.width));
         }
@@ -174,7 +174,7 @@ impl Panel {
             out.push(line("grid", [tick.at, bottom], [tick.at, top]));
             out.push(label("tick", [tick.at, bottom + 18.0], "middle", tick.label));
         }
-        for tick in self.y.ticks(34.0) {
+        for tick in self.y.ticks(if bottom - top < 120.0 { 24.0 } else { 34.0 }) {
             out.push(line("grid", [left, tick.at], [right, tick.at]));
             out.push(label("tick", [left - 9.0, tick.at + 4.0], "end", tick.label));
         }
@@ -185,7 +185,7 @@ impl Panel {
 /// The heading of a panel on one line, the heading cut where both would not fit.
 fn heading_text(heading: &str, remark: &str, width: f64) -> Element {
     let room = (width - 16.0 - width_of(remark, 13.0)) / width_of("m", 14.0);
-    let text = label("heading", [8.0, 18.0], "start", cut(heading, room.max(8.0) as usize));
+    let text = label("heading", [2.0, 18.0], "start", cut(heading, room.max(8.0) as usize));
     let remark = Element::new("tspan").with("style", "font-weight:400;fill:var(--soft)").text(remark);
     if remark == Element::new("tspan") { text } else { text.text("  ").child(remark.with("dx", "6")) }
 }

@@ -13,7 +13,7 @@ const DARK: &str = "--paper:#0d1117;--panel:#161b22;--ink:#e6edf3;--soft:#a3adb8
 --measured:#5b6570;--before:#e69f00;--after:#56b4e9;--floor:#a3adb8;--band:#30373f;--good:#3fd0a4;--warn:#f0b040;";
 
 const SHAPES: &str = "\
-text{font:13px system-ui,-apple-system,Segoe UI,Roboto,Helvetica Neue,Arial,sans-serif;fill:var(--ink)}
+text{font:13px system-ui,-apple-system,Segoe UI,Roboto,Helvetica Neue,Arial,sans-serif;fill:var(--ink);paint-order:stroke;stroke:var(--paper);stroke-width:3px;stroke-linejoin:round}
 text.tick,text.caption{font-size:12px;fill:var(--soft);font-variant-numeric:tabular-nums}
 text.heading{font-weight:600;font-size:14px}
 text.title{font-weight:650;font-size:19px}

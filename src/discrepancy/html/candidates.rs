@@ -4,7 +4,7 @@ use super::part;
 use crate::discrepancy::report::{Candidate, Pictures};
 use crate::picture::axis::{Axis, extent};
 use crate::picture::bars::{Bar, Look, chart};
-use crate::picture::number::significant;
+use crate::picture::number::plain;
 use crate::picture::svg::Element;
 
 /// Candidates that get a bar, besides those chosen and their rivals.
@@ -42,10 +42,10 @@ pub fn figure(pictures: &Pictures) -> Option<Element> {
 
 fn bar(candidate: &Candidate) -> Bar {
     let (look, remark) = match (candidate.chosen, candidate.rival) {
-        (true, _) => (Look::Solid, " chosen"),
-        (_, true) => (Look::Hatched, " not told apart"),
+        (true, _) => (Look::Solid, ", chosen"),
+        (_, true) => (Look::Hatched, ", not told apart"),
         _ => (Look::Hollow, ""),
     };
     let value = candidate.delta_bic;
-    Bar { name: candidate.id.clone(), value, remark: format!("{}{remark}", significant(value, 3)), look }
+    Bar { name: candidate.id.clone(), value, remark: format!("{}{remark}", plain(value)), look }
 }

@@ -10,7 +10,7 @@ use crate::picture::plot::{Marker, Panel, Size};
 use crate::picture::svg::{Element, label, line, path};
 
 /// A panel with room for names at the ends of the lines.
-pub const SIZE: Size = Size { margins: [58.0, 124.0, 50.0, 46.0], ..Size::PANEL };
+pub const SIZE: Size = Size { margins: [58.0, 138.0, 50.0, 46.0], ..Size::PANEL };
 /// Horizons up to which every one gets a marker.
 const MOST_MARKERS: usize = 14;
 
@@ -102,7 +102,7 @@ fn drawn(curve: &GapCurve, (name, base): (&str, &str), axes: Axes, size: Size) -
             Axis::linear(name, &unit, [0.0, (largest * factor * 1.06).max(1e-9)]),
         ],
         Axes::Log => {
-            let [low, high] = positive(&mut all())?;
+            let [low, high] = a_decade(positive(&mut all())?);
             [Axis::log("horizon", "s", [nearest, farthest]), Axis::log(name, &unit, [low * factor, high * factor])]
         }
     };
@@ -118,6 +118,12 @@ fn drawn(curve: &GapCurve, (name, base): (&str, &str), axes: Axes, size: Size) -
     let last = |(points, name): &(&Vec<[f64; 2]>, &'static str)| points.last().map(|p| (*p, *name));
     panel.end_labels(&ends.iter().filter_map(last).collect::<Vec<_>>());
     Some(panel)
+}
+
+/// A range widened to a factor of ten at least, so that a small difference does not look large.
+fn a_decade([low, high]: [f64; 2]) -> [f64; 2] {
+    let pad = (10.0 * low / high).max(1.0).sqrt();
+    [low / pad, high * pad]
 }
 
 fn draw_line(panel: &mut Panel, class: &str, marker: Marker, points: &[[f64; 2]]) {

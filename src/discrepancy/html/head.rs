@@ -10,9 +10,26 @@ use crate::picture::svg::Element;
 pub fn header(report: &Report) -> Element {
     Element::new("header")
         .child(eyebrow(report))
-        .child(holding("h1", verdict_sentence(report)))
+        .child(unbroken("h1", &verdict_sentence(report)))
         .children(headline(report))
         .children(found(report))
+        .children(reasons(report))
+}
+
+/// The warnings at the top, where they are the reason that nothing can be said.
+fn reasons(report: &Report) -> Option<Element> {
+    let warnings = &report.data.warnings;
+    let first = report.verdict == Verdict::UnusableData && !warnings.is_empty();
+    first.then(|| Element::new("ul").with("class", "found").children(warnings.iter().map(|w| holding("li", w))))
+}
+
+/// Words in an element; a short word with a hyphen is not broken at it.
+fn unbroken(name: &'static str, text: &str) -> Element {
+    let words = text.split_inclusive(' ');
+    words.fold(Element::new(name), |element, word| match word.contains('-') && word.chars().count() < 26 {
+        true => element.child(holding("span", word.trim_end()).with("class", "whole")).text(" "),
+        false => element.text(word),
+    })
 }
 
 fn eyebrow(report: &Report) -> Element {
@@ -37,9 +54,9 @@ fn headline(report: &Report) -> Option<Element> {
     let (name, values) = judged(gap)?;
     let (before, after) = (values.position_rms_before, values.position_rms_after);
     let (factor, unit) = prefixed(before.max(after), "m");
-    let show = |v: f64| significant(v * factor, 3);
+    let show = |v: f64| significant(v * factor, 2);
     let horizon = plain(gap.horizon_s);
-    let arrow = if significant(before, 3) == significant(after, 3) {
+    let arrow = if show(before) == show(after) {
         format!("{} {unit}", show(after))
     } else {
         format!("{} → {} {unit}", show(before), show(after))

@@ -44,7 +44,7 @@ pub fn figure(pictures: &Pictures) -> Option<Element> {
 
 /// The legend as a drawing of its own.
 pub fn key() -> Element {
-    let (row, width) = legend(&KEYS, [2.0, 12.0]);
+    let (row, width) = legend(&KEYS, [4.0, 12.0]);
     Element::new("svg")
         .with("viewBox", format!("0 0 {} 24", width.ceil()))
         .with("class", "key")
@@ -100,6 +100,6 @@ fn parting(run: &PathPicture, [x, y]: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
     let widest = pairs.max_by(|a, b| apart(a).total_cmp(&apart(b)))?;
     let [x, y] = ranges(widest.0.iter().chain(widest.1))?;
     let near = (x[1] - x[0]).max(y[1] - y[0]);
-    (apart(&widest) < 0.05 * length && apart(&widest) > 0.0 && near < 0.6 * length)
+    (apart(&widest) < 0.025 * length && apart(&widest) > 0.0 && near < 0.6 * length)
         .then(|| [widened(x, 0.15), widened(y, 0.15)])
 }

@@ -13,7 +13,7 @@ const MOST_PANELS: usize = 6;
 /// Width of a panel, pixels.
 const WIDTH: f64 = 520.0;
 /// Height of a strip, pixels.
-const STRIP: f64 = 150.0;
+const STRIP: f64 = 158.0;
 /// Height of the heading, pixels.
 const TOP: f64 = 24.0;
 
@@ -63,14 +63,15 @@ fn panel(r: &ResidualPicture, id: &str) -> Element {
 
 fn heading(r: &ResidualPicture) -> Element {
     let remark = Element::new("tspan").with("dx", "6").with("style", "font-weight:400;fill:var(--soft)");
-    label("heading", [8.0, 18.0], "start", cut(&r.constraint, 30)).child(remark.text(cut(&r.run, 30)))
+    label("heading", [2.0, 18.0], "start", cut(&r.constraint, 30)).child(remark.text(cut(&r.run, 30)))
 }
 
 fn strip(r: &ResidualPicture, class: &str, name: &str, values: &[f64], id: &str) -> Element {
     let bottom = 42.0;
     let size = Size { width: WIDTH, height: STRIP, margins: [58.0, 20.0, 26.0, bottom] };
     let time = extent(r.time.iter().copied()).unwrap_or([0.0, 1.0]);
-    let x = Axis::linear("time", "s", if time[0] < time[1] { time } else { widened(time, 0.0) });
+    let [name_x, unit_x] = if class == "after" { ["time", "s"] } else { [""; 2] };
+    let x = Axis::linear(name_x, unit_x, if time[0] < time[1] { time } else { widened(time, 0.0) });
     let y = Axis::linear("violation", &r.unit, widened(value_range(r), 0.06));
     let mut panel = Panel::new(size, x.along(size.columns()), y.along(size.rows()));
     if r.noise.is_finite() {
@@ -80,6 +81,10 @@ fn strip(r: &ResidualPicture, class: &str, name: &str, values: &[f64], id: &str)
     panel.series("zero", &time.map(|t| [t, 0.0]));
     let points: Vec<_> = r.time.iter().zip(values).map(|(t, v)| [*t, *v]).collect();
     panel.series(&format!("{class} thin"), &points);
+    if r.noise.is_finite() {
+        panel.series("floor", &time.map(|t| [t, 2.0 * r.noise]));
+        panel.series("floor", &time.map(|t| [t, -2.0 * r.noise]));
+    }
     panel.note(label("strong", [size.columns()[1], 14.0], "end", name));
     panel.finish(id, name, "").number("width", WIDTH).number("height", STRIP)
 }

@@ -18,10 +18,10 @@ const MARGIN: f64 = 20.0;
 pub fn figure(report: &Report, pictures: &Pictures) -> Option<Element> {
     let panels = panels(report, pictures, "story");
     let key = shown(pictures).map(|_| paths::key());
-    let see = "A run from above, and the error of prediction over the horizon.";
+    let see = headline(report);
     let how = "Grey is what was measured. The dashed line is the model as given, restarted at every ring; the solid line is \
                the patched model.";
-    (!panels.is_empty()).then(|| part::figure(panels, key, see, how))
+    (!panels.is_empty()).then(|| part::figure(panels, key, &format!("{}.", see.trim_end_matches('.')), how))
 }
 
 /// The path of a held-out run, or else of any, and the gap.
@@ -58,8 +58,8 @@ pub fn gap_svg(report: &Report, pictures: &Pictures) -> String {
         .number("height", size.height)
         .child(Element::new("style").text(theme::drawing()))
         .child(rect("paper", [0.0, 0.0], size.width, size.height))
-        .child(label("title", [MARGIN + 8.0, 40.0], "start", cut(&headline(report), (width / 10.5) as usize)))
-        .children(shown(pictures).map(|_| legend(&KEYS, [MARGIN + 8.0, 68.0]).0))
+        .child(label("title", [MARGIN, 40.0], "start", cut(&headline(report), (width / 10.5) as usize)))
+        .children(shown(pictures).map(|_| legend(&KEYS, [MARGIN + 4.0, 68.0]).0))
         .children(placed);
     format!("{drawing}\n")
 }
@@ -70,7 +70,7 @@ fn headline(report: &Report) -> String {
         return verdict_sentence(report);
     };
     let (factor, unit) = prefixed(v.position_rms_before.max(v.position_rms_after), "m");
-    let show = |v: f64| significant(v * factor, 3);
+    let show = |v: f64| significant(v * factor, 2);
     let name = if name == "held-out" { "Held-out" } else { "Fitted" };
     format!(
         "{name} position error after {} s: {} → {} {unit} (noise floor {} {unit})",

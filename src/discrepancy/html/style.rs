@@ -11,6 +11,7 @@ main{max-width:1120px;margin:0 auto;padding:40px 28px 64px}
 .verdict{display:inline-block;margin-right:10px;padding:2px 10px;border:1.5px solid currentColor;border-radius:99px;font-weight:650;color:var(--warn)}
 .verdict.good{color:var(--good)}
 h1{margin:0;max-width:34em;font-size:clamp(23px,3.1vw,34px);line-height:1.22;font-weight:650;letter-spacing:-.012em;text-wrap:balance;overflow-wrap:anywhere}
+.whole{white-space:nowrap}
 h2{margin:56px 0 18px;padding-top:18px;border-top:1px solid var(--rule);font-size:22px;line-height:1.3;font-weight:650}
 .headline{display:flex;flex-wrap:wrap;align-items:flex-end;gap:10px 40px;margin:26px 0 0}
 .headline dl{display:flex;flex-direction:column-reverse;margin:0}
@@ -35,11 +36,12 @@ svg svg{overflow:hidden}
 .next p{margin:4px 0 0}
 .next strong{font-weight:650}
 .wide{overflow-x:auto;margin:0 0 26px}
-table{border-collapse:collapse;width:100%;font-size:15px;line-height:1.42}
+table{border-collapse:collapse;min-width:min(100%,520px);font-size:15px;line-height:1.42}
 caption{text-align:left;font-weight:600;padding:6px 0}
 th{font-weight:500;font-size:13.5px;color:var(--soft);text-align:left;vertical-align:bottom;border-bottom:1.5px solid var(--rule)}
 td{vertical-align:top;border-bottom:1px solid var(--grid);overflow-wrap:break-word}
 th,td{padding:6px 18px 6px 0}
+td:first-child{white-space:nowrap}
 th:last-child,td:last-child{padding-right:0}
 .wide .number{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
 .wide code{font-size:13.5px}

@@ -25,7 +25,7 @@ pub fn all(report: &Report, pictures: &Pictures) -> Vec<Element> {
 fn effects(report: &Report) -> Option<Element> {
     let row = |e: &crate::discrepancy::report::Named| {
         let parameter = |(name, p): (&String, &crate::discrepancy::report::Estimate)| {
-            format!("{name} = {} {}", with_error(p.value, p.std), p.unit).trim_end().to_string()
+            format!("{name} = {} {}", with_error(p.value, p.std), p.unit).trim_end().replace(' ', "\u{a0}")
         };
         let rivals = e.indistinguishable_from.iter().map(|r| format!("{}: {}", r.id, why(r))).collect();
         vec![

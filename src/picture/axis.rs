@@ -118,8 +118,11 @@ impl Axis {
         if self.scale != Scale::Linear || (-2..5).contains(&exponent) { 0 } else { exponent.div_euclid(3) * 3 }
     }
 
-    /// The name of the axis with its unit, such as "x, m".
+    /// The name of the axis with its unit, such as "x, m"; empty for an axis without a name.
     pub fn caption(&self) -> String {
+        if self.name.is_empty() {
+            return String::new();
+        }
         let power = if self.exponent() == 0 { String::new() } else { format!("{} ", power_of_ten(self.exponent())) };
         let unit = format!("{power}{}", self.unit);
         let name = match self.origin() {

@@ -4,7 +4,7 @@ use super::head::{counted, shrinkage};
 use super::part::{Cell, holding, section, table};
 use crate::discrepancy::report::{BeforeAfter, Gap, Pictures, Report};
 use crate::discrepancy::summary::why;
-use crate::picture::number::{plain, prefixed, probability, significant, with_error};
+use crate::picture::number::{decimals, plain, prefixed, probability, significant, with_error};
 use crate::picture::svg::Element;
 
 /// Every table that has a row, in sections.
@@ -94,7 +94,7 @@ fn gap_table(
         "#horizon",
         "#held out, before",
         "#held out, after",
-        "#held out",
+        "#held out, change",
         "#fitted, before",
         "#fitted, after",
         "#noise floor",
@@ -104,7 +104,7 @@ fn gap_table(
 
 fn disagreement(report: &Report) -> Option<Element> {
     let row = |d: &crate::discrepancy::report::Disagreement| {
-        let time = format!("{}–{}", significant(d.from, 4), significant(d.to, 4));
+        let time = format!("{}–{}", decimals(d.from, 1), decimals(d.to, 1));
         let share = format!("{} %", significant(100.0 * d.share_of_gap, 2));
         vec![Cell::text(&d.run), Cell::text(&d.place), Cell::Number(time), Cell::text(&d.regime), Cell::Number(share)]
     };

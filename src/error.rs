@@ -25,7 +25,11 @@ pub enum Kind {
 /// assert_eq!(e.exit_code(), 2);
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Error {
+pub struct Error(Box<Inner>);
+
+/// Behind a pointer, so that a result without an error stays small.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Inner {
     kind: Kind,
     message: String,
     file: Option<PathBuf>,
@@ -46,46 +50,46 @@ impl Error {
     }
 
     fn new(kind: Kind, message: String) -> Self {
-        Self { kind, message, file: None, place: None, help: None, excerpt: None }
+        Self(Box::new(Inner { kind, message, file: None, place: None, help: None, excerpt: None }))
     }
 
     /// The file the message speaks of; an inner file named before is kept.
     pub fn at_file(mut self, path: impl AsRef<Path>) -> Self {
-        self.file.get_or_insert_with(|| path.as_ref().to_path_buf());
+        self.0.file.get_or_insert_with(|| path.as_ref().to_path_buf());
         self
     }
 
     /// Line and column, both counted from one; an inner place named before is kept.
     pub fn at(mut self, line: usize, column: usize) -> Self {
-        self.place.get_or_insert((line, column));
+        self.0.place.get_or_insert((line, column));
         self
     }
 
     /// What the reader should do.
     pub fn help(mut self, advice: impl Into<String>) -> Self {
-        self.help.get_or_insert_with(|| advice.into());
+        self.0.help.get_or_insert_with(|| advice.into());
         self
     }
 
     /// Lines shown under the message, such as a formula with a caret.
     pub fn excerpt(mut self, lines: impl Into<String>) -> Self {
-        self.excerpt.get_or_insert_with(|| lines.into());
+        self.0.excerpt.get_or_insert_with(|| lines.into());
         self
     }
 
     /// What is wrong, without place and advice.
     pub fn message(&self) -> &str {
-        &self.message
+        &self.0.message
     }
 
     /// Line and column, when known.
     pub fn place(&self) -> Option<(usize, usize)> {
-        self.place
+        self.0.place
     }
 
     /// The exit code the contract gives this error: 2 for input, 1 for a failed run.
     pub fn exit_code(&self) -> u8 {
-        match self.kind {
+        match self.0.kind {
             Kind::Input => 2,
             Kind::Run => 1,
         }
@@ -94,20 +98,20 @@ impl Error {
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(file) = &self.file {
+        if let Some(file) = &self.0.file {
             write!(f, "{}:", file.display())?;
         }
-        if let Some((line, column)) = self.place {
+        if let Some((line, column)) = self.0.place {
             write!(f, "{line}:{column}:")?;
         }
-        if self.file.is_some() || self.place.is_some() {
+        if self.0.file.is_some() || self.0.place.is_some() {
             write!(f, " ")?;
         }
-        write!(f, "{}", self.message)?;
-        if let Some(help) = &self.help {
+        write!(f, "{}", self.0.message)?;
+        if let Some(help) = &self.0.help {
             write!(f, "; {help}")?;
         }
-        if let Some(excerpt) = &self.excerpt {
+        if let Some(excerpt) = &self.0.excerpt {
             write!(f, "\n{excerpt}")?;
         }
         Ok(())

@@ -9,6 +9,7 @@ pub mod formula;
 pub mod mechanism;
 pub mod model;
 pub mod motion;
+pub mod picture;
 pub mod vehicles;
 
 pub use error::{Error, Result};

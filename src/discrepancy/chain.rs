@@ -67,7 +67,7 @@ fn eliminate_segment(windows: &[Linear], v: &Variances, parameters: usize, total
         form = carried(&form, back, m);
         let spread = jump_spread(window, v, m);
         let towards = spread.tr_mul(&form.rows(0, m));
-        let inner = DMatrix::identity(m, m) + &towards.columns(0, m) * &spread;
+        let inner = DMatrix::identity(m, m) + towards.columns(0, m) * &spread;
         let inner = Cholesky::new(inner)?;
         let gain = inner.solve(&towards);
         form = symmetric(form - towards.tr_mul(&gain));

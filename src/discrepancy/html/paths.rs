@@ -1,0 +1,105 @@
+//! Runs seen from above: measured, predicted before, predicted after.
+
+use super::part;
+use crate::discrepancy::report::{PathPicture, Pictures};
+use crate::picture::axis::{Axis, equal_aspect, extent, widened};
+use crate::picture::plot::{Key, Marker, Panel, Size, legend};
+use crate::picture::svg::{Element, cut};
+
+/// Runs that get a panel.
+const MOST_PANELS: usize = 6;
+/// Points of one line of one panel.
+const MOST_POINTS: usize = 2200;
+/// Restarts that get a ring; with more the rings would hide the path.
+const MOST_RINGS: usize = 40;
+
+/// What the lines are called.
+pub const KEYS: [Key; 4] = [
+    Key { class: "measured", marker: None, label: "measured" },
+    Key { class: "before", marker: None, label: "model as given" },
+    Key { class: "after", marker: None, label: "patched model" },
+    Key { class: "start", marker: Some(Marker::Ring), label: "restart" },
+];
+
+/// A panel for every run, the held-out ones first; none with fewer than two runs, which the story shows already.
+pub fn figure(pictures: &Pictures) -> Option<Element> {
+    let mut runs: Vec<&PathPicture> = pictures.paths.iter().filter(|p| frame(p).is_some()).collect();
+    runs.sort_by_key(|p| !p.held_out);
+    if runs.len() < 2 {
+        return None;
+    }
+    let more = runs.len().saturating_sub(MOST_PANELS);
+    let draw = |(i, p): (usize, &&PathPicture)| panel(p, Size::PANEL, false, &format!("path-{i}"));
+    let panels: Vec<Element> = runs.iter().take(MOST_PANELS).enumerate().filter_map(draw).collect();
+    let rest = if more > 0 { format!(" {more} further runs are not drawn.") } else { String::new() };
+    let how =
+        format!("{}{rest}", "Both axes have the same scale. At every ring the model restarts on the measured path.");
+    Some(part::figure(
+        panels,
+        Some(key()),
+        "Every run from above: where the dashed line leaves the grey one, the model is wrong.",
+        &how,
+    ))
+}
+
+/// The legend as a drawing of its own.
+pub fn key() -> Element {
+    let (row, width) = legend(&KEYS, [4.0, 12.0]);
+    Element::new("svg")
+        .with("viewBox", format!("0 0 {} 24", width.ceil()))
+        .with("class", "key")
+        .with("style", format!("max-width:{}px", width.ceil()))
+        .with("aria-hidden", "true")
+        .child(row)
+}
+
+/// One run; a close-up shows the piece in which the two models part most, where the whole run would not show it.
+pub fn panel(run: &PathPicture, size: Size, close_up: bool, id: &str) -> Option<Element> {
+    let whole = frame(run)?;
+    let near = if close_up { parting(run, whole) } else { None };
+    let [horizontal, vertical] = near.unwrap_or(whole);
+    let x = Axis::linear("x", "m", horizontal).along(size.columns());
+    let y = Axis::linear("y", "m", vertical).along(size.rows());
+    let (x, y) = equal_aspect(x, y);
+    let mut panel = Panel::new(size, x, y);
+    panel.pieces("measured", std::slice::from_ref(&run.measured), MOST_POINTS);
+    panel.pieces("before", &run.before, MOST_POINTS);
+    panel.pieces("after", &run.after, MOST_POINTS);
+    panel.markers("start", Marker::Ring, &restarts(run));
+    let remark = [if run.held_out { "held out" } else { "fitted" }, if near.is_some() { ", close-up" } else { "" }];
+    panel.heading(&run.run, &remark.concat());
+    let title = format!("Path of {}", cut(&run.run, 60));
+    Some(panel.finish(id, &title, "Seen from above: the measured path, the model as given and the patched model."))
+}
+
+fn restarts(run: &PathPicture) -> Vec<[f64; 2]> {
+    let starts: Vec<_> = run.before.iter().filter_map(|piece| piece.first().copied()).collect();
+    if starts.len() > MOST_RINGS { Vec::new() } else { starts }
+}
+
+/// The ranges of x and y that hold all three lines.
+fn frame(run: &PathPicture) -> Option<[[f64; 2]; 2]> {
+    let pieces = run.before.iter().chain(&run.after).flatten();
+    ranges(run.measured.iter().chain(pieces))
+}
+
+fn ranges<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> Option<[[f64; 2]; 2]> {
+    let points: Vec<_> = points.filter(|p| p.iter().all(|v| v.is_finite())).collect();
+    let along = |i: usize| extent(points.iter().map(|p| p[i])).map(|r| widened(r, 0.04));
+    Some([along(0)?, along(1)?])
+}
+
+/// The ranges around the piece whose two models end farthest apart, where that would be too small to see on the whole.
+fn parting(run: &PathPicture, [x, y]: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
+    let length = (x[1] - x[0]).max(y[1] - y[0]);
+    let apart = |(before, after): &(&Vec<[f64; 2]>, &Vec<[f64; 2]>)| match (before.last(), after.last()) {
+        (Some(p), Some(q)) => Some((p[0] - q[0]).hypot(p[1] - q[1])).filter(|d| d.is_finite()).unwrap_or(0.0),
+        _ => 0.0,
+    };
+    let pairs = run.before.iter().zip(&run.after);
+    let widest = pairs.max_by(|a, b| apart(a).total_cmp(&apart(b)))?;
+    let [x, y] = ranges(widest.0.iter().chain(widest.1))?;
+    let near = (x[1] - x[0]).max(y[1] - y[0]);
+    (apart(&widest) < 0.025 * length && apart(&widest) > 0.0 && near < 0.6 * length)
+        .then(|| [widened(x, 0.15), widened(y, 0.15)])
+}

@@ -1,0 +1,196 @@
+//! The report on one screen of a terminal, and the sentences every form of the report shares.
+
+use super::report::{BeforeAfter, Gap, Named, Report, Rival, Verdict};
+use crate::picture::number::{plain, prefixed, significant, with_error};
+use crate::picture::svg::cut;
+
+/// Columns of the terminal.
+const COLUMNS: usize = 80;
+/// Lines that still fit with the prompt and the list of files written.
+const LINES: usize = 24;
+
+/// The verdict in two or three words.
+pub fn verdict_name(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::UnusableData => "Unusable data",
+        Verdict::NotIdentifiable => "Not identifiable",
+        Verdict::UnnamedEffect => "Unnamed effect",
+        Verdict::MissingEffect => "Missing effect",
+        Verdict::NoMissingEffect => "No missing effect",
+    }
+}
+
+/// The verdict in one sentence: the report's own, or one made from its numbers where it has none.
+pub fn verdict_sentence(report: &Report) -> String {
+    let own = report.summary.trim();
+    if own.is_empty() { composed_sentence(report) } else { own.into() }
+}
+
+fn composed_sentence(report: &Report) -> String {
+    match report.verdict {
+        Verdict::UnusableData => "The model does not apply to these data, so nothing can be said about it.".into(),
+        Verdict::NotIdentifiable => {
+            "These runs are too short or too still to tell whether the model misses an effect.".into()
+        }
+        Verdict::UnnamedEffect => format!(
+            "Model and measurement disagree in a repeatable way at the {}, and no known effect explains it.",
+            report.unnamed.first().map_or("constraints", |u| u.place.as_str())
+        ),
+        Verdict::MissingEffect => format!("The model misses {}.", listed(report.effects.iter().map(|e| e.id.as_str()))),
+        Verdict::NoMissingEffect => "The model explains these runs to their noise; no effect is missing.".into(),
+    }
+}
+
+/// Names as a phrase: "a", "a and b", "a, b and c".
+pub fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let names: Vec<_> = names.collect();
+    match names.split_last() {
+        None => "an effect".into(),
+        Some((last, [])) => (*last).into(),
+        Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
+    }
+}
+
+/// The gap at the middle horizon; of two horizons the longer.
+pub fn middle(gaps: &[Gap]) -> Option<&Gap> {
+    gaps.get(gaps.len() / 2)
+}
+
+/// The numbers a gap is judged by, held out where there are such, and what they are called.
+pub fn judged(gap: &Gap) -> Option<(&'static str, &BeforeAfter)> {
+    let held_out = gap.held_out.as_ref().map(|g| ("held-out", g));
+    held_out.or_else(|| gap.fit.as_ref().map(|g| ("fitted", g)))
+}
+
+/// Why a rival cannot be told apart, for a person.
+pub fn why(rival: &Rival) -> &str {
+    match rival.why.as_str() {
+        "identical" => "the same constraint under a change of parameter",
+        "first order" => "the same to first order",
+        "data" => "these runs do not separate them",
+        other => other,
+    }
+}
+
+/// The one-screen summary: at most 24 lines of 80 columns, without control characters.
+pub fn summary_text(report: &Report) -> String {
+    let mut lines = wrapped(&format!("{}: {}", verdict_name(report.verdict), verdict_sentence(report)), 0, 4);
+    lines.extend(effect_lines(&report.effects));
+    lines.extend(
+        report
+            .unnamed
+            .iter()
+            .take(2)
+            .flat_map(|u| wrapped(&format!("unnamed at the {}: {}", u.place, u.equation), 2, 2)),
+    );
+    let mut gap = gap_lines(&report.gap);
+    let mut tail = Vec::new();
+    tail.extend(report.next_experiment.iter().map(|_| String::new()));
+    tail.extend(report.next_experiment.iter().flat_map(|n| wrapped(&format!("Next: {} {}", n.manoeuvre, n.why), 0, 3)));
+    tail.extend(data_lines(report));
+    let room = LINES.saturating_sub(lines.len().min(12) + tail.len());
+    gap.truncate(room);
+    lines.truncate(LINES - gap.len() - tail.len());
+    lines.extend(gap);
+    lines.extend(tail);
+    lines.iter().map(|line| format!("{}\n", clean(line))).collect()
+}
+
+/// A line without control characters, cut to the terminal's columns.
+fn clean(line: &str) -> String {
+    let printable: String = line.chars().map(|c| if c.is_control() { '?' } else { c }).collect();
+    cut(printable.trim_end(), COLUMNS)
+}
+
+/// Words in lines of at most 80 columns, the first `indent` deep and the others two deeper.
+fn wrapped(text: &str, indent: usize, most: usize) -> Vec<String> {
+    let mut lines = vec![" ".repeat(indent)];
+    for word in text.split_whitespace() {
+        let line = lines.last_mut().expect("one line at least");
+        let empty = line.trim().is_empty();
+        if !empty && line.chars().count() + 1 + word.chars().count() > COLUMNS {
+            lines.push(format!("{}{word}", " ".repeat(indent + 2)));
+        } else {
+            line.push_str(if empty { "" } else { " " });
+            line.push_str(word);
+        }
+    }
+    if lines.len() > most {
+        lines.truncate(most);
+        lines.last_mut().expect("one line at least").push_str(" …");
+    }
+    lines
+}
+
+fn effect_lines(effects: &[Named]) -> Vec<String> {
+    if effects.is_empty() {
+        return Vec::new();
+    }
+    let mut lines = vec![String::new(), row("effect", "parameter", "value ± std", "unit", "ΔBIC")];
+    lines.extend(effects.iter().take(3).flat_map(one_effect));
+    if effects.len() > 3 {
+        lines.push(format!("  … and {} more", effects.len() - 3));
+    }
+    lines
+}
+
+fn row(effect: &str, parameter: &str, value: &str, unit: &str, bic: &str) -> String {
+    format!("  {:<23}{:<15}{:<22}{:<7}{bic:>9}", cut(effect, 22), cut(parameter, 14), cut(value, 21), cut(unit, 6))
+}
+
+fn one_effect(effect: &Named) -> Vec<String> {
+    let bic = significant(effect.evidence.delta_bic, 3);
+    let mut lines: Vec<String> = Vec::new();
+    for (name, estimate) in effect.parameters.iter().take(3) {
+        let (id, bic) = if lines.is_empty() { (effect.id.as_str(), bic.as_str()) } else { ("", "") };
+        lines.push(row(id, name, &with_error(estimate.value, estimate.std), &estimate.unit, bic));
+    }
+    if lines.is_empty() {
+        lines.push(row(&effect.id, "", "", "", &bic));
+    }
+    if !effect.indistinguishable_from.is_empty() {
+        let rivals: Vec<_> = effect.indistinguishable_from.iter().map(|r| format!("{} ({})", r.id, r.why)).collect();
+        lines.extend(wrapped(&format!("not told from {}", rivals.join(", ")), 4, 2));
+    }
+    lines
+}
+
+fn gap_lines(gaps: &[Gap]) -> Vec<String> {
+    let judged: Vec<_> = gaps.iter().filter_map(|g| judged(g).map(|(name, values)| (g, name, values))).collect();
+    let Some((_, name, _)) = judged.first() else { return Vec::new() };
+    let largest = |f: fn(&BeforeAfter) -> f64| judged.iter().map(|(_, _, v)| f(v)).fold(0.0, f64::max);
+    let (metres, metre) = prefixed(largest(|v| v.position_rms_before), "m");
+    let (radians, radian) = prefixed(largest(|v| v.heading_rms_before.unwrap_or(0.0)), "rad");
+    let mut lines = vec![String::new(), format!("  gap, {name} runs: before → after | noise floor (RMS)")];
+    for (gap, _, v) in judged.iter().take(4) {
+        let floor = gap.noise_floor;
+        let position = arrow([v.position_rms_before, v.position_rms_after, floor.position_rms], metres, &metre);
+        let heading = match (v.heading_rms_before, v.heading_rms_after) {
+            (Some(before), Some(after)) => {
+                arrow([before, after, floor.heading_rms.unwrap_or(f64::NAN)], radians, &radian)
+            }
+            _ => String::new(),
+        };
+        lines.push(format!("  {:>6} s {position:<35} {heading}", plain(gap.horizon_s)));
+    }
+    lines
+}
+
+fn arrow([before, after, floor]: [f64; 3], factor: f64, unit: &str) -> String {
+    let [before, after, floor] = [before, after, floor].map(|v| significant(v * factor, 3));
+    format!("{before:>7} → {after:>7} | {floor:>7} {unit}")
+}
+
+fn data_lines(report: &Report) -> Vec<String> {
+    let data = &report.data;
+    let mut lines = vec![
+        String::new(),
+        format!("  data: {} runs, {} rows used, {} dropped", data.runs, data.rows, data.rows_dropped),
+    ];
+    if let Some(first) = data.warnings.first() {
+        let more =
+            if data.warnings.len() > 1 { format!(" (and {} more)", data.warnings.len() - 1) } else { String::new() };
+        lines.extend(wrapped(&format!("warning: {first}{more}"), 2, 2));
+    }
+    lines
+}

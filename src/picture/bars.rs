@@ -1,0 +1,104 @@
+//! Horizontal bars with names and remarks, told apart by fill, hatching and text.
+
+use super::axis::Axis;
+use super::plot::{Size, frame_svg};
+use super::svg::{Element, cut, label, line, path, rect};
+
+/// How a bar looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Look {
+    /// Filled.
+    Solid,
+    /// Hatched.
+    Hatched,
+    /// Only an outline.
+    Hollow,
+}
+
+/// One bar.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bar {
+    /// Written left of it.
+    pub name: String,
+    /// Its length, in the axis' unit; a value that is not finite draws no bar.
+    pub value: f64,
+    /// Written right of it.
+    pub remark: String,
+    /// How it looks.
+    pub look: Look,
+}
+
+/// Height of a row in pixels.
+const ROW: f64 = 26.0;
+/// Pixels left for the names.
+const NAMES: f64 = 186.0;
+/// Pixels left for the remarks.
+const REMARKS: f64 = 190.0;
+/// Pixels above the first row.
+const TOP: f64 = 10.0;
+
+/// The size of a chart with so many bars.
+pub fn size(bars: usize) -> Size {
+    Size { width: 760.0, height: TOP + ROW * bars as f64 + 48.0, margins: [NAMES, REMARKS, TOP, 48.0] }
+}
+
+/// The chart of bars from top to bottom over one axis.
+pub fn chart(bars: &[Bar], axis: Axis, id: &str, title: &str, description: &str) -> Element {
+    let size = size(bars.len());
+    let axis = axis.along(size.columns());
+    let rows = bars.iter().enumerate().flat_map(|(i, bar)| row(bar, &axis, TOP + ROW * i as f64));
+    let zero = axis.at(0.0);
+    frame_svg(size, id, title, description).children(grid(&axis, size)).children(rows).child(line(
+        "axis",
+        [zero, TOP],
+        [zero, size.rows()[0]],
+    ))
+}
+
+fn grid(axis: &Axis, size: Size) -> Vec<Element> {
+    let [bottom, top] = size.rows();
+    let mut out = Vec::new();
+    for tick in axis.ticks(46.0) {
+        out.push(line("grid", [tick.at, top], [tick.at, bottom]));
+        out.push(label("tick", [tick.at, bottom + 17.0], "middle", tick.label));
+    }
+    out.push(label("caption", [size.columns()[1], bottom + 37.0], "end", axis.caption()));
+    out
+}
+
+fn row(bar: &Bar, axis: &Axis, top: f64) -> Vec<Element> {
+    let class = if bar.look == Look::Hollow { "" } else { "strong" };
+    let middle = top + ROW / 2.0 + 4.5;
+    let name = label(class, [NAMES - 10.0, middle], "end", cut(&bar.name, 24));
+    let zero = axis.at(0.0);
+    let end = if bar.value.is_finite() { axis.at(bar.value) } else { zero };
+    let [left, right] = if end < zero { [end, zero] } else { [zero, end] };
+    let mut out = vec![name];
+    if bar.value.is_finite() {
+        out.extend(body(bar.look, [left, right], [top + 5.0, top + ROW - 5.0]));
+    }
+    out.push(label(class, [right + 8.0, middle], "start", &bar.remark));
+    out
+}
+
+fn body(look: Look, [left, right]: [f64; 2], [top, bottom]: [f64; 2]) -> Vec<Element> {
+    let class = match look {
+        Look::Solid => "bar",
+        Look::Hatched => "bar rival",
+        Look::Hollow => "bar other",
+    };
+    let outline = rect(class, [left, top], right - left, bottom - top);
+    if look == Look::Hatched { vec![outline, hatch([left, right], [top, bottom])] } else { vec![outline] }
+}
+
+/// Strokes at 45° within a rectangle.
+fn hatch([left, right]: [f64; 2], [top, bottom]: [f64; 2]) -> Element {
+    let height = bottom - top;
+    let strokes = ((right - left + height) / 7.0).floor() as usize;
+    let mut points = Vec::new();
+    for start in (1..=strokes).map(|i| left + 7.0 * i as f64) {
+        let (low, high) = ((start - height).max(left), start.min(right));
+        points.extend([[low, top + start - low], [high, top + start - high], [f64::NAN; 2]]);
+    }
+    path("hatch", &points)
+}

@@ -1,0 +1,186 @@
+//! Elements of markup, well-formed by construction; the only place where text is escaped.
+
+use std::fmt;
+
+/// An element with attributes and children, for SVG and for HTML.
+///
+/// ```
+/// use creepage::picture::svg::Element;
+/// let e = Element::new("text").number("x", 1.25).with("class", "a\"b").text("<script>");
+/// assert_eq!(e.to_string(), "<text x=\"1.3\" class=\"a&quot;b\">&lt;script&gt;</text>");
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Element {
+    name: &'static str,
+    attributes: Vec<(&'static str, String)>,
+    children: Vec<Child>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Child {
+    Element(Element),
+    Text(String),
+}
+
+/// Elements that are written without an end tag when they are empty.
+const LEAVES: [&str; 8] = ["br", "circle", "col", "hr", "line", "meta", "path", "rect"];
+
+impl Element {
+    /// An empty element.
+    pub fn new(name: &'static str) -> Self {
+        Self { name, attributes: Vec::new(), children: Vec::new() }
+    }
+
+    /// With an attribute.
+    pub fn with(mut self, attribute: &'static str, value: impl Into<String>) -> Self {
+        self.attributes.push((attribute, value.into()));
+        self
+    }
+
+    /// With an attribute that is a length in pixels.
+    pub fn number(self, attribute: &'static str, value: f64) -> Self {
+        self.with(attribute, fixed(value))
+    }
+
+    /// With text after what it already holds.
+    pub fn text(mut self, text: impl Into<String>) -> Self {
+        self.children.push(Child::Text(text.into()));
+        self
+    }
+
+    /// With an element after what it already holds.
+    pub fn child(mut self, element: Element) -> Self {
+        self.children.push(Child::Element(element));
+        self
+    }
+
+    /// With elements after what it already holds.
+    pub fn children(mut self, elements: impl IntoIterator<Item = Element>) -> Self {
+        self.children.extend(elements.into_iter().map(Child::Element));
+        self
+    }
+}
+
+impl fmt::Display for Element {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "<{}", self.name)?;
+        for (name, value) in &self.attributes {
+            write!(f, " {name}=\"{}\"", escape(value))?;
+        }
+        if self.children.is_empty() && LEAVES.contains(&self.name) {
+            return f.write_str("/>");
+        }
+        f.write_str(">")?;
+        self.children.iter().try_for_each(|child| write!(f, "{child}"))?;
+        write!(f, "</{}>", self.name)
+    }
+}
+
+impl fmt::Display for Child {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Child::Element(element) => element.fmt(f),
+            Child::Text(text) => f.write_str(&escape(text)),
+        }
+    }
+}
+
+/// Text that stays text inside an element or an attribute; characters that XML forbids become U+FFFD.
+///
+/// An apostrophe may stay, since attributes are written with quotation marks.
+pub fn escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\n' | '\t' => out.push(c),
+            '\u{fffe}' | '\u{ffff}' => out.push('\u{fffd}'),
+            c if c.is_control() => out.push('\u{fffd}'),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// A coordinate in pixels, rounded to a tenth; what is not finite becomes zero.
+pub fn fixed(x: f64) -> String {
+    if !x.is_finite() {
+        return "0".into();
+    }
+    let tenths = (x * 10.0).round().clamp(-1e9, 1e9) as i64;
+    let sign = if tenths < 0 { "-" } else { "" };
+    let (whole, rest) = (tenths.abs() / 10, tenths.abs() % 10);
+    if rest == 0 { format!("{sign}{whole}") } else { format!("{sign}{whole}.{rest}") }
+}
+
+/// The `d` of a path through points in pixels; a point that is not finite breaks the line.
+///
+/// ```
+/// use creepage::picture::svg::path_data;
+/// assert_eq!(path_data(&[[0.0, 0.0], [1.0, 2.5], [f64::NAN, 0.0], [3.0, 4.0]]), "M0 0L1 2.5M3 4");
+/// ```
+pub fn path_data(points: &[[f64; 2]]) -> String {
+    let mut out = String::new();
+    let mut pen_down = false;
+    for point in points {
+        let finite = point.iter().all(|v| v.is_finite());
+        if finite {
+            out.push(if pen_down { 'L' } else { 'M' });
+            out.push_str(&format!("{} {}", fixed(point[0]), fixed(point[1])));
+        }
+        pen_down = finite;
+    }
+    out
+}
+
+/// A straight line between two points in pixels.
+pub fn line(class: &str, from: [f64; 2], to: [f64; 2]) -> Element {
+    Element::new("line")
+        .with("class", class)
+        .number("x1", from[0])
+        .number("y1", from[1])
+        .number("x2", to[0])
+        .number("y2", to[1])
+}
+
+/// Text at a point in pixels; `anchor` is `start`, `middle` or `end`.
+pub fn label(class: &str, at: [f64; 2], anchor: &str, text: impl Into<String>) -> Element {
+    Element::new("text")
+        .with("class", class)
+        .number("x", at[0])
+        .number("y", at[1])
+        .with("text-anchor", anchor)
+        .text(text)
+}
+
+/// A rectangle in pixels; a negative side is drawn as none.
+pub fn rect(class: &str, at: [f64; 2], width: f64, height: f64) -> Element {
+    Element::new("rect")
+        .with("class", class)
+        .number("x", at[0])
+        .number("y", at[1])
+        .number("width", width.max(0.0))
+        .number("height", height.max(0.0))
+}
+
+/// A path through points in pixels.
+pub fn path(class: &str, points: &[[f64; 2]]) -> Element {
+    Element::new("path").with("class", class).with("d", path_data(points))
+}
+
+/// Text cut to a number of characters, the last one an ellipsis.
+pub fn cut(text: &str, most: usize) -> String {
+    if text.chars().count() <= most {
+        return text.into();
+    }
+    let head: String = text.chars().take(most.saturating_sub(1)).collect();
+    format!("{}…", head.trim_end())
+}
+
+/// A guess at the width of text in pixels, wide enough for any usual sans-serif font.
+pub fn width_of(text: &str, font_size: f64) -> f64 {
+    0.6 * font_size * text.chars().count() as f64
+}

@@ -1,0 +1,51 @@
+//! Round numbers for axes: steps of 1, 2 and 5 times a power of ten.
+
+use super::number::{decade, ten_to};
+
+/// The smallest step of 1, 2 or 5 times a power of ten that is no smaller than a length.
+///
+/// ```
+/// use creepage::picture::ticks::nice_step;
+/// assert_eq!([nice_step(0.13), nice_step(3.0), nice_step(7.0)], [0.2, 5.0, 10.0]);
+/// ```
+pub fn nice_step(least: f64) -> f64 {
+    let exponent = decade(least) - 1;
+    let candidates = (0..3).flat_map(|k| [1.0, 2.0, 5.0].map(|m| scaled(m, exponent + k)));
+    candidates.into_iter().find(|step| *step >= least * (1.0 - 1e-9)).unwrap_or(1.0)
+}
+
+/// A digit times a power of ten, the nearest floating-point number.
+fn scaled(digit: f64, exponent: i32) -> f64 {
+    format!("{digit}e{exponent}").parse().unwrap_or(1.0)
+}
+
+/// Multiples of a nice step within a range, at most about `count` of them.
+pub fn linear(from: f64, to: f64, count: usize) -> (Vec<f64>, f64) {
+    let step = nice_step((to - from) / count.max(1) as f64);
+    let first = (from / step - 1e-9).ceil();
+    let last = (to / step + 1e-9).floor();
+    let steps = if last >= first { (last - first) as usize } else { 0 };
+    ((0..=steps.min(200)).map(|i| (first + i as f64) * step).collect(), step)
+}
+
+/// Powers of ten within a positive range, with 2 and 5 between them where there is room.
+pub fn logarithmic(from: f64, to: f64, count: usize) -> Vec<f64> {
+    let exponents = decade(from) - 1..=decade(to) + 1;
+    let stride = (exponents.clone().count() / count.max(1)).max(1);
+    let mantissas: &[f64] = if (to / from).log10() * 3.0 <= count as f64 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+    let within = |v: &f64| *v >= from * (1.0 - 1e-9) && *v <= to * (1.0 + 1e-9);
+    exponents
+        .filter(|e| e.rem_euclid(stride as i32) == 0)
+        .flat_map(|e| mantissas.iter().map(move |m| scaled(*m, e)))
+        .filter(within)
+        .collect()
+}
+
+/// Zero and signed powers of ten from the end of the linear part on.
+pub fn symmetric(from: f64, to: f64, linear: f64, count: usize) -> Vec<f64> {
+    let exponents = decade(linear)..=decade(from.abs().max(to.abs()).max(linear));
+    let stride = (2 * exponents.clone().count() / count.max(1)).max(1);
+    let positive: Vec<f64> = exponents.step_by(stride).map(ten_to).collect();
+    let negative = positive.iter().rev().map(|v| -v);
+    negative.chain([0.0]).chain(positive.iter().copied()).filter(|v| (from..=to).contains(v)).collect()
+}

@@ -6,8 +6,10 @@
 mod build;
 mod constraints;
 mod equations;
+mod file;
 
 pub use equations::{Equations, Workspace};
+pub use file::{WITH_TRAILERS, known};
 
 use crate::effects::{Applied, Effect};
 use crate::error::{Error, Result};
@@ -69,7 +71,9 @@ impl Model {
         if let Some(extra) = parameters.keys().find(|k| !found.parameters.contains_key(*k)) {
             return Err(Error::input(format!("{vehicle} has no parameter {extra:?}")));
         }
-        if let Some(missing) = found.parameters.keys().find(|k| !parameters.contains_key(*k)) {
+        if let Some(missing) =
+            found.parameters.iter().find(|(k, p)| !p.optional && !parameters.contains_key(*k)).map(|(k, _)| k)
+        {
             return Err(Error::input(format!("{vehicle} needs the parameter {missing:?}")));
         }
         Ok(Self {

@@ -33,6 +33,9 @@ pub struct Quantity {
     pub unit: String,
     /// Meaning.
     pub meaning: String,
+    /// Whether it may be left out.
+    #[serde(default)]
+    pub optional: bool,
 }
 
 /// A measured input.

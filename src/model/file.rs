@@ -1,0 +1,100 @@
+//! Models from files: what a file may say, and the model it says.
+
+use super::{Model, Sensor, Trailer};
+use crate::effects::{Applied, Effect};
+use crate::error::{Error, Result};
+use crate::files::{EffectEntry, Known, KnownEffect, KnownInput, KnownParameter, KnownVehicle, ModelFile};
+use crate::vehicles::{self, Vehicle};
+
+/// The id of a vehicle with trailers; its tractor is a vehicle of the catalogue.
+pub const WITH_TRAILERS: &str = "n-trailer";
+
+/// What a model file may name: the vehicles of the catalogue and the effects of a library.
+pub fn known(library: &[Effect]) -> Known {
+    let train = KnownVehicle { id: WITH_TRAILERS.into(), trailers: true, ..KnownVehicle::default() };
+    Known {
+        vehicles: vehicles::all().iter().map(known_vehicle).chain([train]).collect(),
+        effects: library.iter().map(known_effect).collect(),
+    }
+}
+
+fn known_vehicle(v: &Vehicle) -> KnownVehicle {
+    let names =
+        |optional: bool| v.parameters.iter().filter(move |(_, p)| p.optional == optional).map(|(k, _)| k.clone());
+    let input = |(role, i): (&String, &vehicles::Input)| KnownInput {
+        role: role.clone(),
+        instead: i.instead.as_ref().map(|i| i.role.clone()),
+    };
+    KnownVehicle {
+        id: v.id.clone(),
+        parameters: names(false).collect(),
+        optional_parameters: names(true).collect(),
+        inputs: v.inputs.iter().map(input).collect(),
+        trailers: false,
+        tractor: true,
+    }
+}
+
+fn known_effect(e: &Effect) -> KnownEffect {
+    let parameter = |(name, p): (&String, &crate::effects::Parameter)| KnownParameter {
+        name: name.clone(),
+        min: p.range[0],
+        max: p.range[1],
+    };
+    KnownEffect {
+        id: e.id.clone(),
+        parameters: e.parameters.iter().map(parameter).collect(),
+        per_trailer: e.per_trailer,
+    }
+}
+
+impl Model {
+    /// The model that a file describes, logged by the given input roles.
+    ///
+    /// # Errors
+    /// When an effect of the file does not apply to its vehicle.
+    pub fn from_file(file: &ModelFile, library: &[Effect], roles: &[String]) -> Result<Model> {
+        let id = file.tractor.as_deref().unwrap_or(&file.vehicle);
+        let vehicle = vehicles::named(id).ok_or_else(|| Error::input(format!("no vehicle is called {id:?}")))?;
+        let trailers = file.trailer_lengths.iter().zip(&file.hitch_offsets);
+        let mut model = Model {
+            vehicle: vehicle.clone(),
+            trailers: trailers.map(|(length, hitch)| Trailer { length: *length, hitch: *hitch }).collect(),
+            parameters: file.parameters.clone(),
+            sensor: Sensor { lever_arm: file.sensor.lever_arm, heading_offset: file.sensor.heading_offset },
+            inputs: roles.to_vec(),
+            effects: vec![],
+        };
+        if roles.is_empty() {
+            model.inputs = vehicle.inputs.keys().cloned().collect();
+        }
+        for entry in &file.effects {
+            model.effects.push(applied(entry, library).ok_or_else(|| {
+                Error::input(format!("unknown effect {:?}", entry.id)).at_file(&file.path).at(entry.line, 1)
+            })?);
+            model.definitions().map_err(|e| {
+                let advice = "remove the entry; `creepage describe` shows what the vehicle has";
+                e.at_file(&file.path).at(entry.line, 1).help(advice)
+            })?;
+        }
+        Ok(model)
+    }
+}
+
+fn applied(entry: &EffectEntry, library: &[Effect]) -> Option<Applied> {
+    let effect = library.iter().find(|e| e.id == entry.id)?;
+    let values = effect.parameters.keys().map(|name| entry.parameters.get(name).copied());
+    Some(Applied::new(effect, entry.trailer, values.collect::<Option<_>>()?))
+}
+
+impl Applied {
+    /// The effect as an entry of a model file.
+    pub fn entry(&self) -> EffectEntry {
+        EffectEntry {
+            id: self.effect.id.clone(),
+            trailer: self.trailer,
+            parameters: self.named_values(),
+            ..EffectEntry::default()
+        }
+    }
+}

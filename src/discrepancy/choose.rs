@@ -23,6 +23,8 @@ const MOST: usize = 6;
 pub struct Scored {
     /// The effect at its fitted values.
     pub applied: Applied,
+    /// Standard deviations its values have, to first order.
+    pub std: Vec<f64>,
     /// BIC without minus BIC with the effect.
     pub delta_bic: f64,
 }
@@ -164,7 +166,7 @@ impl Selection<'_> {
             let delta_bic = base.deviance - deviance - k * n.ln();
             let fitted = full.as_ref().or(fit.as_ref()).and_then(|f| find(&f.model, &promise.applied));
             let applied = fitted.unwrap_or(promise.applied);
-            Ok((Scored { applied, delta_bic }, full))
+            Ok((Scored { applied, std: promise.std, delta_bic }, full))
         };
         let screened = self.screen(base, &base.model)?;
         let mut scored: Vec<(Scored, Option<Fit>)> =

@@ -44,19 +44,17 @@ pub struct Fit {
 }
 
 impl Problem {
-    /// Cuts runs into windows and estimates their noise; `known` noise of position and heading is kept.
-    pub fn new(records: Vec<Record>, known: Option<(f64, f64)>) -> Self {
+    /// Cuts runs into windows and estimates their noise; a known standard deviation of position (m) or heading (rad)
+    /// is kept.
+    pub fn new(records: Vec<Record>, position: Option<f64>, heading: Option<f64>) -> Self {
         let plan = super::windows::plan(&records);
-        let has = |c: Channel| records.iter().any(|r| r.channels().contains(&c));
-        let guess = |c: Channel| match (c, known) {
-            (Channel::Position, Some((position, _))) => position,
-            (Channel::Heading | Channel::Trailer, Some((_, heading))) => heading,
-            _ => noise_of(&records, c),
-        };
-        let noise = [Channel::Position, Channel::Heading, Channel::Trailer].map(|c| guess(c).powi(2));
+        let channels = [Channel::Position, Channel::Heading, Channel::Trailer];
+        let known = [position, heading, heading];
+        let present = channels.map(|c| records.iter().any(|r| r.channels().contains(&c)));
+        let noise = [0, 1, 2].map(|k| known[k].unwrap_or_else(|| noise_of(&records, channels[k])).powi(2));
         let jump = [noise[0], noise[0], noise[1], noise[2]];
-        let present = [Channel::Position, Channel::Heading, Channel::Trailer].map(has);
-        let free = Free { noise: present.map(|p| p && known.is_none()), jump: [true, true, true, present[2]] };
+        let free =
+            Free { noise: [0, 1, 2].map(|k| present[k] && known[k].is_none()), jump: [true, true, true, present[2]] };
         Self { records, plan, free, variances: Variances { noise, jump } }
     }
 

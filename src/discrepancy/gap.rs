@@ -97,8 +97,8 @@ impl<'a> Predictor<'a> {
         found
     }
 
-    /// Where the non-overlapping windows of a horizon begin and end.
-    fn windows(&self, horizon: f64) -> Vec<(Range<usize>, usize, usize)> {
+    /// Where the non-overlapping windows of a horizon begin and end, and the stretch they lie in.
+    pub fn windows(&self, horizon: f64) -> Vec<(Range<usize>, usize, usize)> {
         let time = &self.record.time;
         let mut found = Vec::new();
         for segment in self.record.segments(MARGIN) {
@@ -184,13 +184,7 @@ fn hidden_along(equations: &Equations, record: &Record) -> Vec<Vec<f64>> {
         return vec![];
     }
     let mut stepper = Stepper::new(equations, &record.signals, &[]);
-    let visible = |i: usize| {
-        let mut y: Vec<f64> = record.columns.iter().map(|c| c[i]).collect();
-        if !record.has_heading {
-            y.insert(2, 0.0);
-        }
-        y
-    };
+    let visible = |i: usize| record.measured(i);
     let mut hidden = carry::at_rest(equations, &[], &mut stepper, record.time[0], &visible(0)).z;
     let mut found = Vec::with_capacity(record.time.len());
     for i in 0..record.time.len() {

@@ -15,13 +15,17 @@
 pub mod carry;
 pub mod chain;
 pub mod choose;
+pub mod discover;
 pub mod fit;
 pub mod gap;
 pub mod html;
+pub mod locate;
+pub mod picture;
 pub mod record;
 pub mod report;
 pub mod screen;
 pub mod smooth;
 pub mod summary;
 pub mod variances;
+pub mod verdict;
 pub mod windows;

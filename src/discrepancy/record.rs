@@ -1,6 +1,7 @@
 //! A run as the fit sees it.
 
 use super::smooth;
+use crate::files::{InputTiming, Run};
 use crate::motion::{Signals, Timing};
 use std::ops::Range;
 
@@ -17,6 +18,8 @@ pub struct Record {
     pub has_heading: bool,
     /// The inputs.
     pub signals: Signals,
+    /// Trailers of the vehicle, measured or not.
+    pub trailers: usize,
     /// Rows that take part.
     pub rows: Range<usize>,
 }
@@ -44,7 +47,21 @@ impl Record {
     ) -> Self {
         let signals = Signals::new(&time, inputs, timing);
         let rows = 0..time.len();
-        Self { name: name.to_string(), time, columns, has_heading, signals, rows }
+        let trailers = columns.len() - 2 - usize::from(has_heading);
+        Self { name: name.to_string(), time, columns, has_heading, signals, trailers, rows }
+    }
+
+    /// A run as it was read, of a vehicle with some trailers.
+    pub fn of_run(run: &Run, timing: InputTiming, trailers: usize) -> Self {
+        let mut columns = vec![run.x.clone(), run.y.clone()];
+        columns.extend(run.heading.clone());
+        columns.extend(run.trailer_headings.iter().cloned());
+        let timing = match timing {
+            InputTiming::Sample => Timing::Sample,
+            InputTiming::IntervalMean => Timing::IntervalMean,
+        };
+        let record = Self::new(&run.name, run.time.clone(), columns, run.heading.is_some(), &run.inputs, timing);
+        Self { trailers, ..record }
     }
 
     /// The kind of each measured column.
@@ -97,6 +114,16 @@ impl Record {
         segments
     }
 
+    /// The measured values at a row as outputs of the equations; what is not measured is zero.
+    pub fn measured(&self, i: usize) -> Vec<f64> {
+        let mut y: Vec<f64> = self.columns.iter().map(|c| c[i]).collect();
+        if !self.has_heading {
+            y.insert(2, 0.0);
+        }
+        y.resize(3 + self.trailers, y[2]);
+        y
+    }
+
     /// The measured values smoothed around a row; a missing heading is the direction of travel.
     pub fn smoothed(&self, range: &Range<usize>, i: usize) -> Vec<f64> {
         let weights = smooth::weights(&self.time, range.clone(), i);
@@ -104,6 +131,8 @@ impl Record {
         if !self.has_heading {
             y.insert(2, self.course(range, i));
         }
+        // A trailer that nothing measures is taken to follow straight.
+        y.resize(3 + self.trailers, y[2]);
         y
     }
 

@@ -14,6 +14,8 @@ use rayon::prelude::*;
 pub struct Promise {
     /// The effect where a fit would begin, its values corrected to first order.
     pub applied: Applied,
+    /// Standard deviations its values would have.
+    pub std: Vec<f64>,
     /// Twice the negative log likelihood it promises at the noise and jumps of the model without it.
     pub deviance: f64,
 }
@@ -86,10 +88,11 @@ fn promise(problem: &Problem, base: &Fit, model: &Model, group: &[Applied]) -> R
     let weigh = |a: &Applied| {
         let own = indices(a);
         let all: Vec<usize> = kept.iter().chain(&own).copied().collect();
-        let (gain, step) = restricted_step(&e, &all)?;
+        let (gain, step, spread) = restricted_step(&e, &all)?;
+        let std = spread.as_slice()[kept.len()..].to_vec();
         let mut applied = a.clone();
         applied.values.iter_mut().zip(&step.as_slice()[kept.len()..]).for_each(|(v, s)| *v = moved(*v, *s, a));
-        Some(Promise { applied, deviance: e.cost() - gain + constant })
+        Some(Promise { applied, std, deviance: e.cost() - gain + constant })
     };
     Ok(group.iter().filter_map(weigh).collect())
 }
@@ -100,16 +103,18 @@ fn moved(value: f64, step: f64, a: &Applied) -> f64 {
     if a.effect.states.is_empty() && a.effect.starts().len() == 1 { value + step } else { value }
 }
 
-/// What the quadratic form gains when only some parameters move, and how they move.
-fn restricted_step(e: &Eliminated, indices: &[usize]) -> Option<(f64, DVector<f64>)> {
+/// What the quadratic form gains when only some parameters move, how they move, and how well they are known.
+fn restricted_step(e: &Eliminated, indices: &[usize]) -> Option<(f64, DVector<f64>, DVector<f64>)> {
     let (information, gradient) = e.normal();
     let k = indices.len();
     let mut h = DMatrix::from_fn(k, k, |i, j| information[(indices[i], indices[j])]);
     (0..k).for_each(|i| h[(i, i)] = if h[(i, i)] > 0.0 { h[(i, i)] * (1.0 + 1e-9) } else { 1.0 });
     let g = DVector::from_fn(k, |i, _| gradient[indices[i]]);
-    let step = h.cholesky()?.solve(&g);
+    let h = h.cholesky()?;
+    let step = h.solve(&g);
     let gain = g.dot(&step);
-    gain.is_finite().then(|| (gain, -step))
+    let spread = h.inverse().diagonal().map(f64::sqrt);
+    gain.is_finite().then_some((gain, -step, spread))
 }
 
 /// Fits a candidate at the noise and jumps of the model without it; a wild first step is taken back.

@@ -155,7 +155,7 @@ fn window_along(
 
 /// How many states the pose and the trailers make.
 fn visible_of(record: &Record) -> usize {
-    record.columns.len() + usize::from(!record.has_heading)
+    3 + record.trailers
 }
 
 fn wrapped(i: usize, difference: f64) -> f64 {

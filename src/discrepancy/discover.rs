@@ -1,0 +1,260 @@
+//! The main job in one line: runs → choice → gap → report.
+
+use super::choose::{Choice, Chosen, choose};
+use super::fit::Problem;
+use super::gap::{Errors, Predictor};
+use super::locate;
+use super::record::Record;
+use super::report::*;
+use super::{picture, summary, verdict};
+use crate::effects::{Applied, Effect};
+use crate::error::{Error, Result};
+use crate::files::{EffectEntry, ModelFile, Run};
+use crate::model::Model;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// Share of every run that is fitted when no run is held out.
+const FITTED_SHARE: f64 = 0.75;
+
+/// What `discover` works on.
+pub struct Request<'a> {
+    /// The model as its user believes it.
+    pub file: &'a ModelFile,
+    /// Runs to fit.
+    pub runs: &'a [Run],
+    /// Runs that are only judged.
+    pub held_out: &'a [Run],
+    /// The effects that may be named.
+    pub library: &'a [Effect],
+    /// Horizons of the gap, s; the usual ones when empty.
+    pub horizons: &'a [f64],
+    /// Seed of the noise floor's random numbers.
+    pub seed: u64,
+}
+
+/// What `discover` finds.
+pub struct Discovery {
+    /// The answer.
+    pub report: Report,
+    /// Its pictures.
+    pub pictures: Pictures,
+    /// The effects to add to the model file.
+    pub added: Vec<EffectEntry>,
+}
+
+impl Discovery {
+    /// The model file with the findings added.
+    pub fn patched(&self, file: &ModelFile) -> String {
+        file.patched(&self.added)
+    }
+}
+
+/// Runs cut into what is fitted and what is held out.
+pub(super) struct Data {
+    pub fitted: Vec<Record>,
+    pub held_out: Vec<Record>,
+}
+
+impl Data {
+    fn of(request: &Request, model: &Model) -> Self {
+        let record = |r: &Run| Record::of_run(r, request.file.input_timing, model.trailers.len());
+        let whole: Vec<Record> = request.runs.iter().map(record).collect();
+        if !request.held_out.is_empty() {
+            return Self { fitted: whole, held_out: request.held_out.iter().map(record).collect() };
+        }
+        let (fitted, held_out) = whole.iter().map(|r| r.split(FITTED_SHARE)).unzip();
+        Self { fitted, held_out }
+    }
+}
+
+/// Finds where a model and measured runs disagree, names the missing effect and shows the gap shrink.
+///
+/// The held-out data are opened after the last choice is made.
+///
+/// # Errors
+/// When runs log different inputs, or the model file's effects do not apply to its vehicle.
+pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery> {
+    let roles = common_roles(request)?;
+    let model = Model::from_file(request.file, request.library, &roles)?;
+    let data = Data::of(request, &model);
+    let known = request.file.noise;
+    let problem = Problem::new(data.fitted.clone(), known.position, known.heading);
+    if let Some(verdict) = verdict::before_fitting(&problem) {
+        return Ok(nothing_to_fit(request, &data, verdict));
+    }
+    let Some(choice) = choose(&problem, &model, request.library, progress)? else {
+        return Ok(nothing_to_fit(request, &data, verdict::undefined_motion()));
+    };
+    progress("opening the held-out data");
+    let noise = choice.after.variances.noise;
+    let before = problem.violations(&model, &noise)?;
+    let after = problem.violations(&choice.after.model, &noise)?;
+    let found = verdict::after_fitting(&choice, &after);
+    let mut report = empty_report(request, &data);
+    report.verdict = found.verdict;
+    report.next_experiment = found.next_experiment;
+    if report.verdict != Verdict::UnusableData {
+        report.effects = choice.chosen.iter().map(|c| named(c, &model)).collect();
+    }
+    report.disagreement = locate::disagreements(&before);
+    let horizons = horizons(request);
+    report.gap = gaps(&data, &model, &choice, &horizons, request.seed)?;
+    report.steps = steps(&data, &choice, &report.gap)?;
+    report.summary = found.sentence.unwrap_or_else(|| summary::verdict_sentence(&report));
+    let added = match report.verdict {
+        Verdict::UnusableData => vec![],
+        _ => choice.chosen.iter().map(|c| c.applied.entry()).collect(),
+    };
+    let mut pictures = picture::pictures(&data, &model, &choice, &report, request.seed)?;
+    for (b, a) in before.iter().zip(&after) {
+        pictures.residuals.extend(b.pictures(a));
+    }
+    Ok(Discovery { report, pictures, added })
+}
+
+/// The input roles that all runs log.
+fn common_roles(request: &Request) -> Result<Vec<String>> {
+    let mut all = request.runs.iter().chain(request.held_out);
+    let first = all.next().ok_or_else(|| Error::input("no run was given").help("name at least one CSV file"))?;
+    for run in all {
+        if run.roles != first.roles {
+            let message = format!("logs {} where {} logs {}", run.roles.join(", "), first.name, first.roles.join(", "));
+            return Err(Error::input(message).at_file(&run.path).help("give runs of one kind in one call"));
+        }
+        if run.heading.is_some() != first.heading.is_some() {
+            let message = format!(
+                "{} measures a heading, the other does not",
+                if run.heading.is_some() { &run.name } else { &first.name }
+            );
+            return Err(Error::input(message).at_file(&run.path).help("give runs of one kind in one call"));
+        }
+    }
+    Ok(first.roles.clone())
+}
+
+fn empty_report(request: &Request, data: &Data) -> Report {
+    let runs = || request.runs.iter().chain(request.held_out);
+    let mut why_dropped: BTreeMap<String, usize> = BTreeMap::new();
+    runs().flat_map(|r| &r.why_dropped).for_each(|(why, n)| *why_dropped.entry(why.clone()).or_default() += n);
+    let warnings = runs().flat_map(|r| r.warnings.iter().map(move |w| format!("{}: {w}", r.name)));
+    let mut hashes: BTreeMap<String, String> =
+        runs().map(|r| (r.path.to_string_lossy().into_owned(), r.sha256.clone())).collect();
+    hashes.insert(request.file.path.to_string_lossy().into_owned(), request.file.sha256.clone());
+    let warnings = warnings.chain(data.warnings()).collect();
+    Report {
+        schema: 1,
+        verdict: Verdict::NoMissingEffect,
+        summary: String::new(),
+        effects: vec![],
+        unnamed: vec![],
+        disagreement: vec![],
+        gap: vec![],
+        next_experiment: None,
+        steps: vec![],
+        data: DataSummary {
+            runs: runs().count(),
+            rows: runs().map(|r| r.time.len()).sum(),
+            rows_dropped: runs().map(|r| r.rows_dropped).sum(),
+            why_dropped,
+            warnings,
+        },
+        provenance: Provenance { version: env!("CARGO_PKG_VERSION").into(), seed: request.seed, inputs_sha256: hashes },
+    }
+}
+
+impl Data {
+    /// Where logs were interrupted.
+    fn warnings(&self) -> impl Iterator<Item = String> + '_ {
+        self.fitted.iter().chain(&self.held_out).filter_map(|r| {
+            let pieces = r.segments(0.0).len();
+            (pieces > 1).then(|| format!("{}: the log is interrupted; it is used in {pieces} pieces", r.name))
+        })
+    }
+}
+
+fn nothing_to_fit(request: &Request, data: &Data, outcome: verdict::Outcome) -> Discovery {
+    let mut report = empty_report(request, data);
+    report.verdict = outcome.verdict;
+    report.summary = outcome.sentence.unwrap_or_else(|| summary::verdict_sentence(&report));
+    report.next_experiment = outcome.next_experiment;
+    let paths = data.fitted.iter().map(|r| picture::measured_path(r, false)).collect();
+    Discovery { report, pictures: Pictures { paths, ..Pictures::default() }, added: vec![] }
+}
+
+/// A chosen effect as the report lists it.
+fn named(chosen: &Chosen, model: &Model) -> Named {
+    let a = &chosen.applied;
+    let values = a.effect.parameters.iter().zip(&a.values).zip(&chosen.std);
+    let mut parameters: BTreeMap<String, Estimate> = values
+        .map(|(((name, p), value), std)| (name.clone(), Estimate { value: *value, std: *std, unit: p.unit.clone() }))
+        .collect();
+    if let Some(i) = a.trailer {
+        parameters.insert("trailer".into(), Estimate { value: i as f64, std: None, unit: "1".into() });
+    }
+    let rival = |r: &Applied| Rival { id: r.effect.id.clone(), why: "data".into() };
+    Named {
+        id: a.effect.id.clone(),
+        place: a.effect.place.clone(),
+        parameters,
+        evidence: Evidence { delta_bic: chosen.delta_bic, p_value: chosen.p_value },
+        indistinguishable_from: chosen.rivals.iter().map(rival).collect(),
+        equation: picture::equation(a, model),
+    }
+}
+
+fn horizons(request: &Request) -> Vec<f64> {
+    let mut h = if request.horizons.is_empty() { vec![1.0, 5.0, 30.0] } else { request.horizons.to_vec() };
+    h.sort_by(f64::total_cmp);
+    h.dedup();
+    h
+}
+
+/// Errors over all records of a kind.
+pub(super) fn errors(records: &[Record], model: &Model, horizon: f64) -> Result<Errors> {
+    let each = records.par_iter().map(|r| Ok(Predictor::new(model, r)?.errors(horizon)));
+    Ok(each.collect::<Result<Vec<_>>>()?.into_iter().fold(Errors::default(), Errors::joined))
+}
+
+/// The noise floor over all records of a kind.
+pub(super) fn floor(records: &[Record], choice: &Choice, horizon: f64, seed: u64) -> Result<Errors> {
+    let of = |(i, r): (usize, &Record)| {
+        let predictor = Predictor::new(&choice.after.model, r)?;
+        Ok(predictor.floor(horizon, &choice.after.variances.noise, seed.wrapping_add(i as u64)))
+    };
+    let each: Vec<Errors> = records.par_iter().enumerate().map(of).collect::<Result<_>>()?;
+    Ok(each.into_iter().fold(Errors::default(), Errors::joined))
+}
+
+fn gaps(data: &Data, model: &Model, choice: &Choice, horizons: &[f64], seed: u64) -> Result<Vec<Gap>> {
+    let mut found = Vec::new();
+    for &horizon in horizons {
+        let compare = |records: &[Record]| -> Result<Option<BeforeAfter>> {
+            let (before, after) = (errors(records, model, horizon)?, errors(records, &choice.after.model, horizon)?);
+            Ok((before.windows() > 0).then(|| BeforeAfter {
+                position_rms_before: before.position_rms(),
+                position_rms_after: after.position_rms(),
+                heading_rms_before: before.heading_rms(),
+                heading_rms_after: after.heading_rms(),
+            }))
+        };
+        let (fit, held_out) = (compare(&data.fitted)?, compare(&data.held_out)?);
+        if fit.is_none() && held_out.is_none() {
+            continue;
+        }
+        let judged = if held_out.is_some() { &data.held_out } else { &data.fitted };
+        let floor = floor(judged, choice, horizon, seed)?;
+        let noise_floor = Floor { position_rms: floor.position_rms(), heading_rms: floor.heading_rms() };
+        found.push(Gap { horizon_s: horizon, fit, held_out, noise_floor });
+    }
+    Ok(found)
+}
+
+/// The fitting data's gap after each addition.
+fn steps(data: &Data, choice: &Choice, gaps: &[Gap]) -> Result<Vec<Step>> {
+    let Some(horizon) = summary::middle(gaps).map(|g| g.horizon_s) else { return Ok(vec![]) };
+    let step = |(added, model): &(String, Model)| {
+        Ok(Step { added: added.clone(), gap_after: errors(&data.fitted, model, horizon)?.position_rms() })
+    };
+    choice.steps.iter().map(step).collect()
+}

@@ -1,0 +1,207 @@
+//! Where model and measurement disagree: constraint by constraint, window by window.
+
+use super::fit::{Problem, pose_of};
+use super::record::Record;
+use super::report::{Disagreement, ResidualPicture};
+use super::smooth;
+use super::windows::{self, Linear, Segment};
+use crate::error::Result;
+use crate::model::Model;
+
+/// Names and units of the violated rates, in the order of a window's mismatch.
+pub const CONSTRAINTS: [(&str, &str); 4] = [
+    ("rotation constraint", "m/s"),
+    ("traverse constraint", "m/s"),
+    ("yaw rate", "rad/s"),
+    ("trailer constraint", "rad/s"),
+];
+
+/// What one window says.
+#[derive(Clone, Debug)]
+struct Window {
+    middle: f64,
+    span: [f64; 2],
+    /// Violated rates: along, across, yaw, trailers.
+    rates: Vec<f64>,
+    /// Mean speed, m/s, and yaw rate, rad/s, measured.
+    speed: f64,
+    yaw: f64,
+}
+
+/// Violated rates of a run under a model, restarted in every window from smoothed measurements.
+///
+/// The rate of a constraint is the distance (or angle) by which the model misses the next smoothed pose, along the
+/// body, across it and in yaw, over the duration of the window.
+#[derive(Clone, Debug, Default)]
+pub struct Violation {
+    run: String,
+    windows: Vec<Window>,
+    /// Standard deviation that noise gives each rate.
+    noise: [f64; 4],
+}
+
+impl Violation {
+    /// The violation along a run.
+    ///
+    /// # Errors
+    /// When the model's formulas are malformed.
+    pub fn of(model: &Model, record: &Record, noise: &[f64; 3]) -> Result<Self> {
+        let equations = model.equations(&[])?;
+        let plan = windows::plan(std::slice::from_ref(record));
+        let smoothed = |s: &Segment| -> Vec<Vec<f64>> {
+            let whole = s.windows[0].start..s.windows[s.windows.len() - 1].end;
+            s.windows.iter().map(|w| record.smoothed(&whole, w.start)).collect()
+        };
+        let measured: Vec<Vec<Vec<f64>>> = plan.iter().map(smoothed).collect();
+        let starts = measured.iter().map(|s| s.iter().map(|y| pose_of(&equations, y)).collect()).collect();
+        let linear = windows::linearise(&equations, &[], std::slice::from_ref(record), &plan, &starts);
+        let mut found = Self { run: record.name.clone(), ..Self::default() };
+        let Some(linear) = linear else { return Ok(found) };
+        for ((segment, lines), measured) in plan.iter().zip(&linear).zip(&measured) {
+            for (k, line) in lines.iter().enumerate().filter(|(_, l)| !l.mismatch.is_empty()) {
+                let t = |k: usize| record.time[segment.windows[k].start];
+                found.windows.push(window(line, [t(k), t(k + 1)], &measured[k], &measured[k + 1]));
+            }
+        }
+        found.noise = found.noise_of(record, &plan, noise);
+        Ok(found)
+    }
+
+    /// Smoothing noise at both ends of a window; a heading off by δ moves the end across by v·W·δ.
+    fn noise_of(&self, record: &Record, plan: &[Segment], noise: &[f64; 3]) -> [f64; 4] {
+        let Some(segment) = plan.first() else { return [0.0; 4] };
+        let whole = segment.windows[0].start..segment.windows[segment.windows.len() - 1].end;
+        let i = segment.windows[segment.windows.len() / 2].start;
+        let share: f64 = smooth::weights(&record.time, whole, i).iter().map(|(_, w)| w * w).sum();
+        let count = self.windows.len().max(1) as f64;
+        let duration = self.windows.iter().map(|w| w.span[1] - w.span[0]).sum::<f64>() / count;
+        let speed = (self.windows.iter().map(|w| w.speed * w.speed).sum::<f64>() / count).sqrt();
+        let [position, heading, trailer] = noise.map(|v| (2.0 * share * v).sqrt() / duration);
+        let across = position.hypot((share * noise[1]).sqrt() * speed);
+        [position, across, heading, trailer.hypot(heading)]
+    }
+
+    fn constraints(&self) -> usize {
+        self.windows.first().map_or(0, |w| w.rates.len().min(4))
+    }
+
+    /// Root mean square of the violated rates and of the measured motion: along and across in m/s, yaw in rad/s.
+    pub fn against_motion(&self) -> [(f64, f64); 2] {
+        let rms = |f: &dyn Fn(&Window) -> f64| {
+            (self.windows.iter().map(f).sum::<f64>() / self.windows.len().max(1) as f64).sqrt()
+        };
+        let miss = rms(&|w| w.rates[0].powi(2) + w.rates[1].powi(2));
+        [(miss, rms(&|w| w.speed.powi(2))), (rms(&|w| w.rates[2].powi(2)), rms(&|w| w.yaw.powi(2)))]
+    }
+
+    /// The pictures of each constraint, before and after.
+    pub fn pictures(&self, after: &Violation) -> Vec<ResidualPicture> {
+        let rates = |v: &Violation, c: usize| v.windows.iter().map(|w| w.rates[c]).collect::<Vec<f64>>();
+        let picture = |c: usize| ResidualPicture {
+            constraint: CONSTRAINTS[c].0.into(),
+            run: self.run.clone(),
+            unit: CONSTRAINTS[c].1.into(),
+            time: self.windows.iter().map(|w| w.middle).collect(),
+            before: rates(self, c),
+            after: rates(after, c),
+            noise: self.noise[c],
+        };
+        (0..self.constraints()).map(picture).collect()
+    }
+
+    /// Sum of squared violations of each constraint in units of their noise.
+    fn energy(&self, c: usize) -> f64 {
+        self.windows.iter().map(|w| (w.rates[c] / self.noise[c]).powi(2)).sum()
+    }
+}
+
+fn window(line: &Linear, span: [f64; 2], from: &[f64], to: &[f64]) -> Window {
+    let travelled = (to[0] - from[0]).hypot(to[1] - from[1]);
+    Window {
+        middle: 0.5 * (span[0] + span[1]),
+        span,
+        rates: line.mismatch.iter().map(|m| m / line.duration).collect(),
+        speed: travelled / line.duration,
+        yaw: (to[2] - from[2]) / line.duration,
+    }
+}
+
+/// Which windows belong to a regime.
+type Regime = fn(&Window, &Window, &Typical) -> bool;
+
+/// Typical motion of a run.
+struct Typical {
+    speed: f64,
+    yaw: f64,
+}
+
+const REGIMES: [(&str, Regime); 8] = [
+    ("left turns", |w, _, t| w.yaw > 0.5 * t.yaw),
+    ("right turns", |w, _, t| w.yaw < -0.5 * t.yaw),
+    ("turns to both sides", |w, _, t| w.yaw.abs() > 0.5 * t.yaw),
+    ("straight driving", |w, _, t| w.yaw.abs() < 0.3 * t.yaw),
+    ("fast driving", |w, _, t| w.speed > 1.15 * t.speed),
+    ("slow driving", |w, _, t| w.speed < 0.85 * t.speed),
+    ("speeding up", |w, last, t| w.speed - last.speed > 0.08 * t.speed),
+    ("slowing down", |w, last, t| w.speed - last.speed < -0.08 * t.speed),
+];
+
+/// The regime in which a constraint is violated most, when one stands out.
+fn regime(v: &Violation, c: usize) -> &'static str {
+    let n = v.windows.len() as f64;
+    let rms = |f: &dyn Fn(&Window) -> f64| (v.windows.iter().map(f).sum::<f64>() / n).sqrt();
+    let typical = Typical { speed: rms(&|w| w.speed.powi(2)), yaw: rms(&|w| w.yaw.powi(2)) };
+    let mean = rms(&|w| w.rates[c].powi(2)).powi(2);
+    let mut best = ("the whole run", 1.4);
+    for (name, holds) in REGIMES {
+        let inside: Vec<f64> = v
+            .windows
+            .iter()
+            .zip(std::iter::once(&v.windows[0]).chain(&v.windows))
+            .filter(|(w, last)| holds(w, last, &typical))
+            .map(|(w, _)| w.rates[c].powi(2))
+            .collect();
+        let ratio = inside.iter().sum::<f64>() / inside.len().max(1) as f64 / mean;
+        if inside.len() >= 5 && ratio > best.1 {
+            best = (name, ratio);
+        }
+    }
+    best.0
+}
+
+/// Where the model disagrees with the measurements by more than their noise: run by run, constraint by constraint,
+/// from the first to the last window that stands out, with its share of the whole disagreement.
+pub fn disagreements(violations: &[Violation]) -> Vec<Disagreement> {
+    let total: f64 = violations.iter().map(|v| (0..v.constraints()).map(|c| v.energy(c)).sum::<f64>()).sum();
+    let mut found = Vec::new();
+    for v in violations {
+        for (c, (place, _)) in CONSTRAINTS.iter().enumerate().take(v.constraints()) {
+            let energy = v.energy(c);
+            let out: Vec<&Window> = v.windows.iter().filter(|w| w.rates[c].abs() > 3.0 * v.noise[c]).collect();
+            // Noise alone gives one window in 370; a disagreement fills more.
+            if out.len() < 3 || energy < 2.0 * v.windows.len() as f64 {
+                continue;
+            }
+            found.push(Disagreement {
+                run: v.run.clone(),
+                place: (*place).into(),
+                from: out[0].span[0],
+                to: out[out.len() - 1].span[1],
+                regime: regime(v, c).into(),
+                share_of_gap: energy / total,
+            });
+        }
+    }
+    found.sort_by(|a, b| b.share_of_gap.total_cmp(&a.share_of_gap));
+    found
+}
+
+impl Problem {
+    /// Violations along every run of a problem.
+    ///
+    /// # Errors
+    /// As [`Violation::of`].
+    pub fn violations(&self, model: &Model, noise: &[f64; 3]) -> Result<Vec<Violation>> {
+        self.records.iter().map(|r| Violation::of(model, r, noise)).collect()
+    }
+}

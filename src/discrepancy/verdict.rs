@@ -1,0 +1,125 @@
+//! The verdict: the first of the contract's five that holds.
+
+use super::choose::{Choice, Scored};
+use super::fit::Problem;
+use super::locate::Violation;
+use super::report::{NextExperiment, Verdict};
+
+/// A verdict with what there is to say about it.
+pub struct Outcome {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// A sentence that says more than the usual one.
+    pub sentence: Option<String>,
+    /// What to drive next.
+    pub next_experiment: Option<NextExperiment>,
+}
+
+/// Windows that a statement about effects needs at least.
+const FEWEST_WINDOWS: usize = 5;
+/// A model that misses more than this share of the motion does not describe it.
+const HOPELESS: f64 = 0.5;
+
+/// Unusable or too short before anything is fitted.
+pub fn before_fitting(problem: &Problem) -> Option<Outcome> {
+    if !moves(problem) {
+        let sentence = "The vehicle does not move in these runs, so nothing can be said about its model.";
+        return Some(outcome(Verdict::UnusableData, sentence, Some(drive("a model is tested by motion"))));
+    }
+    (problem.windows() < FEWEST_WINDOWS).then(|| {
+        let sentence = format!(
+            "These runs are too short to tell: {} windows of one second, and at least {FEWEST_WINDOWS} are needed.",
+            problem.windows()
+        );
+        outcome(Verdict::NotIdentifiable, &sentence, Some(drive("the runs are too short")))
+    })
+}
+
+/// The model cannot be evaluated along the runs.
+pub fn undefined_motion() -> Outcome {
+    let sentence =
+        "The model is undefined somewhere along these runs (a steering angle of 90°, say), so it cannot be fitted.";
+    outcome(Verdict::UnusableData, sentence, None)
+}
+
+fn outcome(verdict: Verdict, sentence: &str, next_experiment: Option<NextExperiment>) -> Outcome {
+    Outcome { verdict, sentence: Some(sentence.into()), next_experiment }
+}
+
+fn drive(why: &str) -> NextExperiment {
+    NextExperiment {
+        why: why.into(),
+        manoeuvre: "drive at least 60 s at changing speed with turns to both sides, such as figures of eight".into(),
+    }
+}
+
+/// Whether any run leaves its place by more than its noise.
+fn moves(problem: &Problem) -> bool {
+    let noise = problem.variances.noise.map(f64::sqrt);
+    let span = |column: &[f64]| {
+        let (low, high) = column.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(*x), h.max(*x)));
+        high - low
+    };
+    problem.records.iter().any(|r| {
+        let part = |c: usize| &r.columns[c][r.rows.clone()];
+        let moved = (0..2).any(|c| span(part(c)) > 20.0 * noise[0].max(1e-6));
+        moved || (r.has_heading && span(part(2)) > 20.0 * noise[1].max(1e-6))
+    })
+}
+
+/// The verdict after the choice.
+pub fn after_fitting(choice: &Choice, after: &[Violation]) -> Outcome {
+    if let Some(sentence) = hopeless(after) {
+        return outcome(Verdict::UnusableData, &sentence, None);
+    }
+    if !choice.chosen.is_empty() {
+        let rivals = choice.chosen.iter().find(|c| !c.rivals.is_empty());
+        let next_experiment = rivals.map(|c| NextExperiment {
+            why: format!("these runs do not tell {} from {}", c.applied.label(), c.rivals[0].label()),
+            manoeuvre: "repeat the runs at clearly different speeds and with turns to both sides".into(),
+        });
+        return Outcome { verdict: Verdict::MissingEffect, sentence: None, next_experiment };
+    }
+    match missed(&choice.candidates) {
+        Some(candidate) => {
+            let label = candidate.applied.label();
+            let sentence =
+                format!("Nothing significant was found, but these runs could not have shown a plausible {label}.");
+            outcome(
+                Verdict::NotIdentifiable,
+                &sentence,
+                Some(drive(&format!("a plausible {label} would have been missed"))),
+            )
+        }
+        None => Outcome { verdict: Verdict::NoMissingEffect, sentence: None, next_experiment: None },
+    }
+}
+
+/// A model that misses most of the motion, whatever is added to it.
+fn hopeless(after: &[Violation]) -> Option<String> {
+    let sums = after
+        .iter()
+        .map(Violation::against_motion)
+        .fold([(0.0, 0.0); 2], |sum, v| [0, 1].map(|k| (sum[k].0 + v[k].0 * v[k].0, sum[k].1 + v[k].1 * v[k].1)));
+    let share = |(miss, motion): (f64, f64)| (miss / motion.max(f64::MIN_POSITIVE)).sqrt();
+    let position = share(sums[0]);
+    (position > HOPELESS).then(|| {
+        format!(
+            "The model misses {:.0} % of the motion over one second, whatever is added: clocks, columns or units do not \
+             match, or the wheels spin.",
+            100.0 * position.min(1.0)
+        )
+    })
+}
+
+/// Effects every vehicle has in one form or another: if one of plausible size could hide, silence means nothing.
+const BASIC: [&str; 6] =
+    ["rotation-creep", "traverse-creep", "yaw-rate-bias", "yaw-rate-scale", "track-width", "steering-offset"];
+
+/// A basic effect that would not have stood out at its plausible size.
+fn missed(candidates: &[Scored]) -> Option<&Scored> {
+    candidates.iter().find(|c| {
+        let sizes = c.applied.effect.parameters.values().map(|p| p.size);
+        BASIC.contains(&c.applied.effect.id.as_str()) && sizes.zip(&c.std).any(|(size, std)| 4.0 * std > size)
+    })
+}

@@ -1,0 +1,56 @@
+//! The command line: arguments → one library call → print.
+
+mod discover;
+mod progress;
+
+use clap::{Args, Parser, Subcommand};
+use creepage::{Error, Result};
+
+/// Creep kinematics of nonholonomic vehicles: constraints derived, models corrected by measured runs.
+#[derive(Parser)]
+#[command(name = "creepage", version, about, arg_required_else_help = true)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Command,
+    #[command(flatten)]
+    common: Common,
+}
+
+/// Options of every command.
+#[derive(Args)]
+struct Common {
+    /// Print nothing but errors
+    #[arg(long, short, global = true)]
+    quiet: bool,
+    /// Threads to use; the output is the same for every number [default: all cores]
+    #[arg(long, global = true, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Discover(discover::Arguments),
+}
+
+impl Cli {
+    /// Carries out the command.
+    ///
+    /// # Errors
+    /// With the exit code the contract gives.
+    pub fn run(self) -> Result<()> {
+        if let Some(n) = self.common.threads {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(n)).build_global();
+            pool.map_err(|e| Error::run(format!("no threads could be started: {e}")))?;
+        }
+        match self.command {
+            Command::Discover(arguments) => discover::run(&arguments, self.common.quiet),
+        }
+    }
+}
+
+/// Writes text to standard output; a reader that has gone away is no error.
+fn print(text: &str) {
+    use std::io::Write;
+    let mut out = std::io::stdout().lock();
+    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}

@@ -15,9 +15,9 @@ const ARRIVED: f64 = 1e-13;
 /// | u0 | inputs, in the order of [`Equations::inputs`] |
 /// | pose | visible states: x, y, phi, trailer headings |
 ///
-/// Newton's method on the hidden rates with their exact Jacobian, from zero. Zero for all of them where
-/// there is no such state or it is not isolated, as for a vehicle at standstill whose creep builds up over
-/// a distance. Source: the quasi-static values of the contract's table of effects, −mass_over_bT·v_l·φ̇ and others.
+/// Newton's method on the hidden rates with their exact Jacobian, from zero, else from 1 and −1, since a law
+/// with |v| has no derivative at standstill. Zero for all of them where there is no such state or it is not
+/// isolated, as for a vehicle at standstill whose creep builds up over a distance. Source: the quasi-static values of the contract's table of effects, −mass_over_bT·v_l·φ̇ and others.
 ///
 /// ```
 /// use creepage::effects::{self, Applied};
@@ -31,17 +31,22 @@ const ARRIVED: f64 = 1e-13;
 pub fn initial_hidden(equations: &Equations, p: &[f64], u0: &[f64], pose: &[f64]) -> Vec<f64> {
     let (n, visible) = (equations.n(), equations.visible);
     let mut w = equations.workspace(p);
-    let mut z = pose.to_vec();
-    z.resize(n, 0.0);
-    let found = newton(&mut z, visible, |z| {
+    let mut hidden_rates = |z: &[f64]| {
         let all = equations.rates_and_jacobian(&mut w, z, u0);
         let width = (all.len() - n) / n;
         let by_hidden = |i: usize, k: usize| all[n + i * width + k];
         let hidden = n - visible;
         let jacobian = DMatrix::from_fn(hidden, hidden, |i, k| by_hidden(visible + i, visible + k));
         (DVector::from_column_slice(&all[visible..n]), jacobian)
-    });
-    if found { z.split_off(visible) } else { vec![0.0; n - visible] }
+    };
+    for start in [0.0, 1.0, -1.0] {
+        let mut z = pose.to_vec();
+        z.resize(n, start);
+        if newton(&mut z, visible, &mut hidden_rates) {
+            return z.split_off(visible);
+        }
+    }
+    vec![0.0; n - visible]
 }
 
 /// The visible states of which the sensor would measure these values.

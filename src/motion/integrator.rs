@@ -11,7 +11,7 @@
 //! | a span of no length is a step size underflow | it returns its start |
 //! | an undefined right-hand side at the start gives a first step that is NaN and 100,000 steps of NaN | the start is evaluated before |
 //! | an absolute tolerance of zero divides zero by zero where a state is zero | it is refused |
-//! | `hinit` makes the first step of every span small | a span starts with up to twice the longest step of the span before |
+//! | `hinit` makes the first step of every span small | a span starts from the longest step of the span before |
 //! | the test for stiffness ends a run that is only slow | it is switched off; `max_steps` bounds the work |
 //! | `Dop853` allows `n_max` steps, `Dopri5` one more | left so |
 
@@ -198,10 +198,11 @@ impl Walk {
         end.ok_or(IntegrationError::StepSizeUnderflow { x: 0.0 })
     }
 
-    /// Notes the work done; a span of one step says nothing against longer ones.
+    /// Notes the work done. A span of one step says nothing against longer ones; where it took several, the next
+    /// begins with little more than the longest of them, since a first step that is refused is a step wasted.
     fn account(&mut self, longest: f64, stats: Stats) {
-        let cut_short = stats.accepted_steps == 1 && stats.rejected_steps == 0;
-        self.first = if cut_short { self.first.max(2.0 * longest) } else { 2.0 * longest };
+        let one = stats.accepted_steps == 1;
+        self.first = if one { self.first.max(2.0 * longest) } else { 1.2 * longest };
         self.left = self.left.saturating_sub(stats.accepted_steps + stats.rejected_steps);
     }
 

@@ -1,8 +1,20 @@
 //! Motion: inputs as signals, trajectories and their exact sensitivities.
 
+mod conservative;
+mod drive;
+mod initial;
+mod integrator;
 mod signal;
+mod simulate;
 mod spline;
 mod stepper;
+mod trajectory;
 
+pub use conservative::{EndPoint, Instant, Reading, fig7_case, fig7_path, fig7_stepwise};
+pub use drive::{Drive, Formulas};
+pub use initial::{initial_hidden, visible_state};
+pub use integrator::{Integrator, Method};
 pub use signal::{Signals, Timing};
+pub use simulate::{Table, simulate_model};
 pub use stepper::{Arc, Stepper};
+pub use trajectory::{simulate, with_sensitivities};

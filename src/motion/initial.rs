@@ -1,0 +1,106 @@
+//! Where a trajectory begins: hidden states at rest with respect to their inputs, visible ones from a measurement.
+
+use crate::error::{Error, Result};
+use crate::model::Equations;
+use nalgebra::{DMatrix, DVector};
+
+/// The most steps of Newton's method, and what counts as arrived.
+const STEPS: usize = 50;
+const ARRIVED: f64 = 1e-13;
+
+/// The hidden states at which their own rates vanish under constant inputs: the quasi-static values.
+///
+/// | symbol | meaning |
+/// |---|---|
+/// | u0 | inputs, in the order of [`Equations::inputs`] |
+/// | pose | visible states: x, y, phi, trailer headings |
+///
+/// Newton's method on the hidden rates with their exact Jacobian, from zero, else from 1 and −1, since a law
+/// with |v| has no derivative at standstill. Zero for all of them where there is no such state or it is not
+/// isolated, as for a vehicle at standstill whose creep builds up over a distance. Source: the quasi-static values of the contract's table of effects, −mass_over_bT·v_l·φ̇ and others.
+///
+/// ```
+/// use creepage::effects::{self, Applied};
+/// use creepage::model::Model;
+/// use creepage::motion::initial_hidden;
+/// let slide = Applied::new(effects::named("cornering-creep").unwrap(), None, vec![0.2]);
+/// let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap().with_effect(slide);
+/// let hidden = initial_hidden(&model.equations(&[]).unwrap(), &[], &[4.0, 1.0], &[0.0; 3]);
+/// assert!((hidden[0] + 0.4).abs() < 1e-12); // −0.2 s · 2 m/s · 1 rad/s
+/// ```
+pub fn initial_hidden(equations: &Equations, p: &[f64], u0: &[f64], pose: &[f64]) -> Vec<f64> {
+    let (n, visible) = (equations.n(), equations.visible);
+    let mut w = equations.workspace(p);
+    let mut hidden_rates = |z: &[f64]| {
+        let all = equations.rates_and_jacobian(&mut w, z, u0);
+        let width = (all.len() - n) / n;
+        let by_hidden = |i: usize, k: usize| all[n + i * width + k];
+        let hidden = n - visible;
+        let jacobian = DMatrix::from_fn(hidden, hidden, |i, k| by_hidden(visible + i, visible + k));
+        (DVector::from_column_slice(&all[visible..n]), jacobian)
+    };
+    for start in [0.0, 1.0, -1.0] {
+        let mut z = pose.to_vec();
+        z.resize(n, start);
+        if newton(&mut z, visible, &mut hidden_rates) {
+            return z.split_off(visible);
+        }
+    }
+    vec![0.0; n - visible]
+}
+
+/// The visible states of which the sensor would measure these values.
+///
+/// | symbol | unit | meaning |
+/// |---|---|---|
+/// | measured | m, rad | x, y, heading and trailer headings as the sensor sees them |
+///
+/// Undoes lever arm, heading offset and whatever else the outputs of [`Equations`] hold, by Newton's method
+/// with their exact Jacobian.
+///
+/// # Errors
+/// When no visible state gives these values, or a value is not finite.
+///
+/// ```
+/// use creepage::model::Model;
+/// use creepage::motion::visible_state;
+/// let mut model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+/// model.sensor.lever_arm = [0.3, 0.0];
+/// let half_turn = std::f64::consts::PI;
+/// let z = visible_state(&model.equations(&[]).unwrap(), &[], &[1.0, 0.0, half_turn]).unwrap();
+/// assert!((z[0] - 1.3).abs() < 1e-12); // the antenna looks back
+/// ```
+pub fn visible_state(equations: &Equations, p: &[f64], measured: &[f64]) -> Result<Vec<f64>> {
+    let n = equations.visible;
+    if measured.len() != n {
+        return Err(Error::input(format!("{} measured values are given, the model has {n}", measured.len())));
+    }
+    let mut w = equations.workspace(p);
+    let mut z = measured.to_vec();
+    let found = newton(&mut z, 0, |z| {
+        let all = equations.outputs(&mut w, z);
+        let width = (all.len() - n) / n;
+        let error = DVector::from_fn(n, |i, _| all[i] - measured[i]);
+        (error, DMatrix::from_fn(n, n, |i, k| all[n + i * width + k]))
+    });
+    if found { Ok(z) } else { Err(Error::run("no pose of the vehicle gives the measured initial pose")) }
+}
+
+/// Newton's method on the components of z from `first` on; whether it arrived.
+fn newton(z: &mut [f64], first: usize, mut f: impl FnMut(&[f64]) -> (DVector<f64>, DMatrix<f64>)) -> bool {
+    if first == z.len() {
+        return true;
+    }
+    for _ in 0..STEPS {
+        let (value, jacobian) = f(z);
+        let Some(step) = jacobian.lu().solve(&value) else { return false };
+        if !step.iter().all(|v| v.is_finite()) {
+            return false;
+        }
+        z[first..].iter_mut().zip(&step).for_each(|(z, s)| *z -= s);
+        if z[first..].iter().zip(&step).all(|(z, s)| s.abs() <= ARRIVED * (1.0 + z.abs())) {
+            return true;
+        }
+    }
+    false
+}

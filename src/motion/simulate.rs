@@ -1,0 +1,131 @@
+//! What a model does under given inputs, as a table.
+
+use super::{Drive, Integrator, initial_hidden, simulate, visible_state};
+use crate::error::{Error, Result};
+use crate::formula::{Graph, Program, Symbol};
+use crate::model::{Equations, Model, Workspace};
+
+/// Named columns of equal length.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// Names of the columns.
+    pub names: Vec<String>,
+    /// Values, column by column.
+    pub columns: Vec<Vec<f64>>,
+}
+
+impl Table {
+    /// The column of that name.
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        self.names.iter().position(|n| n == name).map(|i| self.columns[i].as_slice())
+    }
+
+    /// How many rows there are.
+    pub fn rows(&self) -> usize {
+        self.columns.first().map_or(0, Vec::len)
+    }
+}
+
+/// Simulates a model under given inputs from a measured pose and tabulates what a logger would see.
+///
+/// | column | unit | meaning |
+/// |---|---|---|
+/// | `time` | s | the given times; the first is that of `start` |
+/// | `x`, `y`, `heading` | m, rad | measured pose: lever arm and heading offset included; the heading is not wrapped |
+/// | `trailer_heading_1` … | rad | headings of the trailers, not wrapped |
+/// | `speed` | m/s | v_l, forward speed of the reference point |
+/// | `lateral_speed` | m/s | v_t, its speed to the left |
+/// | `yaw_rate` | rad/s | rate of the body's heading |
+/// | the states of the effects by their symbols | | such as `cornering_creep.w` |
+///
+/// `start` holds what the sensor measures at the first time: x, y, heading, trailer headings. States that no
+/// sensor sees begin at their quasi-static values, see [`initial_hidden`].
+///
+/// # Errors
+/// As [`simulate`], [`visible_state`], and when a speed is undefined.
+///
+/// ```
+/// use creepage::model::Model;
+/// use creepage::motion::{simulate_model, Integrator, Signals, Timing};
+/// let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+/// let t = [0.0, 0.5, 1.0];
+/// let inputs = Signals::new(&t, &[vec![2.0; 3], vec![0.1; 3]], Timing::Sample);
+/// let table = simulate_model(&model, &inputs, &t, &[0.0; 3], &Integrator::default()).unwrap();
+/// assert!((table.column("heading").unwrap()[2] - 0.1).abs() < 1e-12);
+/// assert_eq!(table.column("speed").unwrap(), [1.0; 3]);
+/// ```
+pub fn simulate_model(
+    model: &Model,
+    inputs: &impl Drive,
+    times: &[f64],
+    start: &[f64],
+    integrator: &Integrator,
+) -> Result<Table> {
+    let equations = model.equations(&[])?;
+    let first = *times.first().ok_or_else(|| Error::input("a simulation needs at least one time"))?;
+    if inputs.channels() != equations.inputs.len() {
+        let (given, wanted) = (inputs.channels(), equations.inputs.len());
+        return Err(Error::input(format!("{given} inputs are given, the model has {wanted}")));
+    }
+    let mut w = equations.workspace(&[]);
+    let delay = equations.delay(&mut w)[0];
+    let at = |t: f64| {
+        let (mut u, mut slope) = (vec![0.0; inputs.channels()], vec![0.0; inputs.channels()]);
+        inputs.at(t - delay, &mut u, &mut slope);
+        u
+    };
+    let mut z0 = visible_state(&equations, &[], start)?;
+    z0.extend(initial_hidden(&equations, &[], &at(first), &z0));
+    let states = simulate(&equations, &[], inputs, &z0, times, integrator)?;
+    let speeds = Speeds::new(model, &equations)?;
+    let rows: Result<Vec<Vec<f64>>> =
+        times.iter().zip(&states).map(|(t, z)| row(*t, z, &at(*t), &equations, &mut w, &speeds)).collect();
+    let names = names(&equations);
+    let rows = rows?;
+    let columns = (0..names.len()).map(|c| rows.iter().map(|r| r[c]).collect()).collect();
+    Ok(Table { names, columns })
+}
+
+fn names(equations: &Equations) -> Vec<String> {
+    let trailers = (1..=equations.visible - 3).map(|i| format!("trailer_heading_{i}"));
+    let pose = ["time", "x", "y", "heading"].map(String::from).into_iter().chain(trailers);
+    let speeds = ["speed", "lateral_speed", "yaw_rate"].map(String::from);
+    let hidden = equations.states[equations.visible..].iter().map(ToString::to_string);
+    pose.chain(speeds).chain(hidden).collect()
+}
+
+fn row(t: f64, z: &[f64], u: &[f64], equations: &Equations, w: &mut Workspace, speeds: &Speeds) -> Result<Vec<f64>> {
+    let measured = &equations.outputs(w, z)[..equations.visible];
+    let row = [&[t], measured, &speeds.at(z, u), &z[equations.visible..]].concat();
+    match row.iter().all(|v| v.is_finite()) {
+        true => Ok(row),
+        false => Err(Error::run(format!("the motion is undefined at t = {t}"))),
+    }
+}
+
+/// v_l, v_t and the yaw rate as the model defines them.
+struct Speeds {
+    program: Program,
+    values: Vec<f64>,
+}
+
+impl Speeds {
+    fn new(model: &Model, equations: &Equations) -> Result<Self> {
+        let mut graph = Graph::default();
+        model.definitions()?.insert_into(&mut graph)?;
+        let wanted = ["v_l", "v_t", "phi'"].map(Symbol::from);
+        let nodes: Option<Vec<_>> = wanted.iter().map(|s| graph.definition(s)).collect();
+        let nodes = nodes.ok_or_else(|| Error::run("the model does not define its speeds"))?;
+        let (names, values): (Vec<Symbol>, Vec<f64>) = model.values().into_iter().unzip();
+        let slots = [&equations.states[..], &equations.inputs, &names].concat();
+        let program = Program::compile(&graph, &slots, &nodes)
+            .map_err(|name| Error::input(format!("a formula uses {name}, which nothing defines")))?;
+        Ok(Self { program, values })
+    }
+
+    fn at(&self, z: &[f64], u: &[f64]) -> [f64; 3] {
+        let mut found = [0.0; 3];
+        self.program.run(&[z, u, &self.values].concat(), &mut self.program.registers(), &mut found);
+        found
+    }
+}

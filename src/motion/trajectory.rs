@@ -1,0 +1,179 @@
+//! Trajectories of a model and their exact sensitivities.
+
+use super::integrator::Walk;
+use super::{Drive, Integrator};
+use crate::error::{Error, Result};
+use crate::model::Equations;
+use nalgebra::DMatrix;
+
+/// The states at `times` of ż = f(z, u(t − d), p) from z = `z0` at the first of them.
+///
+/// | symbol | meaning |
+/// |---|---|
+/// | z | states of [`Equations`], `z0` at `times[0]` |
+/// | u | inputs in the order of [`Equations::inputs`] |
+/// | d | delay of the inputs, s: they are looked up d in the past |
+/// | p | values of [`Equations::free`] |
+///
+/// Times may rise or fall. The integration restarts where a derivative of an input jumps, so that the
+/// method keeps its order. Source: equations (22)–(25) and THEORY §4 for f.
+///
+/// # Errors
+/// As [`Integrator::solve`]; and when the sizes of `z0`, `p` or the inputs do not fit the equations.
+///
+/// ```
+/// use creepage::model::Model;
+/// use creepage::motion::{simulate, Integrator, Signals, Timing};
+/// let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+/// let equations = model.equations(&[]).unwrap();
+/// // wheel_rate 2 rad/s and yaw_rate 1 rad/s: a circle of radius 1 m.
+/// let inputs = Signals::new(&[0.0, 4.0], &[vec![2.0; 2], vec![1.0; 2]], Timing::Sample);
+/// let pi = std::f64::consts::PI;
+/// let z = simulate(&equations, &[], &inputs, &[0.0; 3], &[0.0, pi], &Integrator::default()).unwrap();
+/// assert!(z[1][0].abs() < 1e-9 && (z[1][1] - 2.0).abs() < 1e-9);
+/// ```
+pub fn simulate(
+    equations: &Equations,
+    p: &[f64],
+    inputs: &impl Drive,
+    z0: &[f64],
+    times: &[f64],
+    integrator: &Integrator,
+) -> Result<Vec<Vec<f64>>> {
+    fits(equations, p, inputs, z0)?;
+    let mut w = equations.workspace(p);
+    let delay = equations.delay(&mut w)[0];
+    let (mut u, mut slope) = (vec![0.0; inputs.channels()], vec![0.0; inputs.channels()]);
+    let rhs = |look_up: f64, z: &[f64], rates: &mut [f64]| {
+        inputs.at(look_up, &mut u, &mut slope);
+        equations.rates(&mut w, z, &u, rates);
+    };
+    follow(inputs.knots(), delay, z0, times, &mut integrator.walk()?, rhs)
+}
+
+/// The states at `times` and their derivatives with respect to (z0, p), from the variational equations
+/// Ṡ = f_z·S + [0 | f_p − f_u·u̇·∂d/∂p], integrated beside the states.
+///
+/// | symbol | meaning |
+/// |---|---|
+/// | S | ∂z/∂(z0, p): a row for each state, columns first for z0, then for p; [1 \| 0] at `times[0]` |
+/// | u̇ | slope of the inputs where they are looked up |
+///
+/// Otherwise as [`simulate`]; the tolerances hold for states and derivatives together. Where f has no
+/// derivative (|v| at v = 0), S is undefined and the call fails.
+///
+/// # Errors
+/// As [`simulate`].
+///
+/// ```
+/// use creepage::effects::{self, Applied};
+/// use creepage::model::Model;
+/// use creepage::motion::{with_sensitivities, Integrator, Signals, Timing};
+/// let creep = Applied::new(effects::named("rotation-creep").unwrap(), None, vec![0.1]);
+/// let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap().with_effect(creep);
+/// let equations = model.equations(&["rotation_creep.e_rc".into()]).unwrap();
+/// let inputs = Signals::new(&[0.0, 4.0], &[vec![2.0; 2], vec![0.0; 2]], Timing::Sample);
+/// let rows = with_sensitivities(&equations, &[0.1], &inputs, &[0.0; 3], &[0.0, 3.0], &Integrator::default()).unwrap();
+/// let (z, s) = &rows[1];
+/// // x = r·θ̇·(1 − e)·t: 2.7 m, and −3 m for each unit of e.
+/// assert!((z[0] - 2.7).abs() < 1e-9 && (s[(0, 3)] + 3.0).abs() < 1e-9);
+/// ```
+pub fn with_sensitivities(
+    equations: &Equations,
+    p: &[f64],
+    inputs: &impl Drive,
+    z0: &[f64],
+    times: &[f64],
+    integrator: &Integrator,
+) -> Result<Vec<(Vec<f64>, DMatrix<f64>)>> {
+    fits(equations, p, inputs, z0)?;
+    let (n, m, parameters) = (equations.n(), inputs.channels(), p.len());
+    let mut w = equations.workspace(p);
+    let (delay, delay_by_p) = match equations.delay(&mut w) {
+        [delay, by_p @ ..] => (*delay, by_p.to_vec()),
+        [] => (0.0, vec![0.0; parameters]),
+    };
+    let (mut u, mut slope) = (vec![0.0; m], vec![0.0; m]);
+    let rhs = |look_up: f64, y: &[f64], rates: &mut [f64]| {
+        inputs.at(look_up, &mut u, &mut slope);
+        let (z, s) = y.split_at(n);
+        let (f, jacobian) = equations.rates_and_jacobian(&mut w, z, &u).split_at(n);
+        let (rates, s_rates) = rates.split_at_mut(n);
+        rates.copy_from_slice(f);
+        for (i, row) in jacobian.chunks_exact(n + m + parameters).enumerate() {
+            let (by_z, rest) = row.split_at(n);
+            let (by_u, by_p) = rest.split_at(m);
+            let along_inputs = dot(by_u, &slope);
+            for (c, column) in s.chunks_exact(n).enumerate() {
+                let forced = if c < n { 0.0 } else { by_p[c - n] - along_inputs * delay_by_p[c - n] };
+                s_rates[c * n + i] = dot(by_z, column) + forced;
+            }
+        }
+    };
+    let identity = DMatrix::<f64>::identity(n, n + parameters);
+    let y0 = [z0, identity.as_slice()].concat();
+    let rows = follow(inputs.knots(), delay, &y0, times, &mut integrator.walk()?, rhs)?;
+    let split = |y: Vec<f64>| (y[..n].to_vec(), DMatrix::from_column_slice(n, n + parameters, &y[n..]));
+    Ok(rows.into_iter().map(split).collect())
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn fits(equations: &Equations, p: &[f64], inputs: &impl Drive, z0: &[f64]) -> Result<()> {
+    let pairs = [
+        ("initial states", equations.n(), z0.len()),
+        ("parameters", equations.free.len(), p.len()),
+        ("inputs", equations.inputs.len(), inputs.channels()),
+    ];
+    match pairs.iter().find(|(_, wanted, given)| wanted != given) {
+        Some((what, wanted, given)) => Err(Error::input(format!("{given} {what} are given, the model has {wanted}"))),
+        None => Ok(()),
+    }
+}
+
+/// Integrates from the first time through all times, restarting where a knot, delayed, is passed.
+///
+/// `rhs` gets the time at which the inputs are to be looked up. It is kept strictly between the knots around
+/// the span: at the end of a span rounding would else look across the knot, at the other piece's slope.
+fn follow(
+    knots: &[f64],
+    delay: f64,
+    y0: &[f64],
+    times: &[f64],
+    walk: &mut Walk,
+    mut rhs: impl FnMut(f64, &[f64], &mut [f64]),
+) -> Result<Vec<Vec<f64>>> {
+    if !delay.is_finite() {
+        return Err(Error::run("the delay of the inputs is undefined"));
+    }
+    let mut rows = Vec::with_capacity(times.len());
+    let mut y = y0.to_vec();
+    let mut last = times.first().copied().unwrap_or(0.0);
+    for time in times {
+        for (from, to) in spans(knots, delay, last, *time) {
+            let after = knots.partition_point(|k| *k <= (from + to) / 2.0 - delay);
+            let low = if after == 0 { f64::NEG_INFINITY } else { knots[after - 1].next_up() };
+            let high = knots.get(after).map_or(f64::INFINITY, |k| k.next_down());
+            let mut rhs = |t: f64, y: &[f64], rates: &mut [f64]| rhs((t - delay).max(low).min(high), y, rates);
+            y = walk.span(&mut rhs, from, to, &y)?;
+        }
+        rows.push(y.clone());
+        last = *time;
+    }
+    Ok(rows)
+}
+
+/// The way from one time to another cut at the delayed knots.
+fn spans(knots: &[f64], delay: f64, from: f64, to: f64) -> Vec<(f64, f64)> {
+    let (low, high) = (from.min(to), from.max(to));
+    let begin = knots.partition_point(|k| k + delay <= low);
+    let inner = knots[begin..].iter().map(|k| k + delay).take_while(|k| *k < high);
+    let mut ends: Vec<f64> = inner.chain([high]).collect();
+    ends.insert(0, low);
+    if from > to {
+        ends.reverse();
+    }
+    ends.windows(2).map(|w| (w[0], w[1])).collect()
+}

@@ -68,8 +68,7 @@ impl Problem {
         let equations = model.equations(&[])?;
         let of_segment = |s: &Segment| {
             let record = &self.records[s.record];
-            let whole = s.windows[0].start..s.windows[s.windows.len() - 1].end;
-            s.windows.iter().map(|w| pose_of(&equations, &record.smoothed(&whole, w.start))).collect()
+            s.windows.iter().map(|w| pose_of(&equations, &record.smoothed(w.start))).collect()
         };
         Ok(self.plan.iter().map(of_segment).collect())
     }

@@ -11,7 +11,6 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 use std::f64::consts::TAU;
-use std::ops::Range;
 
 /// Sum of squared errors over windows.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -78,16 +77,16 @@ impl<'a> Predictor<'a> {
     }
 
     /// The state at a row: the smoothed pose and the carried hidden states.
-    fn start(&self, range: &Range<usize>, i: usize) -> Vec<f64> {
-        let mut z = pose_of(&self.equations, &self.record.smoothed(range, i));
+    fn start(&self, i: usize) -> Vec<f64> {
+        let mut z = pose_of(&self.equations, &self.record.smoothed(i));
         z.extend(self.hidden.get(i).into_iter().flatten());
         z
     }
 
     /// The outputs at rows `from..=to`, restarted at `from`.
-    pub fn outputs(&self, range: &Range<usize>, from: usize, to: usize) -> Vec<Vec<f64>> {
+    pub fn outputs(&self, from: usize, to: usize) -> Vec<Vec<f64>> {
         let mut stepper = Stepper::new(&self.equations, &self.record.signals, &[]);
-        let mut arc = Arc { z: self.start(range, from), s: vec![] };
+        let mut arc = Arc { z: self.start(from), s: vec![] };
         let visible = self.equations.visible;
         let mut found = vec![stepper.outputs(&arc.z)[..visible].to_vec()];
         for i in from..to {
@@ -97,17 +96,17 @@ impl<'a> Predictor<'a> {
         found
     }
 
-    /// Where the non-overlapping windows of a horizon begin and end, and the stretch they lie in.
-    pub fn windows(&self, horizon: f64) -> Vec<(Range<usize>, usize, usize)> {
+    /// The rows at which the non-overlapping windows of a horizon begin and end.
+    pub fn windows(&self, horizon: f64) -> Vec<(usize, usize)> {
         let time = &self.record.time;
         let mut found = Vec::new();
         for segment in self.record.segments(MARGIN) {
             let mut start = segment.start;
             // Half a step early counts as on time.
             let slack = 0.5 * self.record.step();
-            for i in segment.clone() {
+            for i in segment {
                 if time[i] - time[start] >= horizon - slack {
-                    found.push((segment.clone(), start, i));
+                    found.push((start, i));
                     start = i;
                 }
             }
@@ -118,8 +117,8 @@ impl<'a> Predictor<'a> {
     /// Errors after a horizon over non-overlapping windows.
     pub fn errors(&self, horizon: f64) -> Errors {
         let mut errors = Errors::default();
-        for (segment, from, to) in self.windows(horizon) {
-            if let Some(end) = self.outputs(&segment, from, to).pop() {
+        for (from, to) in self.windows(horizon) {
+            if let Some(end) = self.outputs(from, to).pop() {
                 let c = &self.record.columns;
                 let heading = self.record.has_heading.then(|| end[2] - c[2][to]);
                 errors.add([end[0] - c[0][to], end[1] - c[1][to]], heading);
@@ -134,15 +133,14 @@ impl<'a> Predictor<'a> {
     /// a vehicle on a plane moves rigidly with its start, so no trajectory has to be integrated anew.
     pub fn floor(&self, horizon: f64, noise: &[f64; 3], seed: u64) -> Errors {
         let windows = self.windows(horizon);
-        let ends: Vec<[f64; 2]> =
-            windows.iter().map(|(s, from, to)| displacement(&self.outputs(s, *from, *to))).collect();
+        let ends: Vec<[f64; 2]> = windows.iter().map(|(from, to)| displacement(&self.outputs(*from, *to))).collect();
         let mut errors = Errors::default();
         let draws = (2000 / windows.len().max(1)).clamp(4, 200);
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         for _ in 0..draws {
             let noisy = with_noise(self.record, noise, &mut rng);
-            for ((segment, from, to), d) in windows.iter().zip(&ends) {
-                let (clean, shifted) = (self.record.smoothed(segment, *from), noisy.smoothed(segment, *from));
+            for ((from, to), d) in windows.iter().zip(&ends) {
+                let (clean, shifted) = (self.record.smoothed(*from), noisy.smoothed(*from));
                 let turn = shifted[2] - clean[2];
                 let turn = turn - TAU * (turn / TAU).round();
                 let (sin, cos) = turn.sin_cos();

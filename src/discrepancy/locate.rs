@@ -3,7 +3,6 @@
 use super::fit::{Problem, pose_of};
 use super::record::Record;
 use super::report::{Disagreement, ResidualPicture};
-use super::smooth;
 use super::windows::{self, Linear, Segment};
 use crate::error::Result;
 use crate::model::Model;
@@ -48,10 +47,7 @@ impl Violation {
     pub fn of(model: &Model, record: &Record, noise: &[f64; 3]) -> Result<Self> {
         let equations = model.equations(&[])?;
         let plan = windows::plan(std::slice::from_ref(record));
-        let smoothed = |s: &Segment| -> Vec<Vec<f64>> {
-            let whole = s.windows[0].start..s.windows[s.windows.len() - 1].end;
-            s.windows.iter().map(|w| record.smoothed(&whole, w.start)).collect()
-        };
+        let smoothed = |s: &Segment| -> Vec<Vec<f64>> { s.windows.iter().map(|w| record.smoothed(w.start)).collect() };
         let measured: Vec<Vec<Vec<f64>>> = plan.iter().map(smoothed).collect();
         let starts = measured.iter().map(|s| s.iter().map(|y| pose_of(&equations, y)).collect()).collect();
         let linear = windows::linearise(&equations, &[], std::slice::from_ref(record), &plan, &starts);
@@ -70,9 +66,8 @@ impl Violation {
     /// Smoothing noise at both ends of a window; a heading off by δ moves the end across by v·W·δ.
     fn noise_of(&self, record: &Record, plan: &[Segment], noise: &[f64; 3]) -> [f64; 4] {
         let Some(segment) = plan.first() else { return [0.0; 4] };
-        let whole = segment.windows[0].start..segment.windows[segment.windows.len() - 1].end;
         let i = segment.windows[segment.windows.len() / 2].start;
-        let share: f64 = smooth::weights(&record.time, whole, i).iter().map(|(_, w)| w * w).sum();
+        let share: f64 = record.smoothing(i).iter().map(|(_, w)| w * w).sum();
         let count = self.windows.len().max(1) as f64;
         let duration = self.windows.iter().map(|w| w.span[1] - w.span[0]).sum::<f64>() / count;
         let speed = (self.windows.iter().map(|w| w.speed * w.speed).sum::<f64>() / count).sqrt();

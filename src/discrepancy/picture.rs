@@ -71,9 +71,7 @@ fn path(record: &Record, held_out: bool, before: &Model, after: &Model) -> Resul
     let pieces = |model: &Model| -> Result<Vec<Vec<[f64; 2]>>> {
         let p = Predictor::new(model, record)?;
         let xy = |y: Vec<f64>| [y[0], y[1]];
-        let piece = |(segment, from, to): (std::ops::Range<usize>, usize, usize)| {
-            p.outputs(&segment, from, to).into_iter().map(xy).collect()
-        };
+        let piece = |(from, to): (usize, usize)| p.outputs(from, to).into_iter().map(xy).collect();
         Ok(p.windows(horizon).into_iter().map(piece).collect())
     };
     Ok(PathPicture { before: pieces(before)?, after: pieces(after)?, ..measured_path(record, held_out) })

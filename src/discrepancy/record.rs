@@ -125,21 +125,28 @@ impl Record {
     }
 
     /// The measured values smoothed around a row; a missing heading is the direction of travel.
-    pub fn smoothed(&self, range: &Range<usize>, i: usize) -> Vec<f64> {
-        let weights = smooth::weights(&self.time, range.clone(), i);
+    ///
+    /// Rows before those that take part help too, later ones never: what is held out stays closed.
+    pub fn smoothed(&self, i: usize) -> Vec<f64> {
+        let weights = self.smoothing(i);
         let mut y: Vec<f64> = self.columns.iter().map(|c| smooth::value(c, &weights)).collect();
         if !self.has_heading {
-            y.insert(2, self.course(range, i));
+            y.insert(2, self.course(i));
         }
         // A trailer that nothing measures is taken to follow straight.
         y.resize(3 + self.trailers, y[2]);
         y
     }
 
+    /// The weights of the smoothing around a row.
+    pub fn smoothing(&self, i: usize) -> Vec<(usize, f64)> {
+        smooth::weights(&self.time, 0..self.rows.end, i)
+    }
+
     /// Direction of travel around a row, rad; backward travel is not known and not corrected here.
-    fn course(&self, range: &Range<usize>, i: usize) -> f64 {
+    fn course(&self, i: usize) -> f64 {
         let reach = 5usize;
-        let (a, b) = (i.saturating_sub(reach).max(range.start), (i + reach).min(range.end - 1));
+        let (a, b) = (i.saturating_sub(reach), (i + reach).min(self.rows.end - 1));
         (self.columns[1][b] - self.columns[1][a]).atan2(self.columns[0][b] - self.columns[0][a])
     }
 }

@@ -154,7 +154,11 @@ fn an_unnamed_effect_shows_its_place_and_equation() {
     let [place, equation] = ["traverse constraint", "v_t = -0.03*v_l^2"].map(String::from);
     report.unnamed.push(Unnamed { place, equation, held_out_reduction: 0.8 });
     let [page, _] = check(&report, &Pictures::default());
-    assert!(page.contains("at the traverse constraint") && page.contains("v_t = -0.03*v_l^2") && page.contains("80 %"));
+    assert!(
+        page.contains("at the traverse constraint: <code>v_t = -0.03*v_l^2</code>")
+            && page.contains("v_t = -0.03*v_l^2")
+            && page.contains("80 %")
+    );
     assert!(summary_text(&report).contains("v_t = -0.03*v_l^2"));
 }
 
@@ -173,6 +177,7 @@ fn values_that_are_no_numbers_break_lines_and_never_reach_the_page() {
         report.effects[0].evidence.delta_bic = bad;
         report.effects[0].parameters.get_mut("mass_over_bT").unwrap().value = bad;
         let [page, _] = check(&report, &pictures);
+        assert!(!page.contains("cy=\"0\""), "a marker for no value");
         let path = page.split("line measured\" d=\"").nth(2).unwrap().split('"').next().unwrap();
         assert_eq!(path.matches('M').count(), 2, "the line breaks once");
         assert!(!summary_text(&report).contains("NaN") && !summary_text(&report).contains("inf"));
@@ -203,8 +208,11 @@ fn a_million_rows_still_give_a_small_page() {
     residual.before = (0..1_000_000_u64).map(|i| (i * 7919 % 1000) as f64 * 1e-3).collect();
     residual.after = residual.before.clone();
     pictures.residuals = vec![residual; 12];
+    pictures.paths.push(path_picture("seventh.csv", false, 1));
     let [page, svg] = check(&report(), &pictures);
     println!("page {} bytes, drawing {} bytes", page.len(), svg.len());
+    assert_eq!(page.matches("id=\"path-").count(), 2 * 6, "six runs: a title and a description each");
+    assert!(page.contains("Not drawn: 1 further run.") && page.contains("Not drawn: 6 further pairs"));
     assert!(page.len() < 1_500_000, "{} bytes", page.len());
     assert!(svg.len() < 300_000, "{} bytes", svg.len());
 }

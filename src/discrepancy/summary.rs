@@ -83,13 +83,11 @@ pub fn summary_text(report: &Report) -> String {
             .take(2)
             .flat_map(|u| wrapped(&format!("unnamed at the {}: {}", u.place, u.equation), 2, 2)),
     );
-    let mut gap = gap_lines(&report.gap);
+    let gap = gap_lines(&report.gap);
     let mut tail = Vec::new();
     tail.extend(report.next_experiment.iter().map(|_| String::new()));
     tail.extend(report.next_experiment.iter().flat_map(|n| wrapped(&format!("Next: {} {}", n.manoeuvre, n.why), 0, 3)));
     tail.extend(data_lines(report));
-    let room = LINES.saturating_sub(lines.len().min(12) + tail.len());
-    gap.truncate(room);
     lines.truncate(LINES - gap.len() - tail.len());
     lines.extend(gap);
     lines.extend(tail);

@@ -1,5 +1,6 @@
 //! The candidates by their evidence.
 
+use super::head::counted;
 use super::part;
 use crate::discrepancy::report::{Candidate, Pictures};
 use crate::picture::axis::{Axis, extent};
@@ -32,7 +33,7 @@ pub fn figure(pictures: &Pictures) -> Option<Element> {
         "Horizontal bars, best first. Filled: chosen. Hatched: not told from a chosen one. Hollow: the rest.";
     let drawing = chart(&bars, axis, "candidates", "Candidates by ΔBIC", description);
     let more = all.len() - shown.len();
-    let rest = if more > 0 { format!(" {more} weaker candidates are not drawn.") } else { String::new() };
+    let rest = if more > 0 { format!(" Not drawn: {}.", counted(more, "weaker candidate")) } else { String::new() };
     let how = format!(
         "ΔBIC is the BIC without an effect minus the BIC with it: above 10 the evidence is very strong, below 0 it speaks \
          against the effect. The axis is linear up to ±10 and logarithmic beyond.{rest}"

@@ -1,5 +1,6 @@
 //! Runs seen from above: measured, predicted before, predicted after.
 
+use super::head::counted;
 use super::part;
 use crate::discrepancy::report::{PathPicture, Pictures};
 use crate::picture::axis::{Axis, equal_aspect, extent, widened};
@@ -31,7 +32,7 @@ pub fn figure(pictures: &Pictures) -> Option<Element> {
     let more = runs.len().saturating_sub(MOST_PANELS);
     let draw = |(i, p): (usize, &&PathPicture)| panel(p, Size::PANEL, false, &format!("path-{i}"));
     let panels: Vec<Element> = runs.iter().take(MOST_PANELS).enumerate().filter_map(draw).collect();
-    let rest = if more > 0 { format!(" {more} further runs are not drawn.") } else { String::new() };
+    let rest = if more > 0 { format!(" Not drawn: {}.", counted(more, "further run")) } else { String::new() };
     let how =
         format!("{}{rest}", "Both axes have the same scale. At every ring the model restarts on the measured path.");
     Some(part::figure(

@@ -1,5 +1,6 @@
 //! How much each constraint is violated over time: two strips on one scale, before above after.
 
+use super::head::counted;
 use super::part;
 use crate::discrepancy::report::{Pictures, ResidualPicture};
 use crate::picture::axis::{Axis, extent, widened};
@@ -26,8 +27,11 @@ pub fn figure(pictures: &Pictures) -> Option<Element> {
     }
     let panels = chosen.iter().enumerate().map(|(i, r)| panel(r, &format!("residual-{i}"))).collect();
     let more = all.len() - chosen.len();
-    let rest =
-        if more > 0 { format!(" {more} further pairs of constraint and run are not drawn.") } else { String::new() };
+    let rest = if more > 0 {
+        format!(" Not drawn: {} of constraint and run.", counted(more, "further pair"))
+    } else {
+        String::new()
+    };
     let how = format!(
         "What each constraint should keep at zero, computed from the measurement. The grey band is ±2σ of measurement \
          noise: a true model stays inside it 95 % of the time.{rest}"

@@ -12,6 +12,14 @@ pub struct Variances {
     pub jump: [f64; 4],
 }
 
+impl Variances {
+    /// Whether two sets differ by no more than their estimation could tell.
+    pub fn close_to(&self, other: &Variances) -> bool {
+        let pairs = self.noise.iter().zip(&other.noise).chain(self.jump.iter().zip(&other.jump));
+        pairs.into_iter().all(|(a, b)| (a / b).ln().abs() < 0.2)
+    }
+}
+
 /// What remains when all poses and jumps are eliminated.
 #[derive(Clone, Debug)]
 pub struct Eliminated {

@@ -15,6 +15,8 @@ const CLOSE: f64 = 6.0;
 const FINALISTS: usize = 4;
 /// How many of the most promising candidates are fitted at all.
 const SHORTLIST: usize = 8;
+/// A candidate that promises less than this share of the best one's gain is not fitted.
+const FAINT: f64 = 0.1;
 /// Most effects that are added.
 const MOST: usize = 6;
 
@@ -129,13 +131,19 @@ impl Selection<'_> {
     }
 
     /// The candidates for a model by what they promise; the most promising with a fit.
-    fn screen(&self, base: &Fit, model: &Model) -> Result<Vec<(Promise, Option<Fit>)>> {
+    ///
+    /// `from` is the deviance without the candidate, `floor` the least gain that is of interest.
+    fn screen(&self, base: &Fit, model: &Model, from: f64, floor: f64) -> Result<Vec<(Promise, Option<Fit>)>> {
         let mut promises = screen::promises(self.problem, base, model, &self.open(model))?;
         let n = base.sample_size;
         let worth = |p: &Promise| rounded(p.deviance + p.applied.values.len() as f64 * n.ln());
         promises.sort_by(|a, b| worth(a).total_cmp(&worth(b)));
+        // What promises next to nothing beside the best is listed, not fitted.
+        let gain = |p: &Promise| from - p.deviance;
+        let wanted = promises.iter().map(gain).fold(floor, |m, g| m.max(FAINT * g));
         let settled = |(i, p): (usize, Promise)| -> Result<_> {
-            let fit = if i < SHORTLIST { screen::settled(self.problem, base, model, &p, SCREEN)? } else { None };
+            let worthwhile = i < SHORTLIST && gain(&p) >= wanted;
+            let fit = if worthwhile { screen::settled(self.problem, base, model, &p, SCREEN)? } else { None };
             Ok((p, fit))
         };
         let mut found: Vec<(Promise, Option<Fit>)> =
@@ -168,7 +176,7 @@ impl Selection<'_> {
             let applied = fitted.unwrap_or(promise.applied);
             Ok((Scored { applied, std: promise.std, delta_bic }, full))
         };
-        let screened = self.screen(base, &base.model)?;
+        let screened = self.screen(base, &base.model, base.deviance, 0.5 * self.margin())?;
         let mut scored: Vec<(Scored, Option<Fit>)> =
             screened.into_par_iter().enumerate().map(finish).collect::<Result<_>>()?;
         scored.sort_by(|a, b| {
@@ -218,9 +226,8 @@ impl Selection<'_> {
             if free_effects(&fit.model).len() < 2 {
                 break;
             }
-            let smaller = without(&fit.model, &effect);
-            let others = self.screen(&fit, &smaller)?.into_iter().filter(|(p, _)| !p.applied.same_as(&effect));
-            let Some(rival) = others.into_iter().find_map(|(_, fit)| fit) else { continue };
+            let rivals = self.in_place_of(&fit, &effect)?;
+            let Some((_, rival)) = rivals.into_iter().next() else { continue };
             let Some(rival) = self.refined(&rival)? else { continue };
             let n = fit.sample_size.max(rival.sample_size);
             if bic(&rival, n) < bic(&fit, n) - 0.5 {
@@ -228,6 +235,18 @@ impl Selection<'_> {
             }
         }
         Ok(fit)
+    }
+
+    /// Fits with another effect in the place of a chosen one, best first, at the noise and jumps of the fit: those
+    /// that promise a good part of what the chosen one gives.
+    fn in_place_of(&self, fit: &Fit, effect: &Applied) -> Result<Vec<(Applied, Fit)>> {
+        let smaller = without(&fit.model, effect);
+        let Some(bare) = self.problem.fit(&smaller, &fit.starts, &fit.variances, SCREEN)? else { return Ok(vec![]) };
+        let lost = bare.deviance - fit.deviance;
+        let found =
+            self.screen(&Fit { variances: fit.variances, ..bare.clone() }, &smaller, bare.deviance, 0.3 * lost)?;
+        let fitted = found.into_iter().filter_map(|(p, fit)| Some((p.applied, fit?)));
+        Ok(fitted.filter(|(a, _)| !a.same_as(effect)).collect())
     }
 
     /// Evidence, deviations and rivals of every chosen effect.
@@ -253,9 +272,7 @@ impl Selection<'_> {
     fn rivals(&self, fit: &Fit, chosen: &Applied) -> Result<Vec<Applied>> {
         let n = fit.sample_size;
         let own = bic(fit, n);
-        let candidates = self.screen(fit, &without(&fit.model, chosen))?;
-        let fitted = candidates.into_iter().filter_map(|(p, fit)| Some((p.applied, fit?)));
-        let near = fitted.filter(|(a, f)| !a.same_as(chosen) && bic(f, n) - own < 4.0 * CLOSE);
+        let near = self.in_place_of(fit, chosen)?.into_iter().filter(|(_, f)| bic(f, n) - own < 4.0 * CLOSE);
         let mut found = Vec::new();
         for (applied, rough) in near.take(FINALISTS) {
             let full = self.refined(&rough)?.unwrap_or(rough);

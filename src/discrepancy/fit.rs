@@ -137,10 +137,15 @@ impl Problem {
         point = self.descend(&equations, point, &v, &bounds, effort.passes);
         if effort.variances {
             for first_step in [1.0, 0.3] {
-                v = variances::improve(&point.linear, v, self.free, free.len(), first_step);
+                let better = variances::improve(&point.linear, v, self.free, free.len(), first_step);
+                let settled = better.close_to(&v);
+                v = better;
                 let Some(e) = eliminate(&point.linear, &v, free.len()) else { return Ok(None) };
                 point.eliminated = e;
                 point = self.descend(&equations, point, &v, &bounds, effort.passes);
+                if settled {
+                    break;
+                }
             }
         }
         Ok(Some(self.finished(model, point, v)))

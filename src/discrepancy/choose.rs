@@ -12,7 +12,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 /// A rival whose evidence is this close to the chosen effect's is not told from it.
 const CLOSE: f64 = 6.0;
 /// How many of the best candidates are fitted with their own noise and jumps.
-const FINALISTS: usize = 4;
+const FINALISTS: usize = 3;
 /// How many of the most promising candidates are fitted at all.
 const SHORTLIST: usize = 8;
 /// A candidate that promises less than this share of the best one's gain is not fitted.
@@ -206,6 +206,10 @@ impl Selection<'_> {
                 return Ok(fit);
             }
             for effect in effects {
+                // Far from its neutral value by its own deviation, an effect is needed beyond doubt.
+                if wald(&fit, &effect) > 4.0 * self.margin() {
+                    continue;
+                }
                 let Some(smaller) = self.reduced(&fit, &effect)? else { continue };
                 let n = fit.sample_size.max(smaller.sample_size);
                 let worth = bic(&smaller, n) - bic(&fit, n);
@@ -282,6 +286,21 @@ impl Selection<'_> {
         }
         Ok(found)
     }
+}
+
+/// Squared distance of an effect's values from zero in units of their deviations; zero when those are not known.
+fn wald(fit: &Fit, effect: &Applied) -> f64 {
+    let mut at = 0;
+    for e in fit.model.effects.iter().filter(|e| e.free) {
+        let k = e.values.len();
+        if e.same_as(effect) {
+            let Some(own) = fit.covariance.as_ref().map(|c| c.view((at, at), (k, k)).into_owned()) else { return 0.0 };
+            let v = nalgebra::DVector::from_column_slice(&e.values);
+            return own.cholesky().map_or(0.0, |c| v.dot(&c.solve(&v)));
+        }
+        at += k;
+    }
+    0.0
 }
 
 /// An effect of a model.

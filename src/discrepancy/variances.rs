@@ -39,9 +39,13 @@ pub struct Free {
     pub jump: [bool; 4],
 }
 
-/// Improves the variances by a pattern search in their logarithms.
+/// Least gain in deviance that makes another round worthwhile.
+const ENOUGH: f64 = 0.05;
+
+/// Improves the variances one after another in their logarithms, round after round until nothing is gained.
 ///
-/// Seven numbers at most, a smooth function with a flat tail towards zero jumps: robust beats fast here.
+/// Seven numbers at most, nearly independent of each other, a smooth function with a flat tail towards zero jumps:
+/// along each a bracket and a parabola through it are enough.
 pub fn improve(
     segments: &[Vec<Linear>],
     start: Variances,
@@ -49,36 +53,51 @@ pub fn improve(
     parameters: usize,
     first_step: f64,
 ) -> Variances {
-    let mut best = start;
-    let mut lowest = restricted(segments, &best, parameters);
-    let mut steps = [first_step; 7];
-    for _ in 0..60 {
-        for (k, step) in steps.iter_mut().enumerate() {
-            if !is_free(&free, k) || step.abs() < 0.02 {
-                continue;
-            }
-            let mut moved = false;
-            for direction in [1.0, -1.0] {
-                let candidate = moved_by(best, k, *step * direction);
-                if candidate == best {
-                    continue;
-                }
-                let d = restricted(segments, &candidate, parameters);
-                if d < lowest - 1e-6 {
-                    (best, lowest, moved) = (candidate, d, true);
-                    *step *= 1.5 * direction;
-                    break;
-                }
-            }
-            if !moved {
-                *step *= 0.4;
-            }
+    let f = |v: &Variances| restricted(segments, v, parameters);
+    let mut best = (start, f(&start));
+    let mut step = first_step;
+    for _ in 0..12 {
+        let before = best.1;
+        for k in (0..7).filter(|k| is_free(&free, *k)) {
+            best = along(&f, best, k, step);
         }
-        if steps.iter().enumerate().all(|(k, s)| !is_free(&free, k) || s.abs() < 0.02) {
+        if before - best.1 < ENOUGH {
             break;
         }
+        step = (0.5 * step).max(0.15);
     }
-    best
+    best.0
+}
+
+/// The lowest point found along one logarithm.
+fn along(f: &impl Fn(&Variances) -> f64, here: (Variances, f64), k: usize, step: f64) -> (Variances, f64) {
+    let at = |v: Variances, s: f64| {
+        let moved = moved_by(v, k, s);
+        (moved, if moved == v { f64::INFINITY } else { f(&moved) })
+    };
+    let (up, down) = (at(here.0, step), at(here.0, -step));
+    let mut best = here;
+    if up.1 >= here.1 && down.1 >= here.1 {
+        let bend = up.1 - 2.0 * here.1 + down.1;
+        let shift = 0.5 * step * (down.1 - up.1) / bend;
+        if shift.is_finite() && shift.abs() > 0.01 {
+            let vertex = at(here.0, shift);
+            if vertex.1 < best.1 {
+                best = vertex;
+            }
+        }
+        return best;
+    }
+    let mut stride = if up.1 < down.1 { step } else { -step };
+    best = if up.1 < down.1 { up } else { down };
+    loop {
+        stride *= 1.6;
+        let next = at(best.0, stride);
+        if next.1 >= best.1 {
+            return best;
+        }
+        best = next;
+    }
 }
 
 fn is_free(free: &Free, k: usize) -> bool {

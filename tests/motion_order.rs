@@ -106,7 +106,9 @@ fn backward_and_across_zero_it_retraces_its_steps() {
 #[test]
 fn rk4_ends_where_it_is_asked_to() {
     // Lengths that the step does not divide, or divides up to rounding: y′ = 1.
-    for (length, step) in [(1.0, 0.3), (0.3, 0.1), (0.7, 0.1), (1.0, 0.1), (0.05, 0.1), (1e6, 1e3)] {
+    for (length, step) in
+        [(1.0, 0.3), (0.3, 0.1), (0.7, 0.1), (1.0, 0.1), (0.05, 0.1), (2.1, 0.3), (1.1, 1.1 / 15.0), (1e6, 1e3)]
+    {
         let rk4 = Integrator { method: Method::Rk4 { step }, ..Integrator::default() };
         let mut count = 0;
         let rhs = |_: f64, _: &[f64], dy: &mut [f64]| {

@@ -61,8 +61,8 @@ pub struct Choice {
     pub candidates: Vec<Scored>,
 }
 
-const SCREEN: Effort = Effort { passes: 5, variances: false };
-const FULL: Effort = Effort { passes: 6, variances: true };
+const SCREEN: Effort = Effort { passes: 5, enough: 0.05, variances: false };
+const FULL: Effort = Effort { passes: 6, enough: 1e-4, variances: true };
 
 /// Adds effects of the library one at a time until nothing is left above the noise.
 ///

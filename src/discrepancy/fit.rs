@@ -110,6 +110,8 @@ pub fn pose_of(equations: &Equations, measured: &[f64]) -> Vec<f64> {
 pub struct Effort {
     /// Linearisations at most.
     pub passes: usize,
+    /// A step that promises to gain less deviance than this is not taken.
+    pub enough: f64,
     /// Whether the variances are estimated anew.
     pub variances: bool,
 }
@@ -134,7 +136,7 @@ impl Problem {
         let bounds = Bounds::of(model);
         let mut v = *variances;
         let Some(mut point) = self.point(&equations, p, starts.clone(), &v) else { return Ok(None) };
-        point = self.descend(&equations, point, &v, &bounds, effort.passes);
+        point = self.descend(&equations, point, &v, &bounds, effort);
         if effort.variances {
             for first_step in [1.0, 0.3] {
                 let better = variances::improve(&point.linear, v, self.free, free.len(), first_step);
@@ -142,7 +144,7 @@ impl Problem {
                 v = better;
                 let Some(e) = eliminate(&point.linear, &v, free.len()) else { return Ok(None) };
                 point.eliminated = e;
-                point = self.descend(&equations, point, &v, &bounds, effort.passes);
+                point = self.descend(&equations, point, &v, &bounds, effort);
                 if settled {
                     break;
                 }
@@ -157,12 +159,15 @@ impl Problem {
         Some(Point { p, starts, linear, eliminated })
     }
 
-    fn descend(&self, equations: &Equations, mut here: Point, v: &Variances, bounds: &Bounds, passes: usize) -> Point {
+    fn descend(&self, equations: &Equations, mut here: Point, v: &Variances, bounds: &Bounds, effort: Effort) -> Point {
         let mut damping = 1e-6;
-        for _ in 0..passes {
+        for _ in 0..effort.passes {
             let Some(delta) = step(&here.eliminated, damping) else { return here };
             let target = bounds.within(&here.p, &delta);
             let delta = &target - &here.p;
+            if promised(&here.eliminated, &delta) < effort.enough {
+                break;
+            }
             let starts = moved(&here.starts, &here.eliminated.corrections(&here.linear, &delta));
             let next = self.point(equations, target, starts, v);
             let gain = next.as_ref().map_or(f64::NEG_INFINITY, |n| here.eliminated.cost() - n.eliminated.cost());
@@ -170,9 +175,6 @@ impl Problem {
                 Some(next) if gain >= -1e-3 => {
                     here = next;
                     damping = (damping / 10.0).max(1e-9);
-                    if gain < 1e-3 {
-                        break;
-                    }
                 }
                 _ => damping = (damping * 30.0).max(1e-3),
             }
@@ -243,10 +245,19 @@ fn step(e: &Eliminated, damping: f64) -> Option<DVector<f64>> {
     step.iter().all(|x| x.is_finite()).then_some(step)
 }
 
+/// What a step gains in deviance if the model is as linear as it looks.
+fn promised(e: &Eliminated, delta: &DVector<f64>) -> f64 {
+    let (information, gradient) = e.normal();
+    -(delta.dot(&(information * delta)) + 2.0 * gradient.dot(delta))
+}
+
 fn moved(starts: &Starts, by: &[Vec<DVector<f64>>]) -> Starts {
     let add = |(z, d): (&Vec<f64>, &DVector<f64>)| z.iter().zip(d.iter()).map(|(z, d)| z + d).collect();
     starts.iter().zip(by).map(|(s, b)| s.iter().zip(b).map(add).collect()).collect()
 }
+
+/// A positive value below this share of its plausible size is as good as neutral, and a stiff state to integrate.
+const LEAST_SHARE: f64 = 0.04;
 
 /// What values the parameters may take.
 struct Bounds {
@@ -259,7 +270,7 @@ impl Bounds {
     fn of(model: &Model) -> Self {
         let all = || model.effects.iter().filter(|e| e.free).flat_map(|e| e.effect.parameters.values());
         Self {
-            range: all().map(|p| p.range).collect(),
+            range: all().map(|p| if p.positive { [p.size * LEAST_SHARE, p.range[1]] } else { p.range }).collect(),
             positive: all().map(|p| p.positive).collect(),
             periodic: all().map(|p| p.periodic).collect(),
         }

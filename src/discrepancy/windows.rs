@@ -120,10 +120,10 @@ fn window_along(
     let channels = record.channels();
     let mut line = vec![0.0; k + 1];
     for i in rows.clone() {
-        let y = stepper.outputs(&arc.z).to_vec();
+        let y = stepper.outputs(&arc.z);
         for (c, channel) in channels.iter().enumerate() {
             let output = record.output_of(c);
-            output_line(&y, output, visible, k, &arc.s, &mut line);
+            output_line(y, output, visible, k, &arc.s, &mut line);
             line[k] = y[output] - record.columns[c][i];
             if *channel != Channel::Position {
                 line[k] -= TAU * (line[k] / TAU).round();
@@ -136,6 +136,7 @@ fn window_along(
             stepper.advance(arc, record.time[i], record.time[i + 1]);
         }
     }
+    gram.iter_mut().for_each(|g| g.fill_lower_triangle_with_upper_triangle());
     if !arc.z.iter().chain(&arc.s).all(|x| x.is_finite()) || !gram.iter().all(|g| g.iter().all(|x| x.is_finite())) {
         return None;
     }
@@ -177,14 +178,13 @@ fn output_line(y: &[f64], output: usize, visible: usize, k: usize, s: &[f64], li
     }
 }
 
+/// Adds the upper half of line·lineᵀ.
 fn add_square(gram: &mut DMatrix<f64>, line: &[f64]) {
-    for (c, right) in line.iter().enumerate() {
-        for (r, left) in line.iter().enumerate().take(c + 1) {
-            gram[(r, c)] += left * right;
-            if r != c {
-                gram[(c, r)] += left * right;
-            }
-        }
+    let n = line.len();
+    for (column, right) in
+        gram.as_mut_slice().chunks_exact_mut(n).zip(line).enumerate().map(|(c, (g, r))| (&mut g[..=c], r))
+    {
+        column.iter_mut().zip(line).for_each(|(g, left)| *g += left * right);
     }
 }
 

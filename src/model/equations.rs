@@ -155,6 +155,11 @@ impl Equations {
         &w.results[..self.jacobian.outputs()]
     }
 
+    /// What [`Equations::rates_and_jacobian`] gave last.
+    pub fn last_jacobian<'w>(&self, w: &'w Workspace) -> &'w [f64] {
+        &w.results[..self.jacobian.outputs()]
+    }
+
     /// What the sensor measures, followed by the rows of its derivatives with respect to (visible z, p).
     pub fn outputs<'w>(&self, w: &'w mut Workspace, z: &[f64]) -> &'w [f64] {
         let z = &z[..self.visible];

@@ -8,7 +8,7 @@ const TURN_PER_STEP: f64 = 0.1;
 /// Largest step in units of the shortest time constant.
 const STEP_PER_TIME_CONSTANT: f64 = 0.35;
 /// Most steps between two rows.
-const MAX_STEPS: f64 = 256.0;
+const MAX_STEPS: f64 = 64.0;
 
 /// Integrates [`Equations`] along [`Signals`] by the classical Runge–Kutta scheme of order four, the state
 /// beside its sensitivities S = ∂z/∂(visible start, p) by the variational equations.
@@ -86,44 +86,52 @@ impl<'a> Stepper<'a> {
 
     /// Advances an arc from one time to another.
     pub fn advance(&mut self, arc: &mut Arc, from: f64, to: f64) {
+        let mut stage = std::mem::take(&mut self.stage);
+        self.rate(arc, from, &mut stage.rate);
         let span = to - from;
-        let steps = (span.abs() * self.stiffness(arc, from)).ceil().clamp(1.0, MAX_STEPS);
+        let steps = (span.abs() * self.stiffness(arc, &stage.rate, from)).ceil().clamp(1.0, MAX_STEPS);
         let h = span / steps;
         for i in 0..steps as usize {
-            self.step(arc, from + h * i as f64, h);
+            let t = from + h * i as f64;
+            if i > 0 {
+                self.rate(arc, t, &mut stage.rate);
+            }
+            self.step(arc, t, h, &mut stage);
         }
+        self.stage = stage;
     }
 
     /// Steps per second that the motion asks for.
-    fn stiffness(&mut self, arc: &Arc, t: f64) -> f64 {
+    fn stiffness(&mut self, arc: &Arc, rate: &Arc, t: f64) -> f64 {
         let n = self.equations.n();
-        self.signals.at(t - self.delay, &mut self.value, &mut self.slope);
-        let f = self.equations.rates_and_jacobian(&mut self.workspace, &arc.z, &self.value);
+        let turning = rate.z[2].abs() / TURN_PER_STEP;
+        if arc.s.is_empty() {
+            self.signals.at(t - self.delay, &mut self.value, &mut self.slope);
+            self.equations.rates_and_jacobian(&mut self.workspace, &arc.z, &self.value);
+        }
+        let f = self.equations.last_jacobian(&self.workspace);
         let width = n + self.value.len() + self.equations.free.len();
         let fastest = (0..n).map(|i| f[n + i * width + i].abs()).fold(0.0, f64::max);
-        (f[2].abs() / TURN_PER_STEP).max(fastest / STEP_PER_TIME_CONSTANT)
+        turning.max(fastest / STEP_PER_TIME_CONSTANT)
     }
 
-    fn step(&mut self, arc: &mut Arc, t: f64, h: f64) {
-        let mut stage = std::mem::take(&mut self.stage);
-        stage.total.z.clear();
-        stage.total.z.resize(arc.z.len(), 0.0);
-        stage.total.s.clear();
-        stage.total.s.resize(arc.s.len(), 0.0);
-        stage.at.z.clone_from(&arc.z);
-        stage.at.s.clone_from(&arc.s);
-        for (advance, weight, time) in [(0.5, 1.0, 0.0), (0.5, 2.0, 0.5), (1.0, 2.0, 0.5), (0.0, 1.0, 1.0)] {
-            self.rate(&stage.at, t + time * h, &mut stage.rate);
+    /// One step; the rate at its beginning is known.
+    fn step(&mut self, arc: &mut Arc, t: f64, h: f64, stage: &mut Stage) {
+        stage.total.z.clone_from(&arc.z);
+        stage.total.s.clone_from(&arc.s);
+        for (advance, weight, next) in [(0.5, 1.0, 0.5), (0.5, 2.0, 0.5), (1.0, 2.0, 1.0), (0.0, 1.0, 0.0)] {
             accumulate(&mut stage.total.z, weight * h / 6.0, &stage.rate.z);
             accumulate(&mut stage.total.s, weight * h / 6.0, &stage.rate.s);
-            stage.at.z.clone_from(&arc.z);
-            stage.at.s.clone_from(&arc.s);
-            accumulate(&mut stage.at.z, advance * h, &stage.rate.z);
-            accumulate(&mut stage.at.s, advance * h, &stage.rate.s);
+            if advance > 0.0 {
+                stage.at.z.clone_from(&arc.z);
+                stage.at.s.clone_from(&arc.s);
+                accumulate(&mut stage.at.z, advance * h, &stage.rate.z);
+                accumulate(&mut stage.at.s, advance * h, &stage.rate.s);
+                self.rate(&stage.at, t + next * h, &mut stage.rate);
+            }
         }
-        accumulate(&mut arc.z, 1.0, &stage.total.z);
-        accumulate(&mut arc.s, 1.0, &stage.total.s);
-        self.stage = stage;
+        arc.z.clone_from(&stage.total.z);
+        arc.s.clone_from(&stage.total.s);
     }
 
     /// z′ and S′.
@@ -131,6 +139,7 @@ impl<'a> Stepper<'a> {
         let n = self.equations.n();
         self.signals.at(t - self.delay, &mut self.value, &mut self.slope);
         rate.z.resize(n, 0.0);
+        rate.s.clear();
         rate.s.resize(at.s.len(), 0.0);
         if at.s.is_empty() {
             return self.equations.rates(&mut self.workspace, &at.z, &self.value, &mut rate.z);
@@ -142,7 +151,6 @@ impl<'a> Stepper<'a> {
         for i in 0..n {
             let row = &f[n + i * width..n + (i + 1) * width];
             let out = &mut rate.s[i * k..(i + 1) * k];
-            out.fill(0.0);
             for (j, slope) in row[..n].iter().enumerate().filter(|(_, slope)| **slope != 0.0) {
                 accumulate(out, *slope, &at.s[j * k..(j + 1) * k]);
             }

@@ -16,7 +16,7 @@
 //! ```
 
 use super::Row;
-use crate::formula::{Expr, Polynomial, Symbol};
+use crate::formula::{Expr, Node, Polynomial, Symbol};
 
 /// Solves row = 0 one unknown at a time, so that a chain is written as a chain: a rate that is solved stays
 /// a name in the formulas of the others. `None` when the rows do not determine the unknown rates.
@@ -50,7 +50,20 @@ fn isolate(row: &Row, name: &Symbol) -> Expr {
     let mut rest = row.clone();
     rest.add(name.clone(), &-&row.coefficient(name));
     let (top, bottom) = Polynomial::of(&(-&rest.expr())).cancelled(&c);
-    &top.expr() / &bottom.expr()
+    // A divisor begins without a minus: -a/(-b + c) is written a/(b - c).
+    match leads_with_minus(&bottom.expr()) {
+        true => &(-&top.expr()).tidy() / &(-&bottom.expr()).tidy(),
+        false => &top.expr() / &bottom.expr(),
+    }
+}
+
+/// Whether the first term of a formula is subtracted.
+fn leads_with_minus(e: &Expr) -> bool {
+    match e.node() {
+        Node::Neg(_) => true,
+        Node::Add(a, _) | Node::Sub(a, _) => leads_with_minus(a),
+        _ => false,
+    }
 }
 
 /// Solves row = 0 for the unknown rates at once, no unknown left in any formula; `None` when the rows do not

@@ -100,7 +100,7 @@ fn written(constraint: &Constraint, order: &[Symbol]) -> Expr {
     }
 }
 
-/// Names replaced, sums of angles written as one sum.
+/// Names replaced; sums of angles and products of products written as one.
 fn in_place(e: &Expr, by: &impl Fn(&Symbol) -> Option<Expr>) -> Expr {
     let go = |e: &Expr| in_place(e, by);
     match e.node() {
@@ -109,10 +109,18 @@ fn in_place(e: &Expr, by: &impl Fn(&Symbol) -> Option<Expr>) -> Expr {
         Node::Neg(x) => -&go(x),
         Node::Add(a, b) => &go(a) + &go(b),
         Node::Sub(a, b) => &go(a) - &go(b),
-        Node::Mul(a, b) => &go(a) * &go(b),
+        Node::Mul(a, b) => product(&go(a), &go(b)),
         Node::Div(a, b) => &go(a) / &go(b),
         Node::Pow(x, n) => go(x).pow(*n),
         Node::Call(f, x) => Expr::call(*f, &go(x).tidy()),
+    }
+}
+
+/// a·(b·c) as a·b·c.
+fn product(a: &Expr, b: &Expr) -> Expr {
+    match b.node() {
+        Node::Mul(c, d) => product(&product(a, c), d),
+        _ => a * b,
     }
 }
 

@@ -68,7 +68,9 @@ impl Description {
         let in_rows: BTreeSet<Symbol> = found.iter().flat_map(coefficient_symbols).collect();
         let creeps: BTreeSet<Symbol> = found.iter().map(|c| c.creep.clone()).collect();
         let changed = |s: &Symbol| definitions.get(s) != plain.get(s);
-        let in_model = |s: &Symbol| definitions.get(s).filter(|_| creeps.contains(s) || changed(s)).cloned();
+        let in_model = |s: &Symbol| {
+            definitions.get(s).filter(|_| in_rows.contains(s) && (creeps.contains(s) || changed(s))).cloned()
+        };
         let constraints: Vec<_> = found.iter().map(|c| ConstraintEntry::of(c, &coordinates, &in_model)).collect();
         let entry = |c: &ConstraintEntry| coordinates.iter().map(|q| c.row.coefficient(&q.rate())).collect();
         let sorted = definitions.sorted()?.into_iter();

@@ -100,19 +100,28 @@ fn written(constraint: &Constraint, order: &[Symbol]) -> Expr {
     }
 }
 
-/// Names replaced; sums of angles and products of products written as one.
+/// Names replaced; sums of sums and products of products written as one.
 fn in_place(e: &Expr, by: &impl Fn(&Symbol) -> Option<Expr>) -> Expr {
     let go = |e: &Expr| in_place(e, by);
     match e.node() {
         Node::Num(_) => e.clone(),
         Node::Sym(s) => by(s).unwrap_or_else(|| e.clone()),
         Node::Neg(x) => -&go(x),
-        Node::Add(a, b) => &go(a) + &go(b),
+        Node::Add(a, b) => sum(&go(a), &go(b)),
         Node::Sub(a, b) => &go(a) - &go(b),
         Node::Mul(a, b) => product(&go(a), &go(b)),
         Node::Div(a, b) => &go(a) / &go(b),
         Node::Pow(x, n) => go(x).pow(*n),
-        Node::Call(f, x) => Expr::call(*f, &go(x).tidy()),
+        Node::Call(f, x) => Expr::call(*f, &go(x)),
+    }
+}
+
+/// a + (b + c) as a + b + c.
+fn sum(a: &Expr, b: &Expr) -> Expr {
+    match b.node() {
+        Node::Add(c, d) => sum(&sum(a, c), d),
+        Node::Sub(c, d) => &sum(a, c) - d,
+        _ => a + b,
     }
 }
 

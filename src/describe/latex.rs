@@ -35,6 +35,7 @@ pub fn latex(d: &Description) -> String {
 fn overview(out: &mut String, d: &Description) {
     let names: Vec<String> = d.coordinates.iter().map(|q| d.symbols.latex_symbol(q)).collect();
     let _ = writeln!(out, "\\title{{{}}}\n\\date{{}}\n\\maketitle", plain(&super::text::title(d)));
+    let _ = writeln!(out, "{}.\n", plain(&d.title));
     let _ = writeln!(out, "Coordinates: ${}$.\n", names.join(",\\, "));
     let _ = writeln!(out, "Signature: ${}$ ({}).", d.signature.latex(), plain(Signature::COUNTS));
 }

@@ -23,6 +23,7 @@ pub fn text(d: &Description) -> String {
 
 fn overview(page: &mut Page, d: &Description) {
     page.heading(1, &title(d));
+    page.paragraph(&d.title);
     let names: Vec<String> = d.coordinates.iter().map(ToString::to_string).collect();
     page.entry(&format!("coordinates: {}", names.join(", ")));
     page.entry(&format!("signature: {} ({})", d.signature, Signature::COUNTS));
@@ -30,12 +31,12 @@ fn overview(page: &mut Page, d: &Description) {
     page.entry(&format!("effects: {}", if effects.is_empty() { "none".into() } else { effects.join(", ") }));
 }
 
-/// What the vehicle is, in a line.
+/// The vehicle with its trailers.
 pub(super) fn title(d: &Description) -> String {
     match d.trailers {
-        0 => format!("{}: {}", d.vehicle, d.title),
-        1 => format!("{}: {} with 1 trailer; {}", d.id(), d.vehicle, d.title),
-        n => format!("{}: {} with {n} trailers; {}", d.id(), d.vehicle, d.title),
+        0 => d.vehicle.clone(),
+        1 => format!("{} with 1 trailer", d.vehicle),
+        n => format!("{} with {n} trailers", d.vehicle),
     }
 }
 

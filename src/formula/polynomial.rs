@@ -1,6 +1,6 @@
 //! A formula as a polynomial in its atoms: like terms collected, products multiplied out.
 
-use super::{Expr, Node};
+use super::{Expr, Fun, Node};
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 use std::collections::BTreeMap;
@@ -57,6 +57,12 @@ impl Ord for Atom {
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
         self.key().cmp(&other.key())
     }
+}
+
+/// Multiplies a product by a power of an atom.
+fn raise(m: &mut Monomial, atom: &Atom, by: i32) {
+    *m.entry(atom.clone()).or_insert(0) += by;
+    m.retain(|_, k| *k != 0);
 }
 
 impl Polynomial {
@@ -135,6 +141,37 @@ impl Polynomial {
         self.terms.iter().fold(Expr::int(0), |sum, (m, v)| {
             let term = term(m, &v.abs());
             if v.is_negative() { &sum - &term } else { &sum + &term }
+        })
+    }
+
+    /// The same with cos²x + sin²x written as one.
+    ///
+    /// ```
+    /// use creepage::formula::{Expr, Polynomial};
+    /// let p = Polynomial::of(&Expr::parse("L*cos(x)^2 + L*sin(x)^2 + sin(x)").unwrap());
+    /// assert_eq!(p.squares_joined().expr().to_string(), "sin(x) + L");
+    /// ```
+    pub fn squares_joined(&self) -> Self {
+        let mut joined = self.clone();
+        while let Some((with_cos, with_sin, rest)) = joined.square_pair() {
+            let Some(factor) = joined.terms.remove(&with_cos) else { break };
+            joined.terms.remove(&with_sin);
+            joined.add_term(rest, factor);
+        }
+        joined
+    }
+
+    /// Two terms m·cos²x and m·sin²x with the same factor, and m.
+    fn square_pair(&self) -> Option<(Monomial, Monomial, Monomial)> {
+        self.terms.iter().find_map(|(m, v)| {
+            m.iter().filter(|(_, k)| **k >= 2).find_map(|(atom, _)| {
+                let Node::Call(Fun::Cos, x) = atom.expr.node() else { return None };
+                let mut rest = m.clone();
+                raise(&mut rest, atom, -2);
+                let mut with_sin = rest.clone();
+                raise(&mut with_sin, &Atom::new(&Expr::call(Fun::Sin, x)), 2);
+                (self.terms.get(&with_sin) == Some(v)).then(|| (m.clone(), with_sin, rest))
+            })
         })
     }
 

@@ -16,7 +16,7 @@
 //! ```
 
 use super::Row;
-use crate::formula::{Expr, Polynomial, Symbol};
+use crate::formula::{Expr, Node, Polynomial, Symbol};
 
 /// Solves row = 0 one unknown at a time, so that a chain is written as a chain: a rate that is solved stays
 /// a name in the formulas of the others. `None` when the rows do not determine the unknown rates.
@@ -49,30 +49,51 @@ fn isolate(row: &Row, name: &Symbol) -> Expr {
     let c = Polynomial::of(&row.coefficient(name));
     let mut rest = row.clone();
     rest.add(name.clone(), &-&row.coefficient(name));
-    let (top, bottom) = Polynomial::of(&(-&rest.expr())).cancelled(&c);
-    &top.expr() / &bottom.expr()
+    let (top, bottom) = Polynomial::of(&(-&rest.expr())).cancelled(&c.squares_joined());
+    // A divisor begins without a minus: -a/(-b + c) is written a/(b - c).
+    match leads_with_minus(&bottom.expr()) {
+        true => &(-&top.expr()).tidy() / &(-&bottom.expr()).tidy(),
+        false => &top.expr() / &bottom.expr(),
+    }
+}
+
+/// Whether the first term of a formula is subtracted.
+fn leads_with_minus(e: &Expr) -> bool {
+    match e.node() {
+        Node::Neg(_) => true,
+        Node::Add(a, _) | Node::Sub(a, _) => leads_with_minus(a),
+        _ => false,
+    }
 }
 
 /// Solves row = 0 for the unknown rates at once, no unknown left in any formula; `None` when the rows do not
 /// determine them.
 ///
-/// Gauss–Jordan elimination on formulas; a pivot that is a number is preferred.
+/// Gauss–Jordan elimination on formulas; pivots that are numbers come first.
 pub fn together(rows: &[Row], unknown: &[Symbol]) -> Option<Vec<(Symbol, Expr)>> {
     let mut rows = rows.to_vec();
+    let mut left: Vec<Symbol> = unknown.to_vec();
     let mut done: Vec<(Symbol, Row)> = Vec::new();
-    for name in unknown {
-        let weight = |r: &Row| {
-            let c = r.coefficient(name);
-            if c.as_number().is_some() { 0 } else { c.to_string().len() }
-        };
-        let usable = |r: &&Row| !Polynomial::of(&r.coefficient(name)).is_zero();
-        let best = rows.iter().enumerate().filter(|(_, r)| usable(r)).min_by_key(|(_, r)| weight(r))?.0;
-        let pivot = rows.remove(best);
-        rows.iter_mut().for_each(|r| *r = cleared(r, &pivot, name));
-        done.iter_mut().for_each(|(_, r)| *r = cleared(r, &pivot, name));
-        done.push((name.clone(), pivot));
+    while !left.is_empty() {
+        let (r, n) = pivot(&rows, &left)?;
+        let (row, name) = (rows.remove(r), left.remove(n));
+        rows.iter_mut().for_each(|r| *r = cleared(r, &row, &name));
+        done.iter_mut().for_each(|(_, r)| *r = cleared(r, &row, &name));
+        done.push((name, row));
     }
+    let place = |s: &Symbol| unknown.iter().position(|u| u == s);
+    done.sort_by_key(|(s, _)| place(s));
     Some(done.into_iter().map(|(name, row)| (name.clone(), isolate(&row, &name))).collect())
+}
+
+/// The row and the unknown to eliminate next. A number never vanishes, so it comes first; what may vanish, such
+/// as a coefficient of creep, would leave 0/0 behind.
+fn pivot(rows: &[Row], left: &[Symbol]) -> Option<(usize, usize)> {
+    let weight = |c: &Expr| if c.as_number().is_some() { 0 } else { c.to_string().len() };
+    let pairs = (0..left.len()).flat_map(|n| (0..rows.len()).map(move |r| (r, n)));
+    let usable = pairs.map(|(r, n)| (rows[r].coefficient(&left[n]), (r, n)));
+    let usable = usable.filter(|(c, _)| !Polynomial::of(c).is_zero());
+    usable.min_by_key(|(c, _)| weight(c)).map(|(_, place)| place)
 }
 
 /// A row freed of a rate by cross-multiplication, so that no division enters.

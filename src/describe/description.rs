@@ -1,0 +1,138 @@
+//! Everything that follows from a model.
+
+use super::{ConstraintEntry, Signature, Symbols};
+use crate::effects::Applied;
+use crate::error::Result;
+use crate::formula::{Expr, Symbol};
+use crate::mechanism::{Constraint, Definitions};
+use crate::model::{Model, WITH_TRAILERS};
+use std::collections::BTreeSet;
+
+/// A model in formulas: symbols, constraints, Pfaffian matrix, Jacobians, equations of motion.
+#[derive(Clone, Debug)]
+pub struct Description {
+    /// The vehicle's id; that of the tractor when it pulls trailers.
+    pub vehicle: String,
+    /// What it is, in a line.
+    pub title: String,
+    /// How many trailers it pulls.
+    pub trailers: usize,
+    /// Coordinates q: x, y, phi, wheels, trailers.
+    pub coordinates: Vec<Symbol>,
+    /// Every symbol of the formulas.
+    pub symbols: Symbols,
+    /// The constraints.
+    pub constraints: Vec<ConstraintEntry>,
+    /// A(q) with A(q)·q̇ = 0: a row for each constraint, a column for each coordinate.
+    pub pfaffian: Vec<Vec<Expr>>,
+    /// Number of coefficients by form.
+    pub signature: Signature,
+    /// The equations of motion, each using only earlier ones, states and inputs.
+    pub definitions: Vec<Equation>,
+    /// Rates of the states that no sensor sees.
+    pub states: Vec<Equation>,
+    /// Names that effects changed and that are no coefficient in any row: the motion departs from the rows there.
+    pub beside_rows: Vec<Symbol>,
+    /// The effects the model includes.
+    pub effects: Vec<EffectInModel>,
+}
+
+/// name = formula; for a state, its rate.
+#[derive(Clone, Debug)]
+pub struct Equation {
+    /// What is defined.
+    pub name: Symbol,
+    /// How.
+    pub formula: Expr,
+}
+
+/// An effect of a model.
+#[derive(Clone, Debug)]
+pub struct EffectInModel {
+    /// The effect with its values.
+    pub applied: Applied,
+    /// What it makes of a definition; `it` is the definition as it was.
+    pub changes: Vec<Equation>,
+}
+
+impl Description {
+    /// Derives everything from a model.
+    ///
+    /// # Errors
+    /// When the constraints do not determine the motion, or formulas use each other in a circle.
+    pub fn of(model: &Model) -> Result<Self> {
+        let definitions = model.definitions()?;
+        let plain = Model { effects: vec![], ..model.clone() }.definitions()?;
+        let coordinates = model.coordinates();
+        let found = model.constraints();
+        let in_rows: BTreeSet<Symbol> = found.iter().flat_map(coefficient_symbols).collect();
+        let creeps: BTreeSet<Symbol> = found.iter().map(|c| c.creep.clone()).collect();
+        let changed = |s: &Symbol| definitions.get(s) != plain.get(s);
+        let in_model = |s: &Symbol| {
+            definitions.get(s).filter(|_| in_rows.contains(s) && (creeps.contains(s) || changed(s))).cloned()
+        };
+        let constraints: Vec<_> = found.iter().map(|c| ConstraintEntry::of(c, &coordinates, &in_model)).collect();
+        let entry = |c: &ConstraintEntry| coordinates.iter().map(|q| c.row.coefficient(&q.rate())).collect();
+        let sorted = definitions.sorted()?.into_iter();
+        let mut description = Self {
+            vehicle: model.vehicle.id.clone(),
+            title: model.vehicle.title.clone(),
+            trailers: model.trailers.len(),
+            pfaffian: constraints.iter().map(entry).collect(),
+            signature: Signature::of(&found),
+            definitions: sorted.map(|(name, f)| Equation { name: name.clone(), formula: f.clone() }).collect(),
+            states: model
+                .effects
+                .iter()
+                .flat_map(Applied::states)
+                .map(|(name, formula)| Equation { name, formula })
+                .collect(),
+            beside_rows: definitions
+                .iter()
+                .map(|(n, _)| n.clone())
+                .filter(|n| changed(n) && !in_rows.contains(n))
+                .collect(),
+            effects: model.effects.iter().map(|e| EffectInModel::of(e, &plain)).collect(),
+            symbols: Symbols::of(model, &definitions, &BTreeSet::new())?,
+            coordinates,
+            constraints,
+        };
+        description.symbols = Symbols::of(model, &definitions, &description.used())?;
+        Ok(description)
+    }
+
+    /// The name of the whole, as in a model file.
+    pub fn id(&self) -> &str {
+        if self.trailers > 0 { WITH_TRAILERS } else { &self.vehicle }
+    }
+
+    /// Every formula of the description, except the changes of effects, which speak of `it`.
+    pub fn formulas(&self) -> Vec<Expr> {
+        let constraints = self.constraints.iter().flat_map(ConstraintEntry::formulas);
+        let equations = self.definitions.iter().chain(&self.states).map(|e| e.formula.clone());
+        constraints.chain(equations).collect()
+    }
+
+    /// Every symbol of the description.
+    fn used(&self) -> BTreeSet<Symbol> {
+        let mut used: BTreeSet<Symbol> = self.formulas().iter().flat_map(Expr::symbols).collect();
+        used.extend(self.coordinates.iter().flat_map(|q| [q.clone(), q.rate()]));
+        used.extend(self.definitions.iter().chain(&self.states).map(|e| e.name.clone()));
+        used.extend(self.effects.iter().flat_map(|e| e.applied.parameters()));
+        used
+    }
+}
+
+/// The symbols in the coefficients of a constraint's row.
+fn coefficient_symbols(c: &Constraint) -> BTreeSet<Symbol> {
+    c.row().terms().iter().flat_map(|(_, e)| e.symbols()).collect()
+}
+
+impl EffectInModel {
+    fn of(applied: &Applied, definitions: &Definitions) -> Self {
+        let names: Vec<Symbol> = definitions.iter().map(|(n, _)| n.clone()).collect();
+        let targets = applied.effect.targets(&names, applied.trailer).unwrap_or_default().into_iter();
+        let changes = targets.map(|(name, f)| Equation { name, formula: applied.localised(&f) }).collect();
+        Self { applied: applied.clone(), changes }
+    }
+}

@@ -1,0 +1,94 @@
+//! A description as JSON: each formula in text and in LaTeX.
+
+use super::constraint::form;
+use super::{ConstraintEntry, Description, EffectInModel, Equation, Signature, SymbolEntry, Symbols};
+use crate::formula::{Expr, Symbol};
+use crate::mechanism::Row;
+use serde_json::{Map, Value, json as object};
+
+/// The description as JSON.
+pub fn json(d: &Description) -> Value {
+    let s = &d.symbols;
+    object!({
+        "schema": 1,
+        "vehicle": d.id(),
+        "tractor": if d.trailers > 0 { Some(&d.vehicle) } else { None },
+        "title": d.title,
+        "trailers": d.trailers,
+        "coordinates": names(&d.coordinates),
+        "symbols": s.entries().iter().map(symbol).collect::<Vec<_>>(),
+        "constraints": d.constraints.iter().map(|c| constraint(s, c)).collect::<Vec<_>>(),
+        "pfaffian": {
+            "columns": names(&d.coordinates.iter().map(Symbol::rate).collect::<Vec<_>>()),
+            "rows": d.pfaffian.iter().map(|r| r.iter().map(|e| formula(s, e)).collect()).collect::<Vec<Vec<Value>>>(),
+        },
+        "signature": {
+            "r": d.signature.r, "t": d.signature.t,
+            "text": d.signature.to_string(), "latex": d.signature.latex(), "counts": Signature::COUNTS,
+        },
+        "definitions": d.definitions.iter().map(|e| equation(s, e, &e.name)).collect::<Vec<_>>(),
+        "states": d.states.iter().map(|e| equation(s, e, &e.name.rate())).collect::<Vec<_>>(),
+        "beside_rows": names(&d.beside_rows),
+        "effects": d.effects.iter().map(|e| effect(s, e)).collect::<Vec<_>>(),
+    })
+}
+
+fn names(symbols: &[Symbol]) -> Vec<&str> {
+    symbols.iter().map(Symbol::as_str).collect()
+}
+
+fn symbol(e: &SymbolEntry) -> Value {
+    object!({
+        "symbol": e.symbol.as_str(), "latex": e.latex, "unit": e.unit, "meaning": e.meaning, "kind": e.kind.name(),
+        "value": e.value,
+    })
+}
+
+fn formula(s: &Symbols, e: &Expr) -> Value {
+    object!({ "text": e.to_string(), "latex": s.latex(e) })
+}
+
+/// row = 0
+fn row(s: &Symbols, r: &Row) -> Value {
+    formula(s, &r.expr())
+}
+
+fn equation(s: &Symbols, e: &Equation, name: &Symbol) -> Value {
+    object!({ "name": name.as_str(), "name_latex": s.latex_symbol(name), "formula": formula(s, &e.formula) })
+}
+
+fn constraint(s: &Symbols, c: &ConstraintEntry) -> Value {
+    let [text, latex, _] = form(c.form);
+    let parts: Map<String, Value> = c.parts.iter().map(|p| (p.label.to_string(), formula(s, &p.formula))).collect();
+    let by_q: Map<String, Value> = c.jacobian.q.iter().map(|(q, d)| (q.to_string(), row(s, d))).collect();
+    let by_rate: Map<String, Value> = c.jacobian.rates.iter().map(|(q, d)| (q.to_string(), formula(s, d))).collect();
+    object!({
+        "name": c.name,
+        "form": c.form.to_string(),
+        "creep": c.creep.as_str(),
+        "source": c.source,
+        "generic": {
+            "text": text, "latex": latex, "parts": parts, "together": formula(s, &c.generic),
+            "sigma_undefined_where_zero": c.singular.as_ref().map(|e| formula(s, e)),
+        },
+        "row": row(s, &c.row),
+        "ideal_row": row(s, &c.ideal),
+        "model_row": formula(s, &c.model),
+        "jacobian": { "q": by_q, "q_dot": by_rate, "e": row(s, &c.jacobian.e) },
+    })
+}
+
+fn effect(s: &Symbols, e: &EffectInModel) -> Value {
+    let effect = &e.applied.effect;
+    let declared = effect.parameters.iter().zip(&e.applied.values).zip(e.applied.parameters());
+    let parameters: Map<String, Value> = declared
+        .map(|(((name, p), v), symbol)| {
+            (name.clone(), object!({"value": v, "unit": p.unit, "symbol": symbol.as_str()}))
+        })
+        .collect();
+    object!({
+        "id": effect.id, "trailer": e.applied.trailer, "where": effect.place, "says": effect.says,
+        "source": effect.source, "parameters": parameters,
+        "changes": e.changes.iter().map(|c| equation(s, c, &c.name)).collect::<Vec<_>>(),
+    })
+}

@@ -1,0 +1,38 @@
+//! What a model is, in formulas a person can read: the work behind `describe`, `vehicles` and `effects`.
+//!
+//! A [`Description`] holds everything that follows from a model; [`text`], [`latex`] and [`json`] write it
+//! down. [`vehicles_text`] and [`effects_text`] list the catalogues, each with a `_json` sister.
+//!
+//! ```
+//! use creepage::{describe, describe::Description, model::Model};
+//! let wheel = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+//! let description = Description::of(&wheel).unwrap();
+//! assert_eq!(description.signature.to_string(), "R T");
+//! assert_eq!(description.constraints[1].ideal.to_string(), "sin(phi)*x' - cos(phi)*y'");
+//! assert!(describe::text(&description).contains("cos(phi)*x' + sin(phi)*y' - r*theta' = 0"));
+//! ```
+
+mod constraint;
+mod description;
+mod effects;
+mod jacobian;
+mod json;
+mod latex;
+mod meaning;
+mod page;
+mod signature;
+mod symbols;
+mod terms;
+mod text;
+mod vehicles;
+
+pub use constraint::{ConstraintEntry, Part};
+pub use description::{Description, EffectInModel, Equation};
+pub use effects::{effects_json, effects_text};
+pub use jacobian::Jacobian;
+pub use json::json;
+pub use latex::latex;
+pub use signature::Signature;
+pub use symbols::{Kind, SymbolEntry, Symbols};
+pub use text::text;
+pub use vehicles::{vehicles_json, vehicles_text};

@@ -1,0 +1,194 @@
+//! Every symbol of a model with unit, meaning and value.
+
+use super::meaning;
+use crate::effects::Applied;
+use crate::error::{Error, Result};
+use crate::formula::{Expr, Symbol, latex_symbol};
+use crate::mechanism::Definitions;
+use crate::model::Model;
+use crate::vehicles::Wheel;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What a symbol stands for; the order is that of the tables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// A coordinate of the configuration.
+    Coordinate,
+    /// The rate of a coordinate.
+    Rate,
+    /// A parameter of the model file.
+    Parameter,
+    /// A logged input.
+    Input,
+    /// A coefficient of creep; zero is ideal.
+    Creep,
+    /// A quantity defined by a formula.
+    Defined,
+    /// A state that no sensor sees.
+    State,
+    /// A parameter of an effect.
+    EffectParameter,
+    /// Where the sensor sits, as stated.
+    Sensor,
+    /// What the sensor measures.
+    Measured,
+}
+
+impl Kind {
+    /// Its name in listings.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Coordinate => "coordinate",
+            Kind::Rate => "rate",
+            Kind::Parameter => "parameter",
+            Kind::Input => "input",
+            Kind::Creep => "creep",
+            Kind::Defined => "defined",
+            Kind::State => "state",
+            Kind::EffectParameter => "effect",
+            Kind::Sensor => "sensor",
+            Kind::Measured => "measured",
+        }
+    }
+}
+
+/// A symbol of a model.
+#[derive(Clone, Debug)]
+pub struct SymbolEntry {
+    /// The symbol.
+    pub symbol: Symbol,
+    /// Its form in LaTeX, no two alike.
+    pub latex: String,
+    /// SI unit.
+    pub unit: String,
+    /// What it means.
+    pub meaning: String,
+    /// What it stands for.
+    pub kind: Kind,
+    /// Its value, where the model fixes one.
+    pub value: Option<f64>,
+}
+
+/// The symbols of a model.
+#[derive(Clone, Debug)]
+pub struct Symbols {
+    entries: Vec<SymbolEntry>,
+    renamed: BTreeMap<Symbol, Symbol>,
+}
+
+impl Symbols {
+    /// The entries of the names in use.
+    ///
+    /// # Errors
+    /// When a name has no meaning in the model.
+    pub fn of(model: &Model, definitions: &Definitions, used: &BTreeSet<Symbol>) -> Result<Self> {
+        let values = values(model, definitions)?;
+        let renamed = renamed(used);
+        let mut entries: Vec<SymbolEntry> = Vec::new();
+        for symbol in used {
+            let found = look_up(model, symbol);
+            let (kind, unit, meaning) = found.ok_or_else(|| Error::run(format!("the name {symbol} has no meaning")))?;
+            let latex = latex_symbol(renamed.get(symbol).unwrap_or(symbol));
+            let value = values.get(symbol).copied();
+            entries.push(SymbolEntry { symbol: symbol.clone(), latex, unit, meaning, kind, value });
+        }
+        let place = |s: &Symbol| model.coordinates().iter().position(|c| c == s || c.rate() == *s);
+        entries.sort_by_key(|e| (e.kind, place(&e.symbol)));
+        Ok(Self { entries, renamed })
+    }
+
+    /// The entries, by kind.
+    pub fn entries(&self) -> &[SymbolEntry] {
+        &self.entries
+    }
+
+    /// The entry of a symbol.
+    pub fn get(&self, symbol: &Symbol) -> Option<&SymbolEntry> {
+        self.entries.iter().find(|e| e.symbol == *symbol)
+    }
+
+    /// A formula in LaTeX, no two symbols alike.
+    pub fn latex(&self, formula: &Expr) -> String {
+        self.distinct(formula).latex()
+    }
+
+    /// A symbol in LaTeX.
+    pub fn latex_symbol(&self, symbol: &Symbol) -> String {
+        latex_symbol(self.renamed.get(symbol).unwrap_or(symbol))
+    }
+
+    /// The formula with names that LaTeX would print alike made different.
+    pub(super) fn distinct(&self, formula: &Expr) -> Expr {
+        formula.substitute(&|s| self.renamed.get(s).map(|r| Expr::sym(r.clone())))
+    }
+}
+
+/// A name `effect.parameter` is printed as `parameter`, or with the effect as its index where that is not enough.
+fn renamed(used: &BTreeSet<Symbol>) -> BTreeMap<Symbol, Symbol> {
+    let alike = |s: &Symbol| used.iter().filter(|o| latex_symbol(o) == latex_symbol(s)).count() > 1;
+    let dotted = used.iter().filter_map(|s| Some((s, s.as_str().split_once('.')?)));
+    let new = |(effect, name): (&str, &str)| Symbol::new(&format!("{name}_{effect}"));
+    dotted.filter(|(s, _)| alike(s)).map(|(s, parts)| (s.clone(), new(parts))).collect()
+}
+
+/// The values the model fixes: parameters, and what is defined by them alone.
+fn values(model: &Model, definitions: &Definitions) -> Result<BTreeMap<Symbol, f64>> {
+    let mut values = model.values();
+    for (name, formula) in definitions.sorted()? {
+        if let Some(v) = formula.eval(&|s| values.get(s).copied().unwrap_or(f64::NAN)) {
+            values.insert(name.clone(), v);
+        }
+    }
+    Ok(values)
+}
+
+fn look_up(model: &Model, symbol: &Symbol) -> Option<(Kind, String, String)> {
+    let name = symbol.as_str();
+    let vehicle = &model.vehicle;
+    let is_rate = model.coordinates().iter().any(|c| c.rate() == *symbol);
+    if let Some(d) = vehicle.define.get(symbol) {
+        let kind = if is_rate { Kind::Rate } else { Kind::Defined };
+        return Some((kind, d.unit.clone(), d.meaning.clone()));
+    }
+    if let Some(p) = vehicle.parameters.get(name) {
+        return Some((Kind::Parameter, p.unit.clone(), p.meaning.clone()));
+    }
+    if let Some(i) = vehicle.inputs.get(name) {
+        return Some((Kind::Input, i.unit.clone(), i.meaning.clone()));
+    }
+    let mut replacements = vehicle.inputs.values().filter_map(|i| i.instead.as_ref().map(|r| (i, r)));
+    if let Some((input, r)) = replacements.find(|(_, r)| r.role == name) {
+        return Some((Kind::Input, r.unit.clone(), format!("logged in place of the {}", input.meaning)));
+    }
+    wheel(model, symbol)
+        .or_else(|| model.effects.iter().find_map(|e| of_effect(e, symbol)))
+        .or_else(|| meaning::of(name, model.trailers.len()))
+}
+
+/// The angle of a wheel or a coefficient of its creep.
+fn wheel(model: &Model, symbol: &Symbol) -> Option<(Kind, String, String)> {
+    let is = |s: &Option<Symbol>| s.as_ref() == Some(symbol);
+    let is_rate_of = |w: &Wheel| w.rate == Some(symbol.rate());
+    model.vehicle.wheels.iter().find_map(|w| {
+        if is(&w.rotation_creep) {
+            Some((Kind::Creep, "1".into(), format!("rotation creep of the {}", w.name)))
+        } else if is(&w.traverse_creep) {
+            Some((Kind::Creep, "1".into(), format!("traverse creep of the {}", w.name)))
+        } else if is_rate_of(w) {
+            Some((Kind::Coordinate, "rad".into(), format!("angle turned by the {}", w.name)))
+        } else {
+            None
+        }
+    })
+}
+
+/// A parameter or a state of an effect.
+fn of_effect(e: &Applied, symbol: &Symbol) -> Option<(Kind, String, String)> {
+    let means = |what: &str| format!("{what} of {}: {}", e.label(), e.effect.says);
+    let parameter = e.effect.parameters.iter().find(|(name, _)| e.symbol(name) == *symbol);
+    if let Some((_, p)) = parameter {
+        return Some((Kind::EffectParameter, p.unit.clone(), means("parameter")));
+    }
+    let state = e.effect.states.iter().find(|(name, _)| e.symbol(name) == *symbol);
+    state.map(|(_, s)| (Kind::State, s.unit.clone(), means("state")))
+}

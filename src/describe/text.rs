@@ -1,0 +1,122 @@
+//! A description for a terminal.
+
+use super::constraint::form;
+use super::page::Page;
+use super::{ConstraintEntry, Description, Equation, Signature};
+
+/// The description as text that is Markdown too; every formula in it reads back with `Expr::parse`.
+pub fn text(d: &Description) -> String {
+    let mut page = Page::default();
+    overview(&mut page, d);
+    symbols(&mut page, d);
+    page.heading(2, "Constraints");
+    page.paragraph(
+        "Every row times the rates of the coordinates is zero. A derivative of g, the row times the rates, that is \
+         not listed is zero everywhere.",
+    );
+    d.constraints.iter().enumerate().for_each(|(i, c)| constraint(&mut page, i + 1, c));
+    pfaffian(&mut page, d);
+    motion(&mut page, d);
+    effects(&mut page, d);
+    page.finished()
+}
+
+fn overview(page: &mut Page, d: &Description) {
+    page.heading(1, &title(d));
+    page.paragraph(&d.title);
+    let names: Vec<String> = d.coordinates.iter().map(ToString::to_string).collect();
+    page.entry(&format!("coordinates: {}", names.join(", ")));
+    page.entry(&format!("signature: {} ({})", d.signature, Signature::COUNTS));
+    let effects: Vec<String> = d.effects.iter().map(|e| e.applied.label()).collect();
+    page.entry(&format!("effects: {}", if effects.is_empty() { "none".into() } else { effects.join(", ") }));
+}
+
+/// The vehicle with its trailers.
+pub(super) fn title(d: &Description) -> String {
+    match d.trailers {
+        0 => d.vehicle.clone(),
+        1 => format!("{} with 1 trailer", d.vehicle),
+        n => format!("{} with {n} trailers", d.vehicle),
+    }
+}
+
+fn symbols(page: &mut Page, d: &Description) {
+    page.heading(2, "Symbols");
+    let row = |e: &super::SymbolEntry| {
+        let value = e.value.map_or(String::new(), |v| v.to_string());
+        vec![e.symbol.to_string(), e.unit.clone(), e.kind.name().into(), value, e.meaning.clone()]
+    };
+    let rows: Vec<_> = d.symbols.entries().iter().map(row).collect();
+    page.table(&["symbol", "unit", "kind", "value", "meaning"], &rows);
+}
+
+fn constraint(page: &mut Page, number: usize, c: &ConstraintEntry) {
+    page.heading(3, &format!("{number}. {}", c.name));
+    page.line(&format!(
+        "Type {}, {}; coefficient {}; equations {}. Put in:",
+        c.form,
+        form(c.form)[0],
+        c.creep,
+        c.source
+    ));
+    c.parts.iter().for_each(|p| page.formula(&format!("{} = {}", p.label, p.formula)));
+    page.formula(&format!("{} = 0", c.generic));
+    match &c.singular {
+        None => page.line("sigma is defined everywhere."),
+        Some(_) => page.line("sigma is undefined where s = 0; the row is regular there."),
+    }
+    for (label, row) in c.rows() {
+        page.line(&format!("{label}:"));
+        page.formula(&format!("{row} = 0"));
+    }
+    page.line("Derivatives of g:");
+    c.jacobian.q.iter().for_each(|(q, d)| page.formula(&format!("dg/d({q}) = {d}")));
+    c.jacobian.rates.iter().for_each(|(rate, d)| page.formula(&format!("dg/d({rate}) = {d}")));
+    page.formula(&format!("dg/d({}) = {}", c.creep, c.jacobian.e));
+}
+
+fn pfaffian(page: &mut Page, d: &Description) {
+    page.heading(2, "Pfaffian matrix");
+    let names: Vec<String> = d.coordinates.iter().map(|q| q.rate().to_string()).collect();
+    page.line(&format!("A(q), one row for each constraint; columns {}:", names.join(", ")));
+    for row in &d.pfaffian {
+        let entries: Vec<String> = row.iter().map(ToString::to_string).collect();
+        page.formula(&format!("[{}]", entries.join(", ")));
+    }
+    page.gap();
+}
+
+fn motion(page: &mut Page, d: &Description) {
+    page.heading(2, "Equations of motion");
+    page.line("Each uses only earlier ones, states, inputs and parameters.");
+    let equation = |page: &mut Page, e: &Equation| page.formula(&format!("{} = {}", e.name, e.formula));
+    d.definitions.iter().for_each(|e| equation(page, e));
+    if !d.states.is_empty() {
+        page.line("Rates of states that no sensor sees:");
+        d.states.iter().for_each(|e| page.formula(&format!("{} = {}", e.name.rate(), e.formula)));
+    }
+    if !d.beside_rows.is_empty() {
+        let names: Vec<String> = d.beside_rows.iter().map(ToString::to_string).collect();
+        page.gap();
+        page.paragraph(&format!("Effects act on these beside the rows: {}.", names.join(", ")));
+    }
+    page.gap();
+}
+
+fn effects(page: &mut Page, d: &Description) {
+    if d.effects.is_empty() {
+        return;
+    }
+    page.heading(2, "Effects in the model");
+    page.paragraph("In a change, `it` is the definition as it was.");
+    for e in &d.effects {
+        let effect = &e.applied.effect;
+        page.heading(3, &e.applied.label());
+        page.line(&format!("{}; acts on the {}; source: {}.", effect.says, effect.place, effect.source));
+        for (symbol, (p, value)) in e.applied.parameters().iter().zip(effect.parameters.values().zip(&e.applied.values))
+        {
+            page.entry(&format!("{symbol}: {value} {}", if p.unit == "1" { "" } else { &p.unit }));
+        }
+        e.changes.iter().for_each(|c| page.formula(&format!("{} = {}", c.name, c.formula)));
+    }
+}

@@ -1,0 +1,140 @@
+//! The list of vehicles.
+
+use super::Signature;
+use super::jacobian::rates;
+use super::page::Page;
+use crate::error::Result;
+use crate::formula::latex_symbol;
+use crate::mechanism::Constraint;
+use crate::model::{Model, Trailer, WITH_TRAILERS};
+use crate::vehicles::{self, Vehicle};
+use serde_json::{Value, json};
+
+/// What the entry of vehicles with trailers says.
+const TRAIN: &str = "a tractor with trailers; one more direction constraint for each trailer";
+
+/// A model of a vehicle of the catalogue with every parameter one: enough for its formulas.
+pub(super) fn sample(vehicle: &Vehicle) -> Result<Model> {
+    let ones: Vec<(&str, f64)> = vehicle.parameters.keys().map(|name| (name.as_str(), 1.0)).collect();
+    Model::new(&vehicle.id, &ones)
+}
+
+/// The same with one trailer.
+pub(super) fn sample_train(vehicle: &Vehicle) -> Result<Model> {
+    Ok(sample(vehicle)?.with_trailers(&[Trailer { length: 1.0, hitch: 1.0 }]))
+}
+
+/// Every vehicle with parameters, inputs, signature and constraint rows, as text.
+///
+/// # Errors
+/// When a vehicle of the catalogue cannot be built.
+pub fn vehicles_text() -> Result<String> {
+    let mut page = Page::default();
+    page.heading(1, "Vehicles");
+    page.paragraph("Every row times the rates is zero. `creepage describe` shows the whole of a model.");
+    for vehicle in vehicles::all() {
+        page.heading(2, &vehicle.id);
+        page.paragraph(&vehicle.title);
+        for (name, p) in &vehicle.parameters {
+            let optional = if p.optional { ", optional" } else { "" };
+            page.entry(&format!("parameter {name} ({}{optional}): {}", p.unit, p.meaning));
+        }
+        for (role, i) in &vehicle.inputs {
+            let instead = i.instead.as_ref().map(|o| format!(", or {} ({})", o.role, o.unit)).unwrap_or_default();
+            page.entry(&format!("input {role} ({}){instead}: {}", i.unit, i.meaning));
+        }
+        rows(&mut page, &sample(vehicle)?);
+    }
+    page.heading(2, WITH_TRAILERS);
+    page.paragraph(TRAIN);
+    page.entry("tractor: any vehicle above; car when left out");
+    page.entry("parameter trailer_lengths (m): from hitch to axle, nearest first");
+    page.entry("parameter hitch_offsets (m, optional): hitch behind the axle ahead of it");
+    for vehicle in vehicles::all() {
+        let Signature { r, t } = Signature::of(&sample(vehicle)?.constraints());
+        page.entry(&format!("signature of N trailers behind {}: {}T^(N+{t})", vehicle.id, power('R', r)));
+    }
+    let all = sample_train(&vehicles::all()[0])?;
+    let constraints = all.constraints();
+    page.line("The row of the first trailer:");
+    row(&mut page, &all, &constraints[constraints.len() - 1]);
+    Ok(page.finished())
+}
+
+fn power(letter: char, n: usize) -> String {
+    match n {
+        0 => String::new(),
+        1 => format!("{letter} "),
+        n => format!("{letter}^{n} "),
+    }
+}
+
+fn rows(page: &mut Page, model: &Model) {
+    let constraints = model.constraints();
+    page.entry(&format!("signature: {}", Signature::of(&constraints)));
+    page.gap();
+    for c in &constraints {
+        page.line(&format!("{} (type {}, {}):", c.name, c.letter(), c.creep));
+        row(page, model, c);
+    }
+}
+
+fn row(page: &mut Page, model: &Model, c: &Constraint) {
+    page.formula(&format!("{} = 0", c.row().ordered(&rates(&model.coordinates()))));
+}
+
+/// Every vehicle as JSON.
+///
+/// # Errors
+/// As [`vehicles_text`].
+pub fn vehicles_json() -> Result<Value> {
+    let single = vehicles::all().iter().map(|v| entry(v, &sample(v)?)).collect::<Result<Vec<Value>>>()?;
+    Ok(json!({ "schema": 1, "vehicles": single.into_iter().chain([train()?]).collect::<Vec<_>>() }))
+}
+
+fn entry(vehicle: &Vehicle, model: &Model) -> Result<Value> {
+    let parameter = |(name, p): (&String, &vehicles::Quantity)| json!({ "name": name, "unit": p.unit, "meaning": p.meaning, "optional": p.optional });
+    let input = |(role, i): (&String, &vehicles::Input)| {
+        let instead =
+            i.instead.as_ref().map(|o| json!({ "role": o.role, "unit": o.unit, "formula": o.formula.to_string() }));
+        json!({ "role": role, "unit": i.unit, "meaning": i.meaning, "instead": instead })
+    };
+    let constraints = model.constraints();
+    let signature = Signature::of(&constraints);
+    Ok(json!({
+        "id": vehicle.id, "title": vehicle.title,
+        "parameters": vehicle.parameters.iter().map(parameter).collect::<Vec<_>>(),
+        "inputs": vehicle.inputs.iter().map(input).collect::<Vec<_>>(),
+        "signature": { "r": signature.r, "t": signature.t, "text": signature.to_string() },
+        "constraints": constraints.iter().map(|c| constraint(model, c)).collect::<Vec<_>>(),
+    }))
+}
+
+fn constraint(model: &Model, c: &Constraint) -> Value {
+    let row = c.row().ordered(&rates(&model.coordinates())).expr();
+    json!({
+        "name": c.name, "form": c.letter().to_string(), "creep": c.creep.as_str(), "creep_latex": latex_symbol(&c.creep),
+        "row": { "text": row.to_string(), "latex": row.latex() },
+    })
+}
+
+fn train() -> Result<Value> {
+    let parameter = |name: &str, meaning: &str, optional: bool| json!({ "name": name, "unit": "m", "meaning": meaning, "optional": optional });
+    let tractor = |v: &Vehicle| -> Result<Value> {
+        let Signature { r, t } = Signature::of(&sample(v)?.constraints());
+        Ok(
+            json!({ "id": v.id, "signature": { "r": r, "t": format!("N+{t}"), "text": format!("{}T^(N+{t})", power('R', r)) } }),
+        )
+    };
+    let model = sample_train(&vehicles::all()[0])?;
+    let constraints = model.constraints();
+    Ok(json!({
+        "id": WITH_TRAILERS, "title": TRAIN,
+        "parameters": [
+            parameter("trailer_lengths", "from hitch to axle, nearest first", false),
+            parameter("hitch_offsets", "hitch behind the axle ahead of it", true),
+        ],
+        "tractors": vehicles::all().iter().map(tractor).collect::<Result<Vec<_>>>()?,
+        "constraints": [constraint(&model, &constraints[constraints.len() - 1])],
+    }))
+}

@@ -1,0 +1,137 @@
+//! Models for the tests: every vehicle with and without trailers, random ones, and their motion at an instant.
+#![allow(dead_code)] // every test binary uses its own part
+
+use creepage::effects::{self, Applied, Effect};
+use creepage::formula::{Expr, Symbol};
+use creepage::model::{Model, Trailer};
+use creepage::vehicles;
+use proptest::prelude::*;
+use std::collections::BTreeMap;
+
+pub type Values = BTreeMap<Symbol, f64>;
+
+/// A vehicle of the catalogue, parameters given in the order of their names.
+pub fn vehicle(id: &str, values: &[f64]) -> Model {
+    let names = vehicles::named(id).unwrap().parameters.keys();
+    let given: Vec<(&str, f64)> = names.zip(values.iter().cycle()).map(|(n, v)| (n.as_str(), *v)).collect();
+    Model::new(id, &given).unwrap()
+}
+
+/// Every vehicle of the catalogue alone and with two trailers, the second one off-axle.
+pub fn machines() -> Vec<Model> {
+    let train = [Trailer { length: 3.0, hitch: 0.0 }, Trailer { length: 2.5, hitch: 0.4 }];
+    let alone = vehicles::all().iter().map(|v| vehicle(&v.id, &[0.7, 0.3, 2.1]));
+    alone.flat_map(|m| [m.clone(), m.with_trailers(&train)]).collect()
+}
+
+/// Every machine with each effect that applies to it.
+pub fn machines_with_effects() -> Vec<(Model, &'static Effect, Option<usize>)> {
+    let all = machines().into_iter();
+    all.flat_map(|m| m.applicable(effects::all()).into_iter().map(|(e, t)| (m.clone(), e, t)).collect::<Vec<_>>())
+        .collect()
+}
+
+/// An effect of the library with its values in the order of their names.
+pub fn effect(id: &str, trailer: Option<usize>, values: &[f64]) -> Applied {
+    Applied::new(effects::named(id).unwrap(), trailer, values.to_vec())
+}
+
+/// The five models whose descriptions a person has read.
+pub fn reviewed() -> Vec<(&'static str, Model)> {
+    let car = Model::new("car", &[("wheel_radius", 0.3), ("wheelbase", 2.6)]).unwrap();
+    let train = [Trailer { length: 3.0, hitch: 0.0 }, Trailer { length: 2.5, hitch: 0.4 }];
+    let patched = [
+        effect("rotation-creep", None, &[0.03]),
+        effect("wheelbase", None, &[0.02]),
+        effect("cornering-creep", None, &[0.11]),
+        effect("front-traverse-creep", None, &[-0.015]),
+        effect("steering-gain", None, &[0.04]),
+        effect("drift", None, &[0.1, -0.2]),
+    ];
+    vec![
+        ("unicycle", Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap()),
+        (
+            "differential-drive",
+            Model::new("differential-drive", &[("wheel_radius", 0.1), ("track_width", 0.5)]).unwrap(),
+        ),
+        ("car", car.clone()),
+        ("n-trailer", car.clone().with_trailers(&train)),
+        ("patched-car", patched.into_iter().fold(car, Model::with_effect)),
+    ]
+}
+
+/// A random machine of up to ten trailers with creep in every coefficient, and numbers to make instants from.
+#[derive(Clone, Debug)]
+pub struct Random {
+    pub model: Model,
+    pub numbers: Vec<f64>,
+}
+
+/// Random machines; every second hitch is on the axle.
+pub fn random() -> impl Strategy<Value = Random> {
+    let trailer = (0.5..4.0f64, prop_oneof![Just(0.0), -1.0..1.0f64]);
+    let trailers = prop::collection::vec(trailer.prop_map(|(length, hitch)| Trailer { length, hitch }), 0..=10);
+    let id = prop::sample::select(vehicles::all().iter().map(|v| v.id.clone()).collect::<Vec<_>>());
+    let numbers = prop::collection::vec(-1.0..1.0f64, 40);
+    (id, prop::array::uniform3(0.2..3.0f64), trailers, numbers).prop_map(|(id, parameters, trailers, numbers)| {
+        let model = vehicle(&id, &parameters).with_trailers(&trailers);
+        Random { model: creeping(&model, &numbers), numbers }
+    })
+}
+
+/// The model with creep in every coefficient.
+pub fn creeping(model: &Model, numbers: &[f64]) -> Model {
+    const CREEPS: [&str; 4] =
+        ["unequal-rotation-creep", "traverse-creep", "front-traverse-creep", "trailer-traverse-creep"];
+    let mut found = model.applicable(effects::all());
+    let unequal = found.iter().any(|(e, _)| e.id == CREEPS[0]);
+    found.retain(|(e, _)| CREEPS.contains(&e.id.as_str()) || (e.id == "rotation-creep" && !unequal));
+    let mut next = numbers.iter().cycle().map(|x| 0.3 * x);
+    let applied = found.into_iter().map(|(e, t)| Applied::new(e, t, next.by_ref().take(e.parameters.len()).collect()));
+    applied.fold(model.clone(), Model::with_effect)
+}
+
+/// States and inputs of an instant, from numbers within −1 … 1.
+pub fn situation(model: &Model, numbers: &[f64]) -> Values {
+    let mut next = numbers.iter().rev().cycle();
+    let mut number = || next.next().copied().unwrap_or(0.0);
+    let inputs: Vec<Symbol> = model.inputs.iter().map(|i| Symbol::new(i)).collect();
+    let mut values = Values::new();
+    for s in model.states() {
+        values.insert(s, 3.2 * number());
+    }
+    for s in inputs {
+        let size = if s.as_str() == "steering_angle" { 0.9 } else { 4.0 };
+        values.insert(s, size * number());
+    }
+    values
+}
+
+/// Every definition of the model in a situation.
+pub fn instant(model: &Model, situation: &Values) -> Values {
+    let mut values = model.values();
+    values.extend(situation.clone());
+    for (name, formula) in model.definitions().unwrap().sorted().unwrap() {
+        let value = formula.eval(&at(&values)).unwrap_or(f64::NAN);
+        values.insert(name.clone(), value);
+    }
+    values
+}
+
+/// The values as a reading of names; an unknown name is undefined.
+pub fn at(values: &Values) -> impl Fn(&Symbol) -> f64 + '_ {
+    |s| values.get(s).copied().unwrap_or(f64::NAN)
+}
+
+/// The value of a formula.
+#[track_caller]
+pub fn value(e: &Expr, values: &Values) -> f64 {
+    e.eval(&at(values)).unwrap_or_else(|| panic!("{e} is undefined"))
+}
+
+/// Values for every name in the model's formulas, related in no way.
+pub fn anywhere(model: &Model, numbers: &[f64]) -> Values {
+    let mut names: Vec<Symbol> = model.definitions().unwrap().iter().map(|(n, _)| n.clone()).collect();
+    names.extend(model.coordinates().iter().flat_map(|q| [q.clone(), q.rate()]));
+    names.into_iter().zip(numbers.iter().cycle()).enumerate().map(|(k, (n, x))| (n, x + 0.01 * k as f64)).collect()
+}

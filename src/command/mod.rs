@@ -1,7 +1,10 @@
 //! The command line: arguments → one library call → print.
 
+mod describe;
 mod discover;
+mod lists;
 mod progress;
+mod simulate;
 
 use clap::{Args, Parser, Subcommand};
 use creepage::{Error, Result};
@@ -30,6 +33,10 @@ struct Common {
 #[derive(Subcommand)]
 enum Command {
     Discover(discover::Arguments),
+    Simulate(simulate::Arguments),
+    Describe(describe::Arguments),
+    Vehicles(lists::Vehicles),
+    Effects(lists::Effects),
 }
 
 impl Cli {
@@ -44,6 +51,10 @@ impl Cli {
         }
         match self.command {
             Command::Discover(arguments) => discover::run(&arguments, self.common.quiet),
+            Command::Simulate(arguments) => simulate::run(&arguments, self.common.quiet),
+            Command::Describe(arguments) => describe::run(&arguments),
+            Command::Vehicles(arguments) => lists::vehicles(&arguments),
+            Command::Effects(arguments) => lists::effects(&arguments),
         }
     }
 }

@@ -105,6 +105,12 @@ impl Columns {
         })
     }
 
+    /// Finds time and inputs in the header of a file that need not hold a pose; errors do not know the file yet.
+    pub fn resolve_inputs(&self, header: &[String]) -> Result<(usize, Vec<ResolvedInput>)> {
+        let inputs = self.inputs.iter().map(|input| resolve_input(header, input));
+        Ok((find(header, "time", &self.time)?, inputs.collect::<Result<_>>()?))
+    }
+
     /// One column read as two quantities is a slip of the pen.
     fn distinct(&self, top: &Section, section: Option<&Section>) -> Result<()> {
         let mut seen: BTreeMap<&str, &str> = BTreeMap::new();

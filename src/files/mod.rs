@@ -7,6 +7,7 @@
 mod cell;
 mod columns;
 mod effect_entry;
+mod inputs_file;
 mod known;
 mod model_file;
 mod near;
@@ -22,6 +23,7 @@ mod toml_table;
 
 pub use columns::{Columns, InputColumn, Resolved, ResolvedInput};
 pub use effect_entry::EffectEntry;
+pub use inputs_file::Inputs;
 pub use known::{Known, KnownEffect, KnownInput, KnownParameter, KnownVehicle};
 pub use model_file::{Initial, InputTiming, ModelFile, Noise, Sensor};
 pub use output::{write_all_or_nothing, write_whole};

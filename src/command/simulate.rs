@@ -1,0 +1,89 @@
+//! `creepage simulate`
+
+use super::print;
+use super::progress::Progress;
+use clap::Args;
+use creepage::files::{Initial, InputTiming, Inputs, ModelFile, write_whole};
+use creepage::model::{self, Model};
+use creepage::motion::{Integrator, Signals, Table, Timing, simulate_model};
+use creepage::{Error, Result, effects};
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// Integrate a (patched) model over given inputs
+#[derive(Args)]
+#[command(after_help = "\
+Example:
+  creepage simulate examples/runs/cornering/model.toml --inputs examples/runs/cornering/eights.csv --out path.csv
+
+Begins at the model's [initial], or at the pose in the first row of the inputs, or at the origin.")]
+pub struct Arguments {
+    /// The model
+    #[arg(value_name = "MODEL.toml")]
+    model: PathBuf,
+    /// Times and inputs, CSV with the columns of the model file
+    #[arg(long, value_name = "IN.csv")]
+    inputs: PathBuf,
+    /// Where the trajectory goes, CSV
+    #[arg(long, value_name = "OUT.csv")]
+    out: PathBuf,
+    /// Relative tolerance of the integration
+    #[arg(long, default_value_t = 1e-10, value_parser = tolerance)]
+    rtol: f64,
+    /// Absolute tolerance of the integration
+    #[arg(long, default_value_t = 1e-12, value_parser = tolerance)]
+    atol: f64,
+}
+
+fn tolerance(text: &str) -> std::result::Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(t) if (1e-15..=1.0).contains(&t) => Ok(t),
+        _ => Err("a tolerance lies within 1e-15 and 1".into()),
+    }
+}
+
+/// Carries out the command.
+pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
+    let progress = Progress::new(quiet);
+    progress.say("integrating");
+    let library = effects::all();
+    let file = ModelFile::read(&arguments.model, &model::known(library))?;
+    let inputs = Inputs::read(&arguments.inputs, &file)?;
+    let model = Model::from_file(&file, library, &inputs.roles)?;
+    let timing = match file.input_timing {
+        InputTiming::Sample => Timing::Sample,
+        InputTiming::IntervalMean => Timing::IntervalMean,
+    };
+    let signals = Signals::new(&inputs.time, &inputs.columns, timing);
+    let start = file.initial.clone().or(inputs.pose).unwrap_or_else(|| at_origin(&file));
+    let start: Vec<f64> = [start.x, start.y, start.heading].into_iter().chain(start.trailer_headings).collect();
+    let integrator = Integrator::default().with_tolerance(arguments.rtol, arguments.atol);
+    let table = simulate_model(&model, &signals, &inputs.time, &start, &integrator)?;
+    drop(progress);
+    write_whole(&arguments.out, csv(&table)?.as_bytes())?;
+    if !quiet {
+        print(&format!("{} rows are in {}\n", table.rows(), arguments.out.display()));
+    }
+    Ok(())
+}
+
+fn at_origin(file: &ModelFile) -> Initial {
+    Initial { trailer_headings: vec![0.0; file.trailer_lengths.len()], ..Initial::default() }
+}
+
+/// The table as CSV, numbers in the shortest form that reads back.
+fn csv(table: &Table) -> Result<String> {
+    if table.columns.iter().flatten().any(|v| !v.is_finite()) {
+        return Err(Error::run("the motion becomes undefined").help("see `creepage describe` for where the model is"));
+    }
+    let mut text = table.names.join(",");
+    text.push('\n');
+    for i in 0..table.rows() {
+        for (k, column) in table.columns.iter().enumerate() {
+            let comma = if k > 0 { "," } else { "" };
+            let _ = write!(text, "{comma}{}", column[i]);
+        }
+        text.push('\n');
+    }
+    Ok(text)
+}

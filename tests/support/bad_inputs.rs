@@ -274,7 +274,7 @@ pub const BAD_MODELS: &[Case] = &[
     ),
     bad_model(
         "effect out of range",
-        "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 1\n[[effects]]\nid = \"rotation-creep\"\ne_rc = 7\n",
+        "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 1\n[[effects]]\nid = \"rotation-creep\"\ne_rc = 70\n",
         &["model.toml:6:8: e_rc = 70.0 is out of range", "within -1.0 to 1.0"],
     ),
     bad_model(

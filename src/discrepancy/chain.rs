@@ -29,6 +29,8 @@ pub struct Eliminated {
     pub log_determinant: f64,
     /// Logarithm of the determinants of the jumps alone.
     pub jump_determinant: f64,
+    /// Each segment's part of the form.
+    pub parts: Vec<DMatrix<f64>>,
     tails: Vec<Tail>,
 }
 
@@ -53,6 +55,7 @@ pub fn eliminate(segments: &[Vec<Linear>], v: &Variances, parameters: usize) -> 
         form: DMatrix::zeros(parameters + 1, parameters + 1),
         log_determinant: 0.0,
         jump_determinant: 0.0,
+        parts: Vec::with_capacity(segments.len()),
         tails: Vec::with_capacity(segments.len()),
     };
     for windows in segments {
@@ -87,7 +90,9 @@ fn eliminate_segment(windows: &[Linear], v: &Variances, parameters: usize, total
     let poses = Cholesky::new(form.view((0, 0), (m, m)).into_owned())?;
     let right = form.view((0, m), (m, parameters + 1)).into_owned();
     let solved = poses.solve(&right);
-    total.form += form.view((m, m), (parameters + 1, parameters + 1)) - right.tr_mul(&solved);
+    let part = form.view((m, m), (parameters + 1, parameters + 1)) - right.tr_mul(&solved);
+    total.form += &part;
+    total.parts.push(part);
     total.log_determinant += log_determinant(&poses);
     total.tails.push(Tail { jumps, last: -solved });
     Some(())

@@ -7,7 +7,7 @@ use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::Model;
 use rayon::prelude::*;
-use statrs::distribution::{ChiSquared, ContinuousCDF};
+use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 /// A rival whose evidence is this close to the chosen effect's is not told from it.
 const CLOSE: f64 = 6.0;
@@ -84,10 +84,9 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &d
         if steps.is_empty() {
             candidates = ranked.iter().map(|(s, _)| s.clone()).collect();
         }
-        let Some((best, fit)) = ranked.into_iter().find_map(|(s, fit)| Some((s, fit?))) else { break };
-        if best.delta_bic <= selection.margin() {
-            break;
-        }
+        let fitted = ranked.into_iter().filter_map(|(s, fit)| Some((s, fit?)));
+        let mut good = fitted.filter(|(s, fit)| s.delta_bic > selection.margin() && repeats(fit, &s.applied));
+        let Some((best, fit)) = good.next() else { break };
         steps.push((best.applied.label(), fit.model.clone()));
         current = selection.pruned(fit)?;
         current = selection.exchanged(current)?;
@@ -259,7 +258,9 @@ impl Selection<'_> {
         let mut found = Vec::new();
         for applied in free_effects(&fit.model) {
             let k = applied.values.len();
-            let spread = |i: usize| fit.covariance.as_ref().map(|c| c[(i, i)].sqrt());
+            // What runs scatter by counts where it is more than their noise explains.
+            let between = |i: usize| fit.between_runs.as_ref().map_or(0.0, |c| c[(i, i)].sqrt());
+            let spread = |i: usize| fit.covariance.as_ref().map(|c| c[(i, i)].sqrt().max(between(i)));
             let std = (at..at + k).map(spread).collect();
             at += k;
             let Some(smaller) = self.reduced(fit, &applied)? else { continue };
@@ -288,19 +289,48 @@ impl Selection<'_> {
     }
 }
 
-/// Squared distance of an effect's values from zero in units of their deviations; zero when those are not known.
-fn wald(fit: &Fit, effect: &Applied) -> f64 {
+/// Where an effect's values stand among the free ones, those that vanish where it is neutral.
+fn neutral_at_zero(fit: &Fit, effect: &Applied) -> Vec<(usize, f64)> {
     let mut at = 0;
     for e in fit.model.effects.iter().filter(|e| e.free) {
-        let k = e.values.len();
         if e.same_as(effect) {
-            let Some(own) = fit.covariance.as_ref().map(|c| c.view((at, at), (k, k)).into_owned()) else { return 0.0 };
-            let v = nalgebra::DVector::from_column_slice(&e.values);
-            return own.cholesky().map_or(0.0, |c| v.dot(&c.solve(&v)));
+            let all = e.effect.parameters.values().zip(&e.values).enumerate();
+            let kept = all.filter(|(_, (p, _))| !p.periodic).map(|(i, (p, v))| (p.positive, (at + i, *v)));
+            let (positive, signed): (Vec<_>, Vec<_>) = kept.partition(|(positive, _)| *positive);
+            return if signed.is_empty() { positive } else { signed }.into_iter().map(|(_, v)| v).collect();
         }
-        at += k;
+        at += e.values.len();
     }
-    0.0
+    vec![]
+}
+
+/// Squared distance of an effect from neutral in units of a covariance; zero when that is not known.
+fn distance(fit: &Fit, covariance: Option<&nalgebra::DMatrix<f64>>, effect: &Applied) -> f64 {
+    let own = neutral_at_zero(fit, effect);
+    let Some(c) = covariance else { return 0.0 };
+    let block = nalgebra::DMatrix::from_fn(own.len(), own.len(), |i, j| c[(own[i].0, own[j].0)]);
+    let v = nalgebra::DVector::from_iterator(own.len(), own.iter().map(|(_, v)| *v));
+    block.cholesky().map_or(0.0, |c| v.dot(&c.solve(&v)))
+}
+
+/// As [`distance`] by the noise alone.
+fn wald(fit: &Fit, effect: &Applied) -> f64 {
+    distance(fit, fit.covariance.as_ref(), effect)
+}
+
+/// Largest probability that runs which scatter as these do show such an effect by chance.
+const BY_CHANCE: f64 = 1e-3;
+
+/// Whether an effect shows in the runs alike, and not in a few of them or in different directions.
+fn repeats(fit: &Fit, effect: &Applied) -> bool {
+    let Some(between) = &fit.between_runs else { return true };
+    let k = neutral_at_zero(fit, effect).len() as f64;
+    let free = fit.runs as f64 - k;
+    if free < 1.0 {
+        return true;
+    }
+    let f = distance(fit, Some(between), effect) / k * free / (fit.runs as f64 - 1.0);
+    FisherSnedecor::new(k, free).is_ok_and(|d| d.sf(f) < BY_CHANCE)
 }
 
 /// An effect of a model.

@@ -31,6 +31,10 @@ pub struct Fit {
     pub p: Vec<f64>,
     /// Their covariance, `None` when the data leave a direction open.
     pub covariance: Option<DMatrix<f64>>,
+    /// Their covariance by the spread between runs, `None` with fewer than [`FEWEST_RUNS`].
+    pub between_runs: Option<DMatrix<f64>>,
+    /// How many runs were fitted.
+    pub runs: usize,
     /// Information matrix of the parameters.
     pub information: DMatrix<f64>,
     /// Noise and unexplained motion.
@@ -104,6 +108,9 @@ pub fn pose_of(equations: &Equations, measured: &[f64]) -> Vec<f64> {
     }
     z
 }
+
+/// Runs that their spread can be told from.
+pub const FEWEST_RUNS: usize = 4;
 
 /// How a fit is carried out.
 #[derive(Clone, Copy, Debug)]
@@ -185,6 +192,25 @@ impl Problem {
         here
     }
 
+    /// H⁻¹·(Σ g gᵀ)·H⁻¹ with the gradient g of each run: what runs of the same kind would scatter by, whatever the
+    /// reason.
+    fn between_runs(&self, e: &Eliminated) -> Option<DMatrix<f64>> {
+        let runs = self.records.len();
+        if runs < FEWEST_RUNS {
+            return None;
+        }
+        let (information, _) = e.normal();
+        let p = information.nrows();
+        let bread = inverse(&information)?;
+        let mut gradients = DMatrix::zeros(p, runs);
+        for (segment, part) in self.plan.iter().zip(&e.parts) {
+            let mut column = gradients.column_mut(segment.record);
+            column += part.view((0, p), (p, 1));
+        }
+        let meat = &gradients * gradients.transpose() * (runs as f64 / (runs as f64 - 1.0));
+        Some(&bread * meat * &bread)
+    }
+
     fn finished(&self, model: &Model, point: Point, variances: Variances) -> Fit {
         let (information, _) = point.eliminated.normal();
         let mut model = model.clone();
@@ -194,6 +220,8 @@ impl Problem {
         }
         Fit {
             deviance: variances::deviance(&point.linear, &variances, &point.eliminated),
+            between_runs: self.between_runs(&point.eliminated),
+            runs: self.records.len(),
             covariance: inverse(&information),
             sample_size: sample_size(&point.linear, &point.eliminated),
             p: point.p.as_slice().to_vec(),

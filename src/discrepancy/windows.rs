@@ -4,6 +4,7 @@ use super::record::{Channel, Record};
 use crate::model::Equations;
 use crate::motion::{Arc, Stepper};
 use nalgebra::DMatrix;
+use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -81,7 +82,7 @@ pub fn linearise(
     let along = |(segment, starts): (&Segment, &Vec<Vec<f64>>)| {
         segment_along(equations, p, &records[segment.record], segment, starts)
     };
-    plan.iter().zip(starts).map(along).collect()
+    plan.par_iter().zip(starts).map(along).collect()
 }
 
 fn segment_along(

@@ -329,6 +329,19 @@ fn jacobians_through_a_hidden_state_are_differences() {
 }
 
 #[test]
+fn a_heading_counts_to_full_turns() {
+    let mut case = Case::new(&unicycle(), &[("rotation-creep", &[0.01])]);
+    let here = case.linear().remove(0);
+    case.starts[0].iter_mut().enumerate().for_each(|(k, z)| z[2] += TAU * (k % 3) as f64);
+    for (turned, window) in case.linear()[0].iter().zip(&here) {
+        assert!((&turned.gram[1] - &window.gram[1]).amax() < 1e-9);
+        for (a, b) in turned.mismatch.iter().zip(&window.mismatch) {
+            near("mismatch", *a, *b, 1e-3);
+        }
+    }
+}
+
+#[test]
 fn a_pose_is_found_from_what_the_sensor_measures() {
     let case = Case::new(&car(), &[("lever-arm", &[0.7, -0.4]), ("heading-misalignment", &[0.3])]);
     let fixed = case.model.equations(&[]).unwrap();

@@ -259,12 +259,12 @@ fn as_differences(case: &Case) {
             case.plain(&p, k, start)
         };
         let sides: Vec<_> = (0..3 + p).map(|i| (moved(i, STEP), moved(i, -STEP))).collect();
-        for channel in 0..2 {
-            let rows = residuals[channel].len();
+        for (channel, plain) in residuals.iter().enumerate() {
+            let rows = plain.len();
             assert_eq!(window.count[channel], rows);
             let line = |r: usize, c: usize| match sides.get(c) {
                 Some((up, down)) => (up.0[channel][r] - down.0[channel][r]) / (2.0 * STEP),
-                None => residuals[channel][r],
+                None => plain[r],
             };
             let j = DMatrix::from_fn(rows, 3 + p + 1, line);
             let gram = j.tr_mul(&j);

@@ -165,3 +165,66 @@ fn a_trailer_follows_as_the_theory_says() {
         near(length * get(&m, "phi_1'"), speed * beta.sin() + h * beta.cos() - e_1 * v_1)
     });
 }
+
+#[test]
+fn the_effects_on_a_wheel_do_what_the_contract_says() {
+    let numbers = (-3.0..3.0f64, -3.0..3.0f64, -2.0..2.0f64, -2.0..2.0f64, 0.05..0.9f64);
+    check(500, numbers, |(rate, turn, state, other, k)| {
+        let with = |id: &str, values: &[f64], state_name: &str| {
+            let model = vehicle("unicycle", &[0.5]).with_effect(effect(id, None, values));
+            let m = motion(
+                &model,
+                &[("wheel_rate", rate), ("yaw_rate", turn), (state_name, state), ("x", 1.0), ("y", 2.0)],
+            );
+            let rates = model.effects[0].states();
+            let rate_of_state = rates.first().map_or(0.0, |(_, r)| value(r, &m));
+            (m, rate_of_state)
+        };
+        let (v, phi) = (0.5 * rate, 0.4f64);
+        let (m, rate_of_state) = with("cornering-creep", &[k], "cornering_creep.w");
+        near(get(&m, "v_t"), state)?;
+        near(rate_of_state, -turn * v - state / k)?;
+        let (m, rate_of_state) = with("traction-creep", &[k], "traction_creep.v");
+        near(get(&m, "v_l"), state)?;
+        near(rate_of_state, (v - state) / k)?;
+        // By name: e_tc, length.
+        let (m, rate_of_state) = with("relaxation-length", &[other, k], "relaxation_length.u");
+        near(get(&m, "v_t"), state)?;
+        near(rate_of_state, (other * v - state) * v.abs() / k)?;
+        near(get(&with("load-dependent-creep", &[k], "x").0, "v_t"), -k * v * v * turn)?;
+        // By name: direction, rate.
+        near(get(&with("side-slope", &[other, k], "x").0, "v_t"), k * (other - phi).sin())?;
+        near(get(&with("traverse-creep", &[other], "x").0, "v_t"), other * v)?;
+        near(get(&with("rotation-creep", &[k], "x").0, "v_l"), v * (1.0 - k))?;
+        near(get(&with("wheel-radius", &[k], "x").0, "v_l"), v * (1.0 + k))?;
+        near(get(&with("yaw-rate-bias", &[other], "x").0, "phi'"), turn + other)?;
+        near(get(&with("yaw-rate-scale", &[k], "x").0, "phi'"), turn * (1.0 + k))?;
+        let (m, _) = with("drift", &[other, k], "x");
+        near(get(&m, "x'"), v * phi.cos() + other)?;
+        near(get(&m, "y'"), v * phi.sin() + k)?;
+        let (m, _) = with("lever-arm", &[other, k], "x");
+        near(get(&m, "x_m"), 1.0 + other * phi.cos() - k * phi.sin())?;
+        near(get(&m, "y_m"), 2.0 + other * phi.sin() + k * phi.cos())?;
+        near(get(&with("heading-misalignment", &[other], "x").0, "heading_m"), phi + other)?;
+        near(get(&with("input-delay", &[other], "x").0, "delay"), other)
+    });
+}
+
+#[test]
+fn a_sliding_wheel_loses_energy() {
+    check(500, (0.5..4.0f64, -3.0..3.0f64, 0.01..0.9f64), |(v, turn, k)| {
+        let model = vehicle("unicycle", &[0.5]).with_effect(effect("cornering-creep", None, &[k])).with_effect(effect(
+            "traction-creep",
+            None,
+            &[0.2],
+        ));
+        // No torque: the wheel turns as fast as the vehicle travels. v·v' + w·w' = −w²/k for unit mass.
+        let inputs =
+            [("wheel_rate", 2.0 * v), ("yaw_rate", turn), ("traction_creep.v", v), ("cornering_creep.w", 0.3 * v)];
+        let m = motion(&model, &inputs);
+        let of =
+            |name: &str| model.effects.iter().flat_map(|e| e.states()).find(|(s, _)| s.as_str() == name).unwrap().1;
+        let power = v * value(&of("traction_creep.v"), &m) + 0.3 * v * value(&of("cornering_creep.w"), &m);
+        near(power, -0.09 * v * v / k)
+    });
+}

@@ -170,11 +170,11 @@ impl Problem {
         let mut damping = 1e-6;
         for _ in 0..effort.passes {
             let Some(delta) = step(&here.eliminated, damping) else { return here };
-            let target = bounds.within(&here.p, &delta);
-            let delta = &target - &here.p;
             if promised(&here.eliminated, &delta) < effort.enough {
                 break;
             }
+            let target = bounds.within(&here.p, &delta);
+            let delta = &target - &here.p;
             let starts = moved(&here.starts, &here.eliminated.corrections(&here.linear, &delta));
             let next = self.point(equations, target, starts, v);
             let gain = next.as_ref().map_or(f64::NEG_INFINITY, |n| here.eliminated.cost() - n.eliminated.cost());

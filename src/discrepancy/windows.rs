@@ -10,6 +10,8 @@ use std::ops::Range;
 
 /// Length of a window, s.
 pub const WINDOW: f64 = 1.0;
+/// Times this close are the same: without it the rounding of a clock would decide where a window ends, s.
+const SLACK: f64 = 1e-6;
 /// Rows of a window at least.
 const MIN_ROWS: usize = 4;
 /// How far from the ends of a log the first and last windows stay, s: the longest delay that is looked for.
@@ -36,7 +38,7 @@ fn cut(record: &Record, rows: Range<usize>) -> Vec<Range<usize>> {
     let mut windows = Vec::new();
     let mut start = rows.start;
     for i in rows.clone() {
-        if record.time[i] - record.time[start] >= WINDOW && i - start >= MIN_ROWS {
+        if record.time[i] - record.time[start] >= WINDOW - SLACK && i - start >= MIN_ROWS {
             windows.push(start..i);
             start = i;
         }

@@ -3,9 +3,9 @@
 use super::print;
 use super::progress::Progress;
 use clap::Args;
-use creepage::files::{Initial, InputTiming, Inputs, ModelFile, write_whole};
+use creepage::files::{Initial, Inputs, ModelFile, write_whole};
 use creepage::model::{self, Model};
-use creepage::motion::{Integrator, Signals, Table, Timing, simulate_model};
+use creepage::motion::{Integrator, Signals, Table, simulate_model};
 use creepage::{Error, Result, effects};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -50,11 +50,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let file = ModelFile::read(&arguments.model, &model::known(library))?;
     let inputs = Inputs::read(&arguments.inputs, &file)?;
     let model = Model::from_file(&file, library, &inputs.roles)?;
-    let timing = match file.input_timing {
-        InputTiming::Sample => Timing::Sample,
-        InputTiming::IntervalMean => Timing::IntervalMean,
-    };
-    let signals = Signals::new(&inputs.time, &inputs.columns, timing);
+    let signals = Signals::new(&inputs.time, &inputs.columns, file.input_timing.into());
     let start = file.initial.clone().or(inputs.pose).unwrap_or_else(|| at_origin(&file));
     let start: Vec<f64> = [start.x, start.y, start.heading].into_iter().chain(start.trailer_headings).collect();
     let integrator = Integrator::default().with_tolerance(arguments.rtol, arguments.atol);

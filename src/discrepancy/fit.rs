@@ -7,6 +7,7 @@ use super::variances::{self, Free};
 use super::windows::{Linear, Segment, Starts, linearise};
 use crate::error::Result;
 use crate::model::{Equations, Model};
+use crate::motion::visible_state;
 use nalgebra::{DMatrix, DVector};
 
 /// Runs cut into windows, with what is known of their noise.
@@ -90,23 +91,10 @@ fn noise_of(records: &[Record], channel: Channel) -> f64 {
     found.get(found.len() / 2).copied().unwrap_or(1e-3).max(1e-9)
 }
 
-/// The visible state whose measured outputs are given: the sensor's formulas inverted by Newton's method.
+/// The pose that a measurement says, or the measurement itself where the sensor's formulas cannot be undone.
 pub fn pose_of(equations: &Equations, measured: &[f64]) -> Vec<f64> {
-    let n = equations.visible;
-    let mut w = equations.workspace(&vec![0.0; equations.free.len()]);
-    let mut z = measured[..n].to_vec();
-    let k = n + equations.free.len();
-    for _ in 0..20 {
-        let y = equations.outputs(&mut w, &z).to_vec();
-        let error = DVector::from_fn(n, |i, _| y[i] - measured[i]);
-        let slope = DMatrix::from_fn(n, n, |i, j| y[n + i * k + j]);
-        let Some(step) = slope.lu().solve(&error) else { break };
-        (0..n).for_each(|i| z[i] -= step[i]);
-        if step.amax() < 1e-13 {
-            break;
-        }
-    }
-    z
+    let p = vec![0.0; equations.free.len()];
+    visible_state(equations, &p, measured).unwrap_or_else(|_| measured.to_vec())
 }
 
 /// Runs that their spread can be told from.

@@ -56,11 +56,7 @@ impl Record {
         let mut columns = vec![run.x.clone(), run.y.clone()];
         columns.extend(run.heading.clone());
         columns.extend(run.trailer_headings.iter().cloned());
-        let timing = match timing {
-            InputTiming::Sample => Timing::Sample,
-            InputTiming::IntervalMean => Timing::IntervalMean,
-        };
-        let record = Self::new(&run.name, run.time.clone(), columns, run.heading.is_some(), &run.inputs, timing);
+        let record = Self::new(&run.name, run.time.clone(), columns, run.heading.is_some(), &run.inputs, timing.into());
         Self { trailers, ..record }
     }
 

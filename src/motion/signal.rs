@@ -1,6 +1,7 @@
 //! Logged inputs as smooth functions of time.
 
 use super::spline::curvatures;
+use crate::files::InputTiming;
 
 /// What a row of the log says about its inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -9,6 +10,15 @@ pub enum Timing {
     Sample,
     /// The mean since the row before, as encoder counts give it.
     IntervalMean,
+}
+
+impl From<InputTiming> for Timing {
+    fn from(timing: InputTiming) -> Self {
+        match timing {
+            InputTiming::Sample => Timing::Sample,
+            InputTiming::IntervalMean => Timing::IntervalMean,
+        }
+    }
 }
 
 /// Inputs between the rows of a log: a cubic spline through samples, or the derivative of the cubic spline

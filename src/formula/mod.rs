@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | floating point | value | `f64` |
 //! | dual numbers | first and second derivatives, vectors of any length | [`Dual`] |
+//! | exact numbers | a proof at a point: rationals, angles as rational points of the circle | [`Exact`] |
 //! | unit exponents | units of a formula, or why it has none | [`Unit`] |
 //! | expressions | substitution | [`Expr`] |
 //!
@@ -13,6 +14,7 @@
 
 mod derive;
 mod dual;
+mod exact;
 mod expr;
 mod float;
 mod fun;
@@ -30,6 +32,7 @@ mod symbol;
 mod unit;
 
 pub use dual::{Dual, Parts};
+pub use exact::Exact;
 pub use expr::{Expr, Node};
 pub use fun::Fun;
 pub use graph::{Graph, NodeId, Op};

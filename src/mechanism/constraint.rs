@@ -123,6 +123,23 @@ impl Constraint {
         self.row().substitute(&|s| (*s == self.creep).then(|| Expr::int(0)))
     }
 
+    /// The constraint with names replaced in its coefficients; rates keep theirs.
+    pub fn substitute(&self, by: &impl Fn(&Symbol) -> Option<Expr>) -> Self {
+        let form = match &self.form {
+            Form::R(r) => {
+                Form::R(Rolling { pi: r.pi.substitute(by), sigma: r.sigma.substitute(by), rate: r.rate.clone() })
+            }
+            Form::T(t) => Form::T(Direction {
+                s: t.s.substitute(by),
+                p: t.p.substitute(by),
+                q1: t.q1.substitute(by),
+                q3: t.q3.substitute(by),
+                row: t.row.substitute(by),
+            }),
+        };
+        Self { form, ..self.clone() }
+    }
+
     /// `R` or `T`.
     pub fn letter(&self) -> char {
         match self.form {

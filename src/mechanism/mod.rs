@@ -12,10 +12,12 @@ mod definitions;
 mod heading;
 mod row;
 pub mod solve;
+mod system;
 mod velocity;
 
 pub use constraint::{Constraint, Direction, Form, Rolling, sigma_closed_form};
 pub use definitions::Definitions;
 pub use heading::Heading;
 pub use row::Row;
+pub use system::Mechanism;
 pub use velocity::Velocity;

@@ -100,8 +100,11 @@ impl Model {
         let (body, yaw) = (Heading::along("phi"), Symbol::from("phi'"));
         let rows = |speed: &str| -> (Vec<Row>, Vec<Row>) {
             let reference = Velocity::in_body(speed, "v_n", &body);
-            let wheels = || self.vehicle.wheels.iter();
-            let r = wheels().filter_map(|w| rolling(w, &reference, &body)).map(|c| c.row()).collect();
+            // Passive wheels, of unknown rate or angle, follow the motion and do not determine it.
+            let known = |s: &Option<Symbol>| s.as_ref().is_none_or(|s| self.vehicle.define.contains_key(s));
+            let wheels = || self.vehicle.wheels.iter().filter(|w| known(&w.steering));
+            let r = wheels().filter(|w| known(&w.rate)).filter_map(|w| rolling(w, &reference, &body));
+            let r = r.map(|c| c.row()).collect();
             let t = wheels().filter_map(|w| direction(w, &reference, &body)).map(|c| c.row()).collect();
             (r, t)
         };

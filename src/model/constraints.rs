@@ -2,8 +2,8 @@
 
 use super::{Model, trailer_heading};
 use crate::formula::{Expr, Symbol};
-use crate::mechanism::{Constraint, Direction, Form, Heading, Rolling, Velocity};
-use crate::vehicles::Wheel;
+use crate::mechanism::{Constraint, Direction, Form, Heading, Mechanism, Rolling, Velocity};
+use crate::vehicles::{Vehicle, Wheel};
 
 /// The heading of a wheel on a body of heading φ.
 pub(super) fn wheel_heading(wheel: &Wheel, body: &Heading) -> Heading {
@@ -12,7 +12,11 @@ pub(super) fn wheel_heading(wheel: &Wheel, body: &Heading) -> Heading {
 
 /// The velocity of a wheel's contact, from that of the reference point.
 pub(super) fn contact(wheel: &Wheel, reference: &Velocity, body: &Heading) -> Velocity {
-    reference.at_offset(body, &wheel.forward).at_offset(&body.left(), &wheel.left)
+    let axis = reference.at_offset(body, &wheel.forward).at_offset(&body.left(), &wheel.left);
+    match wheel.trail.is_zero() {
+        true => axis,
+        false => axis.at_offset(&wheel_heading(wheel, body), &-&wheel.trail),
+    }
 }
 
 /// The rolling constraint of a wheel, if it rolls.
@@ -57,23 +61,64 @@ pub(super) fn behind(ahead: &Velocity, i: usize) -> Velocity {
     hitch_point.at_offset(&Heading::along(trailer_heading(i)), &-&Expr::sym(length))
 }
 
+/// The coordinates and constraints of a vehicle with a number of trailers, derived from the description alone.
+///
+/// Each wheel gives its rolling constraint and its direction constraint, each trailer a direction constraint.
+/// Coordinates: x, y, phi, the angles that are steered or free, the angles of the wheels, and phi_1, phi_2, … of the
+/// trailers. An angle that is a formula of others, as on an Ackermann axle, is written out.
+///
+/// ```
+/// use creepage::{model::mechanism, vehicles};
+/// let car = mechanism(vehicles::named("car").unwrap(), 1);
+/// let names: Vec<String> = car.coordinates.iter().map(|q| q.to_string()).collect();
+/// assert_eq!(names, ["x", "y", "phi", "delta", "theta", "phi_1"]);
+/// assert_eq!(car.constraints.len(), 4);
+/// ```
+pub fn mechanism(vehicle: &Vehicle, trailers: usize) -> Mechanism {
+    let is_input = |s: &Symbol| vehicle.inputs.contains_key(s.as_str());
+    let derived = |s: &Symbol| {
+        let formula = &vehicle.define.get(s)?.formula;
+        formula.symbols().iter().any(|part| vehicle.define.contains_key(part)).then(|| formula.clone())
+    };
+    let mut angles: Vec<Symbol> = Vec::new();
+    for angle in vehicle.wheels.iter().filter_map(|w| w.steering.as_ref()) {
+        // What an Ackermann angle is made of is the coordinate, not the angle.
+        let parts = derived(angle).map_or_else(|| [angle.clone()].into(), |f| f.symbols());
+        let moves = |s: &Symbol| vehicle.define.get(s).is_none_or(|d| d.formula.symbols().iter().any(is_input));
+        angles.extend(parts.into_iter().filter(moves));
+    }
+    let turns = vehicle.wheels.iter().filter_map(|w| w.rate.as_ref());
+    let turns = turns.map(|r| Symbol::new(r.as_str().trim_end_matches('\'')));
+    let mut coordinates: Vec<Symbol> = ["x", "y", "phi"].map(Symbol::from).to_vec();
+    for q in angles.into_iter().chain(turns).chain((1..=trailers).map(trailer_heading)) {
+        if !coordinates.contains(&q) {
+            coordinates.push(q);
+        }
+    }
+    Mechanism { coordinates, constraints: constraints_of(vehicle, trailers) }.substitute(&derived)
+}
+
+fn constraints_of(vehicle: &Vehicle, trailers: usize) -> Vec<Constraint> {
+    let body = Heading::along("phi");
+    let reference = Velocity::of_reference_point();
+    let mut found = Vec::new();
+    for wheel in &vehicle.wheels {
+        found.extend(rolling(wheel, &reference, &body));
+        found.extend(direction(wheel, &reference, &body));
+    }
+    let mut axle = reference;
+    for i in 1..=trailers {
+        axle = behind(&axle, i);
+        found.push(trailer_direction(i, &axle));
+    }
+    found
+}
+
 impl Model {
     /// The constraints of the vehicle and its trailers in the two generic forms, derived from the description.
     ///
     /// Each wheel gives its rolling constraint and its direction constraint, each trailer a direction constraint.
     pub fn constraints(&self) -> Vec<Constraint> {
-        let body = Heading::along("phi");
-        let reference = Velocity::of_reference_point();
-        let mut found = Vec::new();
-        for wheel in &self.vehicle.wheels {
-            found.extend(rolling(wheel, &reference, &body));
-            found.extend(direction(wheel, &reference, &body));
-        }
-        let mut axle = reference;
-        for i in 1..=self.trailers.len() {
-            axle = behind(&axle, i);
-            found.push(trailer_direction(i, &axle));
-        }
-        found
+        constraints_of(&self.vehicle, self.trailers.len())
     }
 }

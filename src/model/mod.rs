@@ -8,6 +8,7 @@ mod constraints;
 mod equations;
 mod file;
 
+pub use constraints::mechanism;
 pub use equations::{Equations, Workspace};
 pub use file::{WITH_TRAILERS, known};
 

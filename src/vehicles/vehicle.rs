@@ -86,11 +86,15 @@ pub struct Wheel {
     /// Distance to the left of the reference point, m.
     #[serde(default = "zero")]
     pub left: Expr,
-    /// Angle it is steered by, rad.
+    /// Angle from the body's heading to the wheel's, rad. With a definition it is known: steered by an input, or
+    /// mounted at a constant angle; without one it turns freely, as a castor's does.
     pub steering: Option<Symbol>,
+    /// Distance from the axis of steering back to the contact along the wheel, m; of a castor, its trail.
+    #[serde(default = "zero")]
+    pub trail: Expr,
     /// Rolling radius, m.
     pub radius: Option<Symbol>,
-    /// Its rate when it is measured: then it rolls (type R).
+    /// Its rate: then it rolls (type R). With a definition it is measured; without one the wheel is passive.
     pub rate: Option<Symbol>,
     /// Coefficient of its rotation creep.
     pub rotation_creep: Option<Symbol>,

@@ -111,7 +111,7 @@ impl Exact {
 }
 
 /// √v where it is rational.
-fn root(v: &BigRational) -> Option<BigRational> {
+pub(super) fn root(v: &BigRational) -> Option<BigRational> {
     let whole = |n: &BigInt| {
         let root = n.sqrt();
         (&root * &root == *n).then_some(root)

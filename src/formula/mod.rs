@@ -5,6 +5,7 @@
 //! | floating point | value | `f64` |
 //! | dual numbers | first and second derivatives, vectors of any length | [`Dual`] |
 //! | exact numbers | a proof at a point: rationals, angles as rational points of the circle | [`Exact`] |
+//! | normal form | a proof for all values: quotients of trigonometric polynomials | [`Normal`] |
 //! | unit exponents | units of a formula, or why it has none | [`Unit`] |
 //! | expressions | substitution | [`Expr`] |
 //!
@@ -21,6 +22,7 @@ mod fun;
 mod graph;
 mod latex;
 mod lex;
+mod normal;
 mod parse;
 mod polynomial;
 mod print;
@@ -37,6 +39,7 @@ pub use expr::{Expr, Node};
 pub use fun::Fun;
 pub use graph::{Graph, NodeId, Op};
 pub use latex::latex_symbol;
+pub use normal::{Normal, identical};
 pub use polynomial::Polynomial;
 pub use program::Program;
 pub use scalar::Scalar;

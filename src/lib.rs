@@ -1,6 +1,7 @@
 //! Creep kinematics of nonholonomic vehicles.
 #![warn(missing_docs)]
 
+pub mod claims;
 pub mod describe;
 pub mod discrepancy;
 pub mod effects;

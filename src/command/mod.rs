@@ -5,6 +5,7 @@ mod discover;
 mod lists;
 mod progress;
 mod simulate;
+mod verify;
 
 use clap::{Args, Parser, Subcommand};
 use creepage::{Error, Result};
@@ -37,6 +38,8 @@ enum Command {
     Describe(describe::Arguments),
     Vehicles(lists::Vehicles),
     Effects(lists::Effects),
+    Verify(verify::Arguments),
+    Claims(verify::List),
 }
 
 impl Cli {
@@ -55,6 +58,8 @@ impl Cli {
             Command::Describe(arguments) => describe::run(&arguments),
             Command::Vehicles(arguments) => lists::vehicles(&arguments),
             Command::Effects(arguments) => lists::effects(&arguments),
+            Command::Verify(arguments) => verify::run(&arguments, self.common.quiet),
+            Command::Claims(arguments) => verify::list(&arguments),
         }
     }
 }

@@ -5,6 +5,7 @@
 //! are not known here; the caller passes what may stand in a model file as [`Known`].
 
 mod cell;
+mod claims_file;
 mod columns;
 mod effect_entry;
 mod inputs_file;
@@ -21,6 +22,7 @@ mod sheet;
 mod text;
 mod toml_table;
 
+pub use claims_file::{ClaimEntry, read_claims};
 pub use columns::{Columns, InputColumn, Resolved, ResolvedInput};
 pub use effect_entry::EffectEntry;
 pub use inputs_file::Inputs;

@@ -1,7 +1,8 @@
 //! Named formulas that refer to one another.
 
 use crate::error::{Error, Result};
-use crate::formula::{Expr, Graph, Symbol};
+use crate::formula::{Expr, Graph, Scalar, Symbol};
+use std::collections::BTreeMap;
 
 /// A set of definitions name = formula, each name defined once, in the order they were made.
 ///
@@ -77,6 +78,35 @@ impl Definitions {
             }
         }
         Ok(sorted)
+    }
+
+    /// The value of every definition in a carrier; what `given` gives takes the place of a definition.
+    ///
+    /// A name that is neither defined nor given has no value, and neither has what uses it.
+    ///
+    /// ```
+    /// use creepage::mechanism::Definitions;
+    /// use creepage::formula::{Exact, Expr, Scalar};
+    /// let mut d = Definitions::default();
+    /// d.define("v", Expr::parse("r*omega").unwrap());
+    /// d.define("r", Expr::parse("1/2").unwrap());
+    /// let values = d.evaluate(&|s| (s.as_str() == "omega").then(|| Exact::ratio(3, 1))).unwrap();
+    /// assert!(values[&"v".into()].equals(&Exact::ratio(3, 2)));
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Definitions::sorted`].
+    pub fn evaluate<S: Scalar>(&self, given: &impl Fn(&Symbol) -> Option<S>) -> Result<BTreeMap<Symbol, S>> {
+        let nothing = || S::number(&num_traits::Zero::zero()).recip();
+        let mut values: BTreeMap<Symbol, S> = BTreeMap::new();
+        for (name, formula) in self.sorted()? {
+            let value = given(name).unwrap_or_else(|| {
+                let known = |s: &Symbol| values.get(s).cloned().or_else(|| given(s)).unwrap_or_else(nothing);
+                formula.eval_undefined_as_value(&known)
+            });
+            values.insert(name.clone(), value);
+        }
+        Ok(values)
     }
 
     /// Adds every definition to a graph.

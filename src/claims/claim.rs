@@ -1,0 +1,236 @@
+//! A claim with its evidence.
+
+use super::{Outcome, Sampling, Statement, Status};
+use std::fmt;
+use std::sync::Arc;
+
+/// Something that is said to be true, where it is said, and how one finds out.
+///
+/// ```
+/// use creepage::claims::{prove, Claim, Machine, Options, Status, verify};
+/// let claim = Claim::new("eq-24", Status::Proved, "the speed of a creeping wheel")
+///     .at("section 4, (24)")
+///     .under("the wheel rate is measured")
+///     .proof("the derived row gives it", &[("v_l", "r*theta'*(1 - e_rc)")], |s, _| prove(&Machine::of("unicycle"), s));
+/// let ledger = verify(&[claim], &Options::default(), &|_| ());
+/// assert!(ledger.all_earned());
+/// ```
+#[derive(Clone, Debug)]
+pub struct Claim {
+    /// Its name.
+    pub id: String,
+    /// What it says, in words and formula.
+    pub says: String,
+    /// Where it stands: section and equation of the paper, row of the errata.
+    pub place: String,
+    /// Numbered equations of the paper it is about.
+    pub equations: Vec<u8>,
+    /// What must hold for it to be true.
+    pub hypotheses: String,
+    /// What is wrong in the paper and why, if anything is.
+    pub remark: String,
+    /// The status its author states.
+    pub stated: Status,
+    /// How one finds out: every part must do what it says.
+    pub evidence: Vec<Evidence>,
+    /// Source files that carry what it speaks of.
+    pub code: Vec<String>,
+    /// Tests that exercise the same outside the ledger, as file or file::function.
+    pub tests: Vec<String>,
+    /// The chapter of `theory/` that derives it.
+    pub chapter: String,
+}
+
+/// What a piece of evidence gives when it holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gives {
+    /// True for all values, in exact arithmetic.
+    Proof,
+    /// True in every generated case.
+    Sample,
+    /// A proof's echo in another part of the program: must hold, and does not weaken a proof.
+    Confirmation,
+    /// A counterexample to what is printed.
+    Refutation,
+}
+
+/// A check: what became of a statement.
+pub type Check = Arc<dyn Fn(&Statement, &Sampling) -> Outcome + Send + Sync>;
+
+/// A statement and the check it is put to.
+#[derive(Clone)]
+pub struct Evidence {
+    /// What it shows.
+    pub shows: String,
+    /// What it gives.
+    pub gives: Gives,
+    /// The equations; of a refutation, the false ones.
+    pub equations: Vec<(String, String)>,
+    /// The check.
+    pub check: Check,
+    /// Sabotage made by hand, where a slip in a formula would not be a false statement: these must not hold.
+    pub sabotage: Option<Vec<Vec<(String, String)>>>,
+    /// The sabotage of a refutation: nearby true equations that the same check must not refute.
+    pub truth: Option<(Vec<(String, String)>, Check)>,
+}
+
+fn owned(equations: &[(&str, &str)]) -> Vec<(String, String)> {
+    equations.iter().map(|(l, r)| ((*l).to_string(), (*r).to_string())).collect()
+}
+
+impl Claim {
+    /// A claim without evidence.
+    pub fn new(id: &str, stated: Status, says: &str) -> Self {
+        Self {
+            id: id.into(),
+            says: says.into(),
+            place: String::new(),
+            equations: vec![],
+            hypotheses: String::new(),
+            remark: String::new(),
+            stated,
+            evidence: vec![],
+            code: vec![],
+            tests: vec![],
+            chapter: String::new(),
+        }
+    }
+
+    /// Where it stands.
+    pub fn at(mut self, place: &str) -> Self {
+        self.place = place.into();
+        self
+    }
+
+    /// The numbered equations it is about.
+    pub fn about(mut self, equations: &[u8]) -> Self {
+        self.equations = equations.to_vec();
+        self
+    }
+
+    /// What must hold for it to be true.
+    pub fn under(mut self, hypotheses: &str) -> Self {
+        self.hypotheses = hypotheses.into();
+        self
+    }
+
+    /// What is wrong in the paper and why.
+    pub fn remark(mut self, remark: &str) -> Self {
+        self.remark = remark.into();
+        self
+    }
+
+    /// Source files that carry it.
+    pub fn code(mut self, files: &[&str]) -> Self {
+        self.code = files.iter().map(ToString::to_string).collect();
+        self
+    }
+
+    /// Tests that exercise it outside the ledger.
+    pub fn tests(mut self, tests: &[&str]) -> Self {
+        self.tests = tests.iter().map(ToString::to_string).collect();
+        self
+    }
+
+    /// The chapter that derives it.
+    pub fn chapter(mut self, chapter: &str) -> Self {
+        self.chapter = chapter.into();
+        self
+    }
+
+    /// Adds equations that hold for all values.
+    pub fn proof(
+        self,
+        shows: &str,
+        equations: &[(&str, &str)],
+        check: impl Fn(&Statement, &Sampling) -> Outcome + Send + Sync + 'static,
+    ) -> Self {
+        self.with(Gives::Proof, shows, equations, Arc::new(check))
+    }
+
+    /// Adds equations that hold in every generated case.
+    pub fn sample(
+        self,
+        shows: &str,
+        equations: &[(&str, &str)],
+        check: impl Fn(&Statement, &Sampling) -> Outcome + Send + Sync + 'static,
+    ) -> Self {
+        self.with(Gives::Sample, shows, equations, Arc::new(check))
+    }
+
+    /// Adds equations that show what is proved in another part of the program, such as a simulated motion.
+    pub fn confirmation(
+        self,
+        shows: &str,
+        equations: &[(&str, &str)],
+        check: impl Fn(&Statement, &Sampling) -> Outcome + Send + Sync + 'static,
+    ) -> Self {
+        self.with(Gives::Confirmation, shows, equations, Arc::new(check))
+    }
+
+    /// Adds equations as printed, which are false, and the true ones that the same check must let pass.
+    pub fn refutation(
+        self,
+        shows: &str,
+        printed: &[(&str, &str)],
+        truth: &[(&str, &str)],
+        check: impl Fn(&Statement, &Sampling) -> Outcome + Send + Sync + 'static,
+    ) -> Self {
+        let check: Check = Arc::new(check);
+        self.refutation_by(shows, printed, check.clone(), truth, check)
+    }
+
+    /// As [`Claim::refutation`], where what is true needs another check, such as one over fewer cases.
+    pub fn refutation_by(
+        mut self,
+        shows: &str,
+        printed: &[(&str, &str)],
+        check: Check,
+        truth: &[(&str, &str)],
+        truth_check: Check,
+    ) -> Self {
+        let truth = Some((owned(truth), truth_check));
+        self.evidence.push(Evidence {
+            shows: shows.into(),
+            gives: Gives::Refutation,
+            equations: owned(printed),
+            check,
+            sabotage: None,
+            truth,
+        });
+        self
+    }
+
+    /// Gives the last piece of evidence false statements made by hand, each of which its check must notice, in place
+    /// of the mechanical ones.
+    pub fn sabotaged_by(mut self, statements: &[&[(&str, &str)]]) -> Self {
+        if let Some(last) = self.evidence.last_mut() {
+            last.sabotage = Some(statements.iter().map(|s| owned(s)).collect());
+        }
+        self
+    }
+
+    fn with(mut self, gives: Gives, shows: &str, equations: &[(&str, &str)], check: Check) -> Self {
+        let equations = owned(equations);
+        self.evidence.push(Evidence { shows: shows.into(), gives, equations, check, sabotage: None, truth: None });
+        self
+    }
+}
+
+impl Gives {
+    /// What the evidence is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Gives::Proof => "proof",
+            Gives::Sample => "sample",
+            Gives::Confirmation => "confirmation",
+            Gives::Refutation => "refutation",
+        }
+    }
+}
+
+impl fmt::Debug for Evidence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Evidence").field("shows", &self.shows).field("gives", &self.gives).finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,109 @@
+//! What the program derives, by name, for statements to speak of.
+
+use crate::error::Result;
+use crate::formula::{Expr, Scalar, Symbol};
+use crate::mechanism::Definitions;
+use crate::model::{Model, Trailer};
+use crate::vehicles;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Named formulas derived by the program; what they do not define is free.
+///
+/// | machine | names |
+/// |---|---|
+/// | [`Machine::of`] a vehicle | v_d, v_l, v_n, v_t, x', y', phi' of its equations of motion; r, a, L, rates and creeps are free |
+/// | [`Machine::train`] | the same with v_i, vt_i, phi_i' of trailers; d_i, c_i, e_tc_i are free |
+/// | [`Machine::with`] | any formula one adds: a row, a derivative |
+#[derive(Clone, Debug, Default)]
+pub struct Machine {
+    definitions: Definitions,
+}
+
+impl Machine {
+    /// The equations of motion of a vehicle of the catalogue with every creep left free.
+    ///
+    /// An unknown vehicle defines nothing, so that every statement about it is undefined.
+    pub fn of(vehicle: &str) -> Self {
+        Self::train(vehicle, 0)
+    }
+
+    /// The same with trailers behind it.
+    pub fn train(vehicle: &str, trailers: usize) -> Self {
+        Self::try_train(vehicle, trailers).unwrap_or_default()
+    }
+
+    fn try_train(vehicle: &str, trailers: usize) -> Result<Self> {
+        let ones: Vec<(&str, f64)> = vehicles::named(vehicle)
+            .map(|v| v.parameters.keys().map(|p| (p.as_str(), 1.0)).collect())
+            .unwrap_or_default();
+        let trailers = vec![Trailer { length: 1.0, hitch: 0.0 }; trailers];
+        Ok(Self::of_model(&Model::new(vehicle, &ones)?.with_trailers(&trailers)))
+    }
+
+    /// The equations of motion of a model, its effects included; parameters, inputs and creeps are free.
+    pub fn of_model(model: &Model) -> Self {
+        let creeps: BTreeSet<Symbol> = model.constraints().into_iter().map(|c| c.creep).collect();
+        let mut definitions = Definitions::default();
+        let Ok(found) = model.definitions() else { return Self::default() };
+        for (name, formula) in found.iter() {
+            let parameter = matches!(formula.node(), crate::formula::Node::Sym(_));
+            let ideal = creeps.contains(name) && formula.is_zero();
+            let chain = ["v_l", "v_t", "x'", "y'"].contains(&name.as_str());
+            if chain || !(parameter || ideal) {
+                definitions.define(name.clone(), formula.clone());
+            }
+        }
+        Self { definitions }
+    }
+
+    /// With one more formula, in place of an older one of that name.
+    pub fn with(mut self, name: &str, formula: Expr) -> Self {
+        self.definitions.define(name, formula);
+        self
+    }
+
+    /// With a formula given as text; a malformed one is left out, so that what speaks of it is undefined.
+    pub fn with_text(self, name: &str, formula: &str) -> Self {
+        match Expr::parse(formula) {
+            Ok(formula) => self.with(name, formula),
+            Err(_) => self,
+        }
+    }
+
+    /// The formula of a name.
+    pub fn formula(&self, name: &str) -> Option<&Expr> {
+        self.definitions.get(&name.into())
+    }
+
+    /// Every value in a carrier; `free` gives those that are not derived.
+    pub fn values<S: Scalar>(&self, free: &impl Fn(&Symbol) -> S) -> BTreeMap<Symbol, S> {
+        let needed: BTreeSet<Symbol> = self.definitions.iter().flat_map(|(_, f)| f.symbols()).collect();
+        let given: BTreeMap<Symbol, S> =
+            needed.into_iter().filter(|s| self.definitions.get(s).is_none()).map(|s| (s.clone(), free(&s))).collect();
+        let mut values = self.definitions.evaluate(&|s| given.get(s).cloned()).unwrap_or_default();
+        values.extend(given);
+        values
+    }
+
+    /// The formulas that an expression rests on, itself included, and the free symbols it comes down to.
+    pub fn rests_on(&self, e: &Expr) -> (Vec<Expr>, BTreeSet<Symbol>) {
+        let (mut formulas, mut free) = (vec![e.clone()], BTreeSet::new());
+        let mut waiting: Vec<Symbol> = e.symbols().into_iter().collect();
+        let mut seen: BTreeSet<Symbol> = BTreeSet::new();
+        while let Some(s) = waiting.pop() {
+            if !seen.insert(s.clone()) {
+                continue;
+            }
+            match self.definitions.get(&s) {
+                Some(formula) => {
+                    waiting.extend(formula.symbols());
+                    formulas.push(formula.clone());
+                }
+                None => {
+                    free.insert(s);
+                }
+            }
+        }
+        (formulas, free)
+    }
+}

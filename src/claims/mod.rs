@@ -1,0 +1,44 @@
+//! What the paper says, each claim with evidence that can be run.
+//!
+//! A [`Claim`] states a status; [`verify`] runs its evidence and says which status it *earned*. Evidence is a
+//! [`Statement`], equations given as data, and a check that puts them to the test: by the normal form
+//! ([`prove`]), exactly at generated points ([`at_points`]), or against simulated motion. Because the statement is
+//! data, sabotage is mechanical: every statement one slip away ([`mutants`]) must be noticed by the same check, or
+//! the evidence counts for nothing.
+//!
+//! | status | earned when |
+//! |---|---|
+//! | proved | all evidence is proof in exact arithmetic |
+//! | sampled | it held in every generated case |
+//! | corrected | what is printed fails, with a counterexample, and the corrected form is proved or sampled |
+//! | refuted | what is printed fails, with a counterexample |
+//! | editorial | a misprint without mathematics |
+//! | open | there is no evidence, or some of it did not do what it says |
+
+mod checks;
+mod claim;
+mod driven;
+pub mod ledger;
+mod machine;
+mod mutants;
+mod outcome;
+mod paper;
+mod point;
+mod sampling;
+mod statement;
+mod status;
+mod user;
+mod verify;
+
+pub use checks::{at_points, counterexample, near, prove, value_said};
+pub use claim::{Check, Claim, Evidence, Gives};
+pub use machine::Machine;
+pub use mutants::{Mutant, mutants};
+pub use outcome::{Counterexample, Outcome};
+pub use paper::all;
+pub use point::{Domain, Point, domains, points, simplest, value, written};
+pub use sampling::{Fault, Sampling, Verdict};
+pub use statement::{Equation, Statement};
+pub use status::Status;
+pub use user::read;
+pub use verify::{Entry, Ledger, Options, Shown, verify};

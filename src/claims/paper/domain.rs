@@ -1,0 +1,71 @@
+//! Where formulas are undefined.
+
+use crate::claims::{Counterexample, Equation, Outcome, Point, Statement, domains, simplest, written};
+use crate::formula::{Exact, Expr, Fun, Node, Normal, Scalar, Symbol};
+
+/// Shows, for each equation, that its left side is undefined exactly where its right side is zero.
+///
+/// Proved by comparing the product of the left side's divisors with the right side in normal form; refuted by the
+/// simplest numbers at which one is the case and not the other.
+pub(super) fn undefined_exactly_where(statement: &Statement) -> Outcome {
+    Outcome::all(statement.equations().iter().map(|equation| match mismatch(equation) {
+        Some(found) => Outcome::Fails(found),
+        None if same_zeros(&divisors(&equation.left), &equation.right) => Outcome::PROVED,
+        None => Outcome::Undefined(format!("the divisors of {} are not {}", equation.left, equation.right)),
+    }))
+}
+
+/// Shows that every right side has a value everywhere, whatever the values of its symbols.
+pub(super) fn defined_everywhere(statement: &Statement) -> Outcome {
+    Outcome::all(statement.equations().iter().map(|equation| {
+        if divisors(&equation.right).as_number().is_some() {
+            return Outcome::PROVED;
+        }
+        let names = domains([&equation.right]);
+        match simplest(&names, |p| value(&equation.right, p).is_none().then(|| undefined(&equation.right))) {
+            Some(found) => Outcome::Fails(found),
+            None => Outcome::Undefined(format!("{} divides by what may vanish", equation.right)),
+        }
+    }))
+}
+
+fn undefined(e: &Expr) -> String {
+    format!("{e} is undefined")
+}
+
+fn value(e: &Expr, point: &Point) -> Option<Exact> {
+    e.eval(&|s: &Symbol| point.get(s).unwrap_or_else(|| Exact::ratio(1, 0)))
+}
+
+fn mismatch(equation: &Equation) -> Option<Counterexample> {
+    let names = domains([&equation.left, &equation.right]);
+    simplest(&names, |point| {
+        let (left, right) = (value(&equation.left, point), value(&equation.right, point)?);
+        match (left, right.equals(&Exact::ratio(0, 1))) {
+            (None, false) => {
+                Some(format!("{}, and {} is {}", undefined(&equation.left), equation.right, written(&right)))
+            }
+            (Some(v), true) => Some(format!("{} is {}, and {} is zero", equation.left, written(&v), equation.right)),
+            _ => None,
+        }
+    })
+}
+
+/// The product of everything a formula divides by.
+fn divisors(e: &Expr) -> Expr {
+    let parts = e.children().into_iter().fold(Expr::int(1), |product, c| &product * &divisors(c));
+    match e.node() {
+        Node::Div(_, b) => &parts * b,
+        Node::Pow(x, n) if *n < 0 => &parts * x,
+        Node::Call(Fun::Cot, x) => &parts * &Expr::call(Fun::Sin, x),
+        Node::Call(Fun::Tan, x) => &parts * &Expr::call(Fun::Cos, x),
+        _ => parts,
+    }
+}
+
+/// Whether two formulas are the same but for a factor that is a number: then they vanish together.
+fn same_zeros(a: &Expr, b: &Expr) -> bool {
+    let quotient = Normal::of(&(a / b));
+    let number = |e: &Expr| e.tidy().as_number().is_some_and(|v| !num_traits::Zero::is_zero(&v));
+    quotient.is_defined() && number(&quotient.numerator()) && number(&quotient.denominator())
+}

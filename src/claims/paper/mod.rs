@@ -1,0 +1,17 @@
+//! The claims of the paper, section by section.
+
+mod domain;
+mod finite;
+mod rotation;
+mod traverse;
+
+use super::Claim;
+
+/// Every claim, in the order of the paper.
+///
+/// ```
+/// assert!(creepage::claims::all().iter().any(|c| c.id == "eq-24"));
+/// ```
+pub fn all() -> Vec<Claim> {
+    [rotation::claims(), traverse::claims()].concat()
+}

@@ -1,0 +1,290 @@
+//! Section 2: rotation creep of a disk, equations (3)–(13).
+
+use crate::claims::paper::domain::undefined_exactly_where;
+use crate::claims::paper::finite;
+use crate::claims::{Claim, Domain, Machine, Outcome, Sampling, Statement, Status, at_points, prove};
+use crate::formula::Expr;
+use crate::mechanism::Form;
+use crate::model::mechanism;
+use crate::vehicles;
+
+const CHAPTER: &str = "02-rotation-creep";
+/// Until a disk is a vehicle of its own: the wheel that does not turn.
+const DISK: &str = "unicycle";
+const FORMS: &str = "src/mechanism/constraint.rs";
+
+/// The disk with the velocity of the particle of its rim that touches the ground.
+fn disk() -> Machine {
+    // The particle that was at the bottom u radians of rolling ago: its place relative to the line.
+    let rim = Expr::parse("x - r*sin(u)").unwrap_or_else(|_| Expr::int(0));
+    let by_u = rim.derivative(&"u".into()).substitute(&|s| (s.as_str() == "u").then(|| Expr::int(0)));
+    let by_x = rim.derivative(&"x".into());
+    let velocity = &(&by_x * &Expr::sym("v_l")) + &(&by_u * &Expr::sym("theta'"));
+    Machine::of(DISK).with("v_A", velocity).with_text("f_R", "-b_R*v_A").with_text("omega", "theta'")
+}
+
+fn on_disk(s: &Statement, _: &Sampling) -> Outcome {
+    prove(&disk(), s)
+}
+
+pub(super) fn claims() -> Vec<Claim> {
+    [kinematics(), finite_displacements(), other_coefficients(), friction(), generic_form()].concat()
+}
+
+fn kinematics() -> Vec<Claim> {
+    let ideal = |s: &Statement, _: &Sampling| prove(&disk().with_text("e_rc", "0"), s);
+    vec![
+        Claim::new("eq-3", Status::Proved, "an ideally rolling disk travels as it turns: v_l − r·ω = 0")
+            .at("section 2, (3)")
+            .about(&[3])
+            .under("no creep")
+            .chapter(CHAPTER)
+            .code(&[FORMS, "src/vehicles/catalogue.toml"])
+            .tests(&["tests/mechanism_forms.rs", "tests/mechanism_motion.rs"])
+            .proof("the row of the disk without creep", &[("v_l - r*theta'", "0"), ("v_A", "0")], ideal)
+            .sabotaged_by(&[&[("v_l + r*theta'", "0")], &[("v_A", "theta'")], &[("v_l - theta'/r", "0")]]),
+        Claim::new("eq-4", Status::Proved, "the contact of a creeping disk moves with v_A = v_l − r·ω = −r·ω·e_rc")
+            .at("section 2, (4); errata E6")
+            .about(&[4])
+            .remark("The paper writes v_i for the ideal and for the real velocity; in (4) it is the real one, v_l.")
+            .chapter(CHAPTER)
+            .code(&[FORMS])
+            .tests(&["tests/mechanism_forms.rs"])
+            .proof(
+                "velocity of the particle of the rim that touches the ground",
+                &[("v_A", "v_l - r*omega"), ("v_A", "-r*omega*e_rc")],
+                on_disk,
+            ),
+        Claim::new("E6", Status::Corrected, "(3) and (4) mean the same v_i")
+            .at("section 2, (3)–(4); errata E6")
+            .about(&[3, 4])
+            .remark("With the ideal v_i = r·ω of (3) put into (4), the velocity v_A would vanish whatever the creep.")
+            .chapter(CHAPTER)
+            .code(&[FORMS])
+            .refutation(
+                "v_A from the ideal velocity",
+                &[("v_A", "r*omega - r*omega")],
+                &[("v_A", "v_l - r*omega")],
+                on_disk,
+            )
+            .proof("v_A from the real velocity", &[("v_A", "v_l - r*omega")], on_disk),
+        Claim::new("eq-8", Status::Proved, "e_rc = 1 − v_l/(r·ω)")
+            .at("section 2, (8)")
+            .about(&[8])
+            .under("r·ω ≠ 0")
+            .chapter(CHAPTER)
+            .code(&[FORMS, "src/mechanism/regime.rs"])
+            .tests(&["tests/mechanism_forms.rs", "tests/formula_creep.rs"])
+            .proof(
+                "the row solved for its coefficient, and for the speed",
+                &[("e_rc", "1 - v_l/(r*theta')"), ("v_l", "r*theta'*(1 - e_rc)")],
+                on_disk,
+            ),
+        Claim::new("E7", Status::Corrected, "the coefficient (8) is undefined exactly where r·ω = 0")
+            .at("section 2, below (8); errata E7")
+            .about(&[8])
+            .remark(
+                "The paper leaves out only the disk at rest (v_l = ω = 0). A locked wheel that slides, ω = 0 and \
+                 v_l ≠ 0, has no coefficient either.",
+            )
+            .chapter(CHAPTER)
+            .code(&["src/mechanism/regime.rs"])
+            .tests(&["tests/formula_creep.rs"])
+            .refutation(
+                "only the disk at rest is left out",
+                &[("1 - v_l/(r*omega)", "v_l^2 + omega^2")],
+                &[("1 - v_l/(r*omega)", "r*omega")],
+                |s, _| undefined_exactly_where(s),
+            )
+            .proof("left out where r·ω vanishes", &[("1 - v_l/(r*omega)", "r*omega")], |s, _| {
+                undefined_exactly_where(s)
+            })
+            .sabotaged_by(&[
+                &[("1 - v_l/(r*omega)", "v_l")],
+                &[("1 - v_l/(r*omega)", "omega")],
+                &[("1 - v_l/(r*omega)", "v_l*omega*r")],
+            ]),
+    ]
+}
+
+fn finite_displacements() -> Vec<Claim> {
+    vec![
+        Claim::new("eq-5", Status::Sampled, "the angle of rotation creep θ_rc = θ − θ₁ with d = r·θ₁")
+            .at("section 2, (5)–(6), the rotational pair (d, θ)")
+            .about(&[5, 6])
+            .under("constant e_rc; any wheel rate")
+            .chapter(CHAPTER)
+            .code(&["src/motion/trajectory.rs"])
+            .tests(&["tests/motion_kinematics.rs"])
+            .sample(
+                "displacements of simulated disks: (d, θ) is proportional, a rotational pair",
+                &[("d", "r*theta*(1 - e_rc)"), ("theta_rc", "theta*e_rc")],
+                finite::rotational_pair,
+            ),
+        Claim::new("eq-7", Status::Sampled, "e_rc is the limit of θ_rc/θ for θ → 0, also when it changes on the way")
+            .at("section 2, (7)")
+            .about(&[7])
+            .under("the disk turns: ω ≠ 0")
+            .chapter(CHAPTER)
+            .code(&["src/motion/trajectory.rs"])
+            .tests(&["tests/motion_sensitivity.rs"])
+            .sample(
+                "finite motions of disks driven through a viscous contact, in ever shorter times: the quotient tends \
+                 to the coefficient with the first power of the time",
+                &[("limit", "1 - v_l/(r*omega)"), ("order", "1")],
+                finite::rotation_limit,
+            ),
+    ]
+}
+
+/// The disk with Wong's slips, driven and braked, and the roll-slide number.
+fn others() -> Machine {
+    let machine = disk().with_text("i_s", "1 - v_l/(r*omega)").with_text("rho_s", "r*omega/v_l");
+    machine.with_text("i_b", "1 - r*omega/v_l")
+}
+
+fn on_others(s: &Statement, _: &Sampling) -> Outcome {
+    prove(&others(), s)
+}
+
+fn other_coefficients() -> Vec<Claim> {
+    vec![
+        Claim::new("E4", Status::Corrected, "Wong's slip is the coefficient of rotation creep: e_rc = i")
+            .at("section 2, remark, (9); errata E4")
+            .about(&[9])
+            .under("i = 1 − V/(r·ω) for a driven wheel; for a braked one i_b = 1 − r·ω/V")
+            .remark(
+                "(9) has e_rc = 1 − e_s, which would make ideal rolling a slip of 1. It holds only at 1/2, or if e_s \
+                 stands for V/(r·ω), the reciprocal of the roll-slide number.",
+            )
+            .chapter(CHAPTER)
+            .code(&["src/mechanism/regime.rs"])
+            .refutation("(9) with Wong's slip", &[("e_rc", "1 - i_s")], &[("e_rc", "i_s")], on_others)
+            .proof(
+                "driven and braked wheels, and the reading under which (9) is right",
+                &[("e_rc", "i_s"), ("e_rc", "-i_b/(1 - i_b)"), ("e_rc", "1 - 1/rho_s")],
+                on_others,
+            ),
+        Claim::new("eq-10", Status::Proved, "e_rc = 1 − 1/ρ_s with the roll-slide number ρ_s = r·ω/v_l")
+            .at("section 2, remark, (10); errata E5")
+            .about(&[10])
+            .under("v_l ≠ 0 and r·ω ≠ 0")
+            .remark("Right if ρ_s = r·ω/v_l; the paper does not say so, nor that v_l ≠ 0 is needed.")
+            .chapter(CHAPTER)
+            .code(&["src/mechanism/regime.rs"])
+            .proof("from (8)", &[("e_rc", "1 - 1/rho_s"), ("rho_s*(1 - e_rc)", "1")], on_others),
+        Claim::new("E5", Status::Corrected, "(10) needs v_l ≠ 0: the roll-slide number is undefined exactly there")
+            .at("section 2, remark, (10); errata E5")
+            .about(&[10])
+            .remark("A wheel that spins on the spot has e_rc = 1, which no roll-slide number gives.")
+            .chapter(CHAPTER)
+            .code(&["src/mechanism/regime.rs"])
+            .refutation(
+                "ρ_s is there whenever e_rc is",
+                &[("r*omega/v_l", "r*omega")],
+                &[("r*omega/v_l", "v_l")],
+                |s, _| undefined_exactly_where(s),
+            )
+            .proof("ρ_s is undefined where v_l vanishes", &[("r*omega/v_l", "v_l")], |s, _| undefined_exactly_where(s))
+            .sabotaged_by(&[&[("r*omega/v_l", "omega")], &[("r*omega/v_l", "v_l*omega")]]),
+    ]
+}
+
+fn friction() -> Vec<Claim> {
+    vec![
+        Claim::new(
+            "eq-11",
+            Status::Proved,
+            "a viscous contact, f_R = −b_R·v_A, takes the power b_R·v_A² out of the motion",
+        )
+        .at("section 2, (11)")
+        .about(&[11])
+        .chapter(CHAPTER)
+        .code(&["src/effects/catalogue.toml"])
+        .tests(&["tests/simulator_laws.rs"])
+        .proof(
+            "power of the friction on the contact, never positive for b_R > 0",
+            &[("f_R*v_A", "-b_R*v_A^2"), ("f_R*v_A", "-b_R*(r*omega*e_rc)^2")],
+            on_disk,
+        ),
+        Claim::new("eq-12", Status::Proved, "e_rc = f_R/(b_R·r·ω), and with it v_l = (1 − e_rc)·r·ω")
+            .at("section 2, (12)")
+            .about(&[12])
+            .under("b_R·r·ω ≠ 0")
+            .chapter(CHAPTER)
+            .code(&["src/effects/catalogue.toml"])
+            .tests(&["tests/simulator_laws.rs"])
+            .proof(
+                "friction, coefficient and speed in a circle",
+                &[("e_rc", "f_R/(b_R*r*omega)"), ("v_l", "r*omega - f_R/b_R"), ("v_l", "(1 - e_rc)*r*omega")],
+                on_disk,
+            ),
+        Claim::new("remark-displacement", Status::Proved, "(3) is integrable: d − r·θ = 0 has the rate v_l − r·ω")
+            .at("section 2, remark, below (12)")
+            .about(&[3])
+            .under("constant radius and creep")
+            .chapter(CHAPTER)
+            .code(&["src/mechanism/integrals.rs"])
+            .tests(&["tests/mechanism_growth.rs"])
+            .proof(
+                "the differential of x − r·(1 − e_rc)·θ along the motion",
+                &[("v_l - r*(1 - e_rc)*theta'", "0")],
+                on_disk,
+            )
+            .sabotaged_by(&[&[("v_l - r*theta'", "0")], &[("v_l - r*(1 + e_rc)*theta'", "0")]]),
+    ]
+}
+
+fn generic_form() -> Vec<Claim> {
+    vec![
+        Claim::new(
+            "eq-13",
+            Status::Proved,
+            "every rolling constraint is of the form π̇ − σ(e_rc)·q̇ = 0 with σ = r·(1 − e_rc)",
+        )
+        .at("section 2, remark, (13)")
+        .about(&[13])
+        .under("the vehicles of the catalogue")
+        .chapter(CHAPTER)
+        .code(&[FORMS])
+        .tests(&["tests/mechanism_forms.rs", "tests/describe_formulas.rs"])
+        .proof("all rolling rows of the catalogue against the form", &[("sigma", "r*(1 - e)")], type_r)
+        .proof("its derivatives", &[("by_e", "r*theta'"), ("by_rate", "-r*(1 - e_rc)")], |s, _| {
+            let row = Expr::parse("v_l - r*(1 - e_rc)*theta'").unwrap_or_else(|_| Expr::int(0));
+            let by = |name: &str| row.derivative(&name.into());
+            prove(&Machine::default().with("by_e", by("e_rc")).with("by_rate", by("theta'")), s)
+        }),
+        Claim::new("eq-8-round-trip", Status::Sampled, "velocities to coefficient and back, at any rational numbers")
+            .at("section 2, (8)")
+            .about(&[8])
+            .under("r·ω ≠ 0")
+            .chapter(CHAPTER)
+            .code(&[FORMS])
+            .sample("exact values through the derived motion", &[("1 - v_l/(r*theta')", "e_rc")], |s, sampling| {
+                let names = [("r", Domain::Positive), ("theta'", Domain::Nonzero), ("e_rc", Domain::Any)];
+                at_points(&Machine::of(DISK), s, &names, sampling)
+            }),
+    ]
+}
+
+/// Every rolling constraint of the catalogue: its σ is what the statement says, its row is π̇ − σ·q̇.
+fn type_r(s: &Statement, _: &Sampling) -> Outcome {
+    let Some(sigma) = s.said_of("sigma") else { return Outcome::Undefined("nothing is said of sigma".into()) };
+    let rows = vehicles::all().iter().flat_map(|v| {
+        let radius = |name: &str| v.wheels.iter().find(|w| name.starts_with(&w.name)).and_then(|w| w.radius.clone());
+        let constraints = mechanism(v, 0).constraints;
+        constraints.into_iter().filter_map(move |c| Some((radius(&c.name)?, c)))
+    });
+    Outcome::all(rows.filter_map(|(radius, c)| {
+        let Form::R(rolling) = &c.form else { return None };
+        let said = sigma.substitute(&|s| match s.as_str() {
+            "r" => Some(Expr::sym(radius.clone())),
+            "e" => Some(Expr::sym(c.creep.clone())),
+            _ => None,
+        });
+        let form = &rolling.pi.expr() - &(&said * &Expr::sym(rolling.rate.clone()));
+        let machine = Machine::default().with("sigma", rolling.sigma.clone()).with("row", c.row().expr());
+        let rows = [(Expr::sym("sigma"), said), (Expr::sym("row"), form)];
+        Some(prove(&machine, &Statement::of(rows)))
+    }))
+}

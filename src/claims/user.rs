@@ -1,0 +1,57 @@
+//! Claims from a file.
+
+use super::{Claim, Machine, Status, prove};
+use crate::error::Result;
+use crate::files::{ClaimEntry, read_claims};
+use crate::vehicles;
+use std::path::Path;
+
+/// The claims of a TOML file: equations that the normal form proves or refutes, about formulas or about the derived
+/// motion of a vehicle of the catalogue.
+///
+/// ```toml
+/// [[claim]]
+/// id = "course"
+/// says = "traverse creep turns the course by arctan e"
+/// status = "proved"                    # proved, corrected, refuted or open
+/// equations = ["cot(phi + atan(e)) = (cot(phi) - e)/(1 + e*cot(phi))"]
+/// printed = []                         # false forms; with them the status is corrected or refuted
+/// ```
+///
+/// # Errors
+/// With file, line and column when the file is not of this form.
+pub fn read(path: &Path) -> Result<Vec<Claim>> {
+    let vehicles: Vec<&str> = vehicles::all().iter().map(|v| v.id.as_str()).collect();
+    Ok(read_claims(path, &vehicles)?.into_iter().map(|entry| claim(entry, path)).collect())
+}
+
+fn claim(entry: ClaimEntry, path: &Path) -> Claim {
+    let status = match entry.status.as_str() {
+        "proved" => Status::Proved,
+        "corrected" => Status::Corrected,
+        "refuted" => Status::Refuted,
+        _ => Status::Open,
+    };
+    let machine = entry.vehicle.as_ref().map_or_else(Machine::default, |(v, n)| Machine::train(v, *n));
+    let claim = Claim::new(&entry.id, status, &entry.says).at(&path.display().to_string()).under(&entry.under);
+    let claim = match entry.equations.is_empty() {
+        true => claim,
+        false => {
+            let machine = machine.clone();
+            claim.proof("as the file states", &pairs(&entry.equations), move |s, _| prove(&machine, s))
+        }
+    };
+    match entry.printed.is_empty() {
+        true => claim,
+        false => {
+            let truth = pairs(&entry.equations);
+            claim.refutation("as the file says is printed", &pairs(&entry.printed), &truth, move |s, _| {
+                prove(&machine, s)
+            })
+        }
+    }
+}
+
+fn pairs(equations: &[(String, String)]) -> Vec<(&str, &str)> {
+    equations.iter().map(|(l, r)| (l.as_str(), r.as_str())).collect()
+}

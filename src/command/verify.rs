@@ -1,0 +1,119 @@
+//! `creepage verify` and `creepage claims`
+
+use super::lists::pretty;
+use super::print;
+use super::progress::Progress;
+use clap::{Args, ValueEnum};
+use creepage::claims::{self, Claim, Options, ledger};
+use creepage::{Error, Result};
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Run the claims of the paper and say which status each of them earns
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  creepage verify
+  creepage verify eq-21 theorem-single-body --cases 10000 --seed 7
+  creepage verify --claims my_claims.toml mine-1
+
+Exit code 0 only if every claim earns the status stated for it.")]
+pub struct Arguments {
+    /// Claims to run, by id; all when none is named
+    #[arg(value_name = "CLAIM")]
+    only: Vec<String>,
+    /// Cases of each sampled check
+    #[arg(long, value_name = "N", default_value_t = Options::default().cases, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    cases: u32,
+    /// Everything generated follows from it
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    seed: u64,
+    /// Adds claims of your own: identities of formulas, see the README
+    #[arg(long, value_name = "FILE.toml")]
+    claims: Option<PathBuf>,
+    /// How to print the ledger
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Format {
+    Text,
+    Json,
+    /// The errata of the paper as Markdown
+    Errata,
+}
+
+/// List the claims with their places and stated statuses
+#[derive(Args)]
+#[command(after_help = "Example:\n  creepage claims --format contents")]
+pub struct List {
+    /// Adds claims of your own
+    #[arg(long, value_name = "FILE.toml")]
+    claims: Option<PathBuf>,
+    /// How to print them
+    #[arg(long, value_enum, default_value_t = ListFormat::Text)]
+    format: ListFormat,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum ListFormat {
+    Text,
+    Json,
+    /// From equation number to claim to test to code, as Markdown
+    Contents,
+}
+
+fn known(own: Option<&PathBuf>) -> Result<Vec<Claim>> {
+    let mut all = claims::all();
+    if let Some(path) = own {
+        let own = claims::read(path)?;
+        if let Some(twice) = own.iter().find(|c| all.iter().any(|a| a.id == c.id)) {
+            return Err(Error::input(format!("the claim {} of {} is already known", twice.id, path.display()))
+                .help("give it another id"));
+        }
+        all.extend(own);
+    }
+    Ok(all)
+}
+
+/// Carries out `creepage verify`.
+pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
+    let all = known(arguments.claims.as_ref())?;
+    if let Some(unknown) = arguments.only.iter().find(|id| all.iter().all(|c| c.id != **id)) {
+        return Err(Error::input(format!("no claim is called {unknown:?}")).help("`creepage claims` lists them"));
+    }
+    let wanted: Vec<Claim> =
+        all.into_iter().filter(|c| arguments.only.is_empty() || arguments.only.contains(&c.id)).collect();
+    let progress = Progress::new(quiet);
+    let (done, total) = (AtomicUsize::new(0), wanted.iter().map(|c| c.evidence.len()).sum::<usize>());
+    let options = Options { cases: arguments.cases, seed: arguments.seed };
+    let made = claims::verify(&wanted, &options, &|id| {
+        let n = done.fetch_add(1, Ordering::Relaxed) + 1;
+        progress.say(&format!("{n} of {total} pieces of evidence; {id}"));
+    });
+    drop(progress);
+    if !quiet {
+        print(&match arguments.format {
+            Format::Text => ledger::text(&made),
+            Format::Json => pretty(&ledger::json(&made)),
+            Format::Errata => ledger::errata(&made),
+        });
+    }
+    let unearned: Vec<&str> = made.entries.iter().filter(|e| !e.is_earned()).map(|e| e.claim.id.as_str()).collect();
+    match unearned.is_empty() {
+        true => Ok(()),
+        false => Err(Error::run(format!("the stated status is not earned by {}", unearned.join(", ")))),
+    }
+}
+
+/// Carries out `creepage claims`.
+pub fn list(arguments: &List) -> Result<()> {
+    let all = known(arguments.claims.as_ref())?;
+    print(&match arguments.format {
+        ListFormat::Text => ledger::claims_text(&all),
+        ListFormat::Json => pretty(&ledger::claims_json(&all)),
+        ListFormat::Contents => ledger::contents(&all),
+    });
+    Ok(())
+}

@@ -17,6 +17,8 @@ pub struct Equation {
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Statement {
     equations: Vec<Equation>,
+    /// Whether it is enough to know that it is false: the simplest counterexample costs time.
+    brief: bool,
 }
 
 impl Statement {
@@ -34,12 +36,13 @@ impl Statement {
         let equation = |(left, right): &(T, T)| {
             Ok(Equation { left: Expr::parse(left.as_ref())?, right: Expr::parse(right.as_ref())? })
         };
-        Ok(Self { equations: equations.iter().map(equation).collect::<Result<_>>()? })
+        Ok(Self { equations: equations.iter().map(equation).collect::<Result<_>>()?, brief: false })
     }
 
     /// Equations made of formulas at hand.
     pub fn of(equations: impl IntoIterator<Item = (Expr, Expr)>) -> Self {
-        Self { equations: equations.into_iter().map(|(left, right)| Equation { left, right }).collect() }
+        let equations = equations.into_iter().map(|(left, right)| Equation { left, right }).collect();
+        Self { equations, brief: false }
     }
 
     /// The equations.
@@ -63,6 +66,17 @@ impl Statement {
         let mut changed = self.clone();
         changed.equations[index].right = right;
         changed
+    }
+
+    /// The same, of which one only wants to know whether it is true.
+    pub(super) fn in_brief(mut self) -> Self {
+        self.brief = true;
+        self
+    }
+
+    /// Whether one only wants to know if it is true.
+    pub(super) fn is_brief(&self) -> bool {
+        self.brief
     }
 }
 

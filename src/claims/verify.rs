@@ -154,7 +154,7 @@ fn sabotage(evidence: &Evidence, statement: &Statement, sampling: &Sampling) -> 
             Err(e) => return (1, vec![format!("a sabotage cannot be read: {e}")]),
         },
     };
-    let survived = all.iter().filter(|m| (evidence.check)(&m.statement, &brief).holds());
+    let survived = all.iter().filter(|m| (evidence.check)(&m.statement.clone().in_brief(), &brief).holds());
     let survivors = survived.map(|m| m.slip.clone()).collect();
     (all.len(), survivors)
 }

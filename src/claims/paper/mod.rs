@@ -3,7 +3,10 @@
 mod domain;
 mod finite;
 mod rotation;
+mod single_body;
+mod trailers;
 mod traverse;
+mod wheel;
 
 use super::Claim;
 
@@ -13,5 +16,5 @@ use super::Claim;
 /// assert!(creepage::claims::all().iter().any(|c| c.id == "eq-24"));
 /// ```
 pub fn all() -> Vec<Claim> {
-    [rotation::claims(), traverse::claims()].concat()
+    [rotation::claims(), traverse::claims(), wheel::claims(), single_body::claims(), trailers::claims()].concat()
 }

@@ -2,155 +2,14 @@
 
 mod support;
 
-use creepage::formula::{Dual, Expr, Fun, Scalar, Unit};
+use creepage::formula::{Dual, Exact, Expr, Normal, Scalar, Unit};
 use nalgebra::{DMatrix, DVector, RowDVector};
 use num_bigint::BigInt;
 use num_dual::{Derivative, Dual2_64, Dual2DVec64, Dual64, DualDVec64, HyperDual64};
 use num_rational::BigRational;
 use proptest::prelude::*;
-use std::fmt::Debug;
-use support::{Outcome, check, modest, nonzero};
-
-fn number<S: Scalar>(n: i64) -> S {
-    S::number(&BigRational::from_integer(BigInt::from(n)))
-}
-
-/// A carrier as the laws see it.
-struct Carrier<'a, S> {
-    /// Two values are the same as far as rounding can tell.
-    same: &'a dyn Fn(&S, &S) -> bool,
-    /// Undefined values, however they came about.
-    undefined: Vec<S>,
-}
-
-impl<S: Scalar + Debug> Carrier<'_, S> {
-    /// Both sides are defined and the same, or neither is defined.
-    fn equal(&self, law: &str, a: &S, b: &S) -> Outcome {
-        prop_assert_eq!(a.is_defined(), b.is_defined(), "{}: {:?} and {:?}", law, a, b);
-        self.equal_where_defined(law, a, b)
-    }
-
-    fn equal_where_defined(&self, law: &str, a: &S, b: &S) -> Outcome {
-        let both = a.is_defined() && b.is_defined();
-        prop_assert!(!both || (self.same)(a, b), "{}: {:?} and {:?}", law, a, b);
-        Ok(())
-    }
-
-    fn sums(&self, a: &S, b: &S, c: &S) -> Outcome {
-        let zero = number::<S>(0);
-        self.equal("a + b = b + a", &a.add(b), &b.add(a))?;
-        self.equal("(a + b) + c = a + (b + c)", &a.add(b).add(c), &a.add(&b.add(c)))?;
-        self.equal("a + 0 = a", &a.add(&zero), a)?;
-        self.equal("0 + a = a", &zero.add(a), a)?;
-        self.equal("a - b = a + (-b)", &a.sub(b), &a.add(&b.neg()))?;
-        self.equal("-(-a) = a", &a.neg().neg(), a)?;
-        self.equal("a - a = 0", &a.sub(a), &zero)?;
-        self.equal("-(a + b) = -a - b", &a.add(b).neg(), &a.neg().sub(b))
-    }
-
-    fn products(&self, a: &S, b: &S, c: &S) -> Outcome {
-        let (zero, one) = (number::<S>(0), number::<S>(1));
-        self.equal("ab = ba", &a.mul(b), &b.mul(a))?;
-        self.equal("(ab)c = a(bc)", &a.mul(b).mul(c), &a.mul(&b.mul(c)))?;
-        self.equal("a·1 = a", &a.mul(&one), a)?;
-        self.equal("a·0 = 0", &a.mul(&zero), &zero)?;
-        self.equal("(-a)b = -(ab)", &a.neg().mul(b), &a.mul(b).neg())?;
-        self.equal("a/b = a·(1/b)", &a.div(b), &a.mul(&b.recip()))?;
-        self.equal("a/1 = a", &a.div(&one), a)?;
-        let inverse = a.recip();
-        if inverse.is_defined() {
-            self.equal("a·(1/a) = 1", &a.mul(&inverse), &one)?;
-            self.equal("1/(1/a) = a", &inverse.recip(), a)?;
-        }
-        if a.add(b).is_defined() {
-            self.equal("(a + b)c = ac + bc", &a.add(b).mul(c), &a.mul(c).add(&b.mul(c)))?;
-        }
-        Ok(())
-    }
-
-    fn powers(&self, a: &S) -> Outcome {
-        let mut product = number::<S>(1);
-        for n in 0..=5 {
-            self.equal("aⁿ = a·a…", &a.powi(n), &product)?;
-            self.equal("a⁻ⁿ = 1/aⁿ", &a.powi(-n), &product.recip())?;
-            product = product.mul(a);
-        }
-        self.equal("a¹ = a", &a.powi(1), a)
-    }
-
-    fn functions(&self, a: &S) -> Outcome {
-        let one = number::<S>(1);
-        let call = |f: Fun| S::call(f, a);
-        let inner = |f: Fun, g: Fun| S::call(f, &call(g));
-        let square = |x: S| x.mul(&x);
-        let odd = [Fun::Sin, Fun::Tan, Fun::Cot, Fun::Asin, Fun::Atan, Fun::Tanh, Fun::Sign];
-        for f in odd {
-            self.equal("f(-a) = -f(a)", &S::call(f, &a.neg()), &call(f).neg())?;
-        }
-        for f in [Fun::Cos, Fun::Abs] {
-            self.equal("f(-a) = f(a)", &S::call(f, &a.neg()), &call(f))?;
-        }
-        self.equal_where_defined("sin² + cos² = 1", &square(call(Fun::Sin)).add(&square(call(Fun::Cos))), &one)?;
-        self.equal_where_defined("tan = sin/cos", &call(Fun::Tan), &call(Fun::Sin).div(&call(Fun::Cos)))?;
-        self.equal_where_defined("cot = cos/sin", &call(Fun::Cot), &call(Fun::Cos).div(&call(Fun::Sin)))?;
-        for (f, g) in [
-            (Fun::Sin, Fun::Asin),
-            (Fun::Cos, Fun::Acos),
-            (Fun::Tan, Fun::Atan),
-            (Fun::Exp, Fun::Ln),
-            (Fun::Ln, Fun::Exp),
-        ] {
-            self.equal_where_defined("f(f⁻¹(a)) = a", &inner(f, g), a)?;
-        }
-        self.equal_where_defined("√a·√a = a", &square(call(Fun::Sqrt)), a)?;
-        self.equal_where_defined("√(a²) = |a|", &S::call(Fun::Sqrt, &a.mul(a)), &call(Fun::Abs))?;
-        self.equal_where_defined("|a| = a·sgn a", &call(Fun::Abs), &a.mul(&call(Fun::Sign)))?;
-        let (up, down) = (call(Fun::Exp), S::call(Fun::Exp, &a.neg()));
-        self.equal_where_defined("e⁻ᵃ = 1/eᵃ", &down, &up.recip())?;
-        self.equal_where_defined("tanh", &call(Fun::Tanh), &up.sub(&down).div(&up.add(&down)))
-    }
-
-    fn undefined_is_contagious(&self, a: &S) -> Outcome {
-        let by_zero = number::<S>(0).recip();
-        for u in self.undefined.iter().chain([&by_zero]) {
-            let zero = number::<S>(0);
-            let mut results = vec![u.clone(), u.neg(), u.recip()];
-            for x in [a, &zero, u] {
-                results.extend([u.add(x), x.add(u), u.sub(x), x.sub(u), u.mul(x), x.mul(u), u.div(x), x.div(u)]);
-            }
-            results.extend((-3..=3).map(|n| u.powi(n)));
-            results.extend(Fun::all().map(|f| S::call(f, u)));
-            for (i, r) in results.iter().enumerate() {
-                prop_assert!(!r.is_defined(), "operation {} on {:?} gives {:?}", i, u, r);
-                prop_assert!(!r.equals(r) && !r.equals(a) && !a.equals(r), "{:?}", r);
-            }
-        }
-        Ok(())
-    }
-
-    fn equality(&self, a: &S, b: &S) -> Outcome {
-        prop_assert!(a.is_defined() && a.equals(a), "{:?}", a);
-        prop_assert_eq!(a.equals(b), b.equals(a));
-        prop_assert!(!a.equals(b) || (self.same)(a, b), "{:?} and {:?}", a, b);
-        Ok(())
-    }
-}
-
-fn laws<S: Scalar + Debug>(
-    values: impl Strategy<Value = S> + Clone,
-    same: impl Fn(&S, &S) -> bool,
-    undefined: impl IntoIterator<Item = S>,
-) {
-    let carrier = Carrier { same: &same, undefined: undefined.into_iter().collect() };
-    check(800, (values.clone(), values.clone(), values), |(a, b, c)| {
-        carrier.equality(&a, &b)?;
-        carrier.sums(&a, &b, &c)?;
-        carrier.products(&a, &b, &c)?;
-        carrier.powers(&a)?;
-        carrier.functions(&a)?;
-        carrier.undefined_is_contagious(&a)
-    });
-}
+use support::laws::{Carrier, laws, number, overflow_is_undefined};
+use support::{check, modest, nonzero};
 
 /// A carrier that lies over floating point: all its numbers in a row.
 trait Row {
@@ -162,31 +21,6 @@ fn close<S: Row>(a: &S, b: &S) -> bool {
     let (a, b) = (a.row(), b.row());
     let size = a.iter().chain(&b).fold(1.0, |m: f64, x| m.max(x.abs()));
     a.len() == b.len() && a.iter().zip(&b).all(|(x, y)| (x - y).abs() <= 1e-9 * size)
-}
-
-/// An overflow is undefined, and nothing brings it back.
-fn overflow_is_undefined<S: Scalar + Debug>() {
-    let big = S::number(&num_traits::pow(BigRational::from_integer(10.into()), 200));
-    let huge = S::number(&num_traits::pow(BigRational::from_integer(10.into()), 400));
-    let fine = |x: &S| x.is_defined() && x.equals(x);
-    assert!(fine(&big) && fine(&big.neg()) && fine(&big.recip()));
-    let lost = [
-        huge,
-        big.mul(&big),
-        big.neg().mul(&big),
-        big.powi(2),
-        big.powi(-2),
-        S::call(Fun::Exp, &number(1000)),
-        big.mul(&big).recip(),
-        big.mul(&big).powi(0),
-        big.mul(&big).sub(&big.mul(&big)),
-        S::call(Fun::Sign, &big.mul(&big)),
-        S::call(Fun::Atan, &big.mul(&big)),
-        S::call(Fun::Tanh, &S::call(Fun::Exp, &number(1000))),
-    ];
-    for (i, x) in lost.iter().enumerate() {
-        assert!(!x.is_defined() && !x.equals(x), "{i}: {x:?}");
-    }
 }
 
 impl Row for f64 {
@@ -324,4 +158,106 @@ fn expressions_are_compared_by_their_form() {
     let parse = |t: &str| Expr::parse(t).unwrap();
     assert!(parse("a + b").equals(&parse("(a) + b")));
     assert!(!parse("a + b").equals(&parse("b + a")));
+}
+
+/// Powers of ten far beyond floating point come and go without a trace.
+fn nothing_overflows<S: Scalar>() {
+    let power = |n: usize| S::number(&num_traits::pow(BigRational::from_integer(BigInt::from(10)), n));
+    assert!(power(400).powi(2).equals(&power(800)) && power(200).powi(2).equals(&power(400)));
+    assert!(power(400).add(&number(1)).sub(&power(400)).equals(&number(1)));
+    assert!(power(400).powi(-1).mul(&power(401)).equals(&number(10)));
+}
+
+/// p/q
+fn ratios() -> impl Strategy<Value = Exact> + Clone {
+    (-5i64..6, 1i64..5).prop_map(|(p, q)| Exact::ratio(p, q))
+}
+
+/// Angles within and beyond a turn, with rational sine and without.
+fn angles() -> impl Strategy<Value = Exact> + Clone {
+    let once = prop_oneof![
+        4 => (-4i64..5, 1i64..4).prop_map(|(p, q)| Exact::half_tangent(p, q)),
+        2 => (-3i64..4, 1i64..4).prop_map(|(x, y)| Exact::direction(x.into(), y.into())),
+        1 => Just(Exact::half_tangent(1, 0)),
+    ];
+    (once, -3i64..4).prop_map(|(angle, n)| angle.mul(&number(n)))
+}
+
+fn not_exact() -> Vec<Exact> {
+    vec![Exact::ratio(1, 0), Exact::direction(0.into(), 0.into()), Exact::ratio(1, 1).add(&Exact::half_tangent(1, 2))]
+}
+
+#[test]
+fn exact_numbers_keep_the_laws() {
+    laws(ratios(), Exact::equals, not_exact());
+    nothing_overflows::<Exact>();
+}
+
+#[test]
+fn exact_angles_keep_the_laws_of_sums_and_functions_and_where_products_exist_those_of_products() {
+    let carrier = |partial| Carrier { same: &Exact::equals, undefined: not_exact(), partial };
+    let (whole, partial) = (carrier(false), carrier(true));
+    check(800, (angles(), angles(), angles()), |(a, b, c)| {
+        whole.equality(&a, &b)?;
+        whole.sums(&a, &b, &c)?;
+        partial.products(&a, &b, &c)?;
+        whole.powers(&a)?;
+        whole.functions(&a)?;
+        whole.undefined_is_contagious(&a)
+    });
+    check(800, (ratios(), angles(), ratios()), |(a, b, c)| {
+        partial.sums(&a, &b, &c)?;
+        partial.products(&a, &b, &c)
+    });
+}
+
+#[test]
+fn exact_angles_are_multiplied_by_whole_numbers() {
+    let carrier = Carrier { same: &Exact::equals, undefined: vec![], partial: false };
+    check(800, (-9i64..10, -9i64..10, angles(), angles()), |(n, m, a, b)| {
+        let (k, l) = (number::<Exact>(n), number::<Exact>(m));
+        carrier.equal("(n + m)a = na + ma", &number::<Exact>(n + m).mul(&a), &k.mul(&a).add(&l.mul(&a)))?;
+        carrier.equal("n(a + b) = na + nb", &k.mul(&a.add(&b)), &k.mul(&a).add(&k.mul(&b)))?;
+        carrier.equal("(nm)a = n(ma)", &number::<Exact>(n * m).mul(&a), &k.mul(&l.mul(&a)))?;
+        let (found, expected) = (k.mul(&a).to_f64(), n as f64 * a.to_f64());
+        prop_assert!((found - expected).abs() < 1e-12 * (1.0 + expected.abs()), "{} and {}", found, expected);
+        Ok(())
+    });
+}
+
+#[test]
+fn normal_forms_keep_the_laws() {
+    let texts = [
+        "0",
+        "1",
+        "-2",
+        "1/3",
+        "0.75",
+        "x",
+        "y",
+        "x - y",
+        "x/y",
+        "1/(x + y)",
+        "(x^2 - y^2)/(2*x)",
+        "sin(x)",
+        "cos(x)",
+        "-cos(x)^2",
+        "1 - cos(x)",
+        "tan(x)",
+        "cot(x - 2*y)",
+        "sin(x)/(1 + y)",
+        "cos(x + y)",
+        "tan(x + atan(y))",
+        "atan(y)",
+        "atan(3/4)",
+        "-atan(y/x)",
+        "x + atan(3/4)",
+        "2*atan(1)",
+        "4",
+        "9/4",
+    ];
+    let values = prop::sample::select(texts.map(|t| Normal::of(&Expr::parse(t).unwrap())).to_vec());
+    let undefined = ["1/(x - x)", "sin(x/2)", "sqrt(x)", "sin(1)", "tan(2*atan(1) + atan(0))", "cot(y - y)"];
+    laws(values, Normal::equals, undefined.map(|t| Normal::of(&Expr::parse(t).unwrap())));
+    nothing_overflows::<Normal>();
 }

@@ -5,6 +5,7 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
+use std::f64::consts::TAU;
 use std::fmt;
 
 /// A rational number, or an angle known by its direction (x, y) with whole x and y.
@@ -12,7 +13,7 @@ use std::fmt;
 /// | value | read as |
 /// |---|---|
 /// | number | a rational of any size; nothing is rounded and nothing overflows |
-/// | angle | the direction of (x, y), up to whole turns; the zero angle is the number 0 |
+/// | angle | the direction of (x, y) and a count of whole turns; the zero angle is the number 0, a whole turn is not |
 /// | undefined | a division by zero, or a result that is neither (√2, sin 1, half of an angle) |
 ///
 /// The tangent of an angle is always rational; its sine and cosine are where x² + y² is a square, as it is for
@@ -33,8 +34,8 @@ pub struct Exact(Value);
 #[derive(Clone, Debug, PartialEq)]
 enum Value {
     Number(BigRational),
-    /// A positive multiple of (cos, sin), without common factor; never (1, 0).
-    Angle(BigInt, BigInt),
+    /// A positive multiple of (cos, sin), without common factor, within (−π, π], and whole turns; never zero.
+    Angle(BigInt, BigInt, BigInt),
     Undefined,
 }
 
@@ -42,7 +43,7 @@ impl Exact {
     /// The number p/q; undefined for q = 0.
     pub fn ratio(p: i64, q: i64) -> Self {
         match q {
-            0 => Self(Value::Undefined),
+            0 => Self::undefined(),
             _ => Self::rational(BigRational::new(p.into(), q.into())),
         }
     }
@@ -58,16 +59,21 @@ impl Exact {
         Self::direction(&q * &q - &p * &p, BigInt::from(2) * p * q)
     }
 
-    /// The angle of the direction (x, y); undefined for (0, 0).
+    /// The angle of the direction (x, y) within (−π, π]; undefined for (0, 0).
     pub fn direction(x: BigInt, y: BigInt) -> Self {
+        Self::turned(x, y, BigInt::zero())
+    }
+
+    /// The same and whole turns.
+    fn turned(x: BigInt, y: BigInt, turns: BigInt) -> Self {
         if x.is_zero() && y.is_zero() {
-            return Self(Value::Undefined);
+            return Self::undefined();
         }
-        if y.is_zero() && x.is_positive() {
+        if y.is_zero() && x.is_positive() && turns.is_zero() {
             return Self::rational(BigRational::zero());
         }
         let common = x.gcd(&y);
-        Self(Value::Angle(x / &common, y / common))
+        Self(Value::Angle(x / &common, y / common, turns))
     }
 
     /// The number, if it is one.
@@ -78,24 +84,24 @@ impl Exact {
         }
     }
 
-    /// The direction of an angle; the number 0 is the direction of x.
+    /// The direction of an angle, whatever its whole turns; the number 0 is the direction of x.
     pub fn as_direction(&self) -> Option<(BigInt, BigInt)> {
         match &self.0 {
-            Value::Angle(x, y) => Some((x.clone(), y.clone())),
+            Value::Angle(x, y, _) => Some((x.clone(), y.clone())),
             Value::Number(v) if v.is_zero() => Some((BigInt::one(), BigInt::zero())),
             _ => None,
         }
     }
 
-    /// The nearest floating-point number; an angle within (−π, π].
+    /// The value to about fifteen digits.
     pub fn to_f64(&self) -> f64 {
         match &self.0 {
             Value::Number(v) => v.to_f64().unwrap_or(f64::NAN),
-            Value::Angle(x, y) => {
+            Value::Angle(x, y, turns) => {
                 // A quotient of the two is exact enough and cannot overflow.
                 let size = BigRational::from_integer(x.abs().max(y.abs()));
                 let part = |v: &BigInt| (BigRational::from_integer(v.clone()) / &size).to_f64().unwrap_or(f64::NAN);
-                part(y).atan2(part(x))
+                part(y).atan2(part(x)) + TAU * turns.to_f64().unwrap_or(f64::NAN)
             }
             Value::Undefined => f64::NAN,
         }
@@ -179,7 +185,11 @@ impl Scalar for Exact {
             (Number(a), Angle(..)) if a.is_zero() => other.clone(),
             (Angle(..), Number(b)) if b.is_zero() => self.clone(),
             // Directions are added as complex numbers are multiplied.
-            (Angle(a, b), Angle(c, d)) => Self::direction(a * c - b * d, a * d + b * c),
+            (Angle(a, b, k), Angle(c, d, l)) => {
+                let (x, y) = (a * c - b * d, a * d + b * c);
+                let turns = k + l + passed((a, b), (c, d), (&x, &y));
+                Self::turned(x, y, turns)
+            }
             _ => Self::undefined(),
         }
     }
@@ -187,7 +197,11 @@ impl Scalar for Exact {
     fn neg(&self) -> Self {
         match &self.0 {
             Value::Number(v) => Self::rational(-v),
-            Value::Angle(x, y) => Self::direction(x.clone(), -y),
+            // Half a turn is its own opposite direction.
+            Value::Angle(x, y, turns) if y.is_zero() && x.is_negative() => {
+                Self::turned(x.clone(), BigInt::zero(), -turns - BigInt::one())
+            }
+            Value::Angle(x, y, turns) => Self::turned(x.clone(), -y, -turns),
             Value::Undefined => Self::undefined(),
         }
     }
@@ -209,7 +223,7 @@ impl Scalar for Exact {
     fn call(f: Fun, x: &Self) -> Self {
         match &x.0 {
             Value::Number(v) => of_number(f, v),
-            Value::Angle(a, b) => of_angle(f, a, b),
+            Value::Angle(a, b, _) => of_angle(f, a, b),
             Value::Undefined => Self::undefined(),
         }
     }
@@ -231,12 +245,25 @@ fn times(n: &BigRational, angle: &Exact) -> Exact {
     (0..count.unsigned_abs()).fold(Exact::ratio(0, 1), |sum, _| sum.add(&once))
 }
 
-/// `p/q` for a number, `angle(x, y)` for an angle.
+/// The whole turns by which the sum of two angles within (−π, π] passes that range.
+fn passed(a: (&BigInt, &BigInt), b: (&BigInt, &BigInt), sum: (&BigInt, &BigInt)) -> i32 {
+    let below = |(_, y): (&BigInt, &BigInt)| y.is_negative();
+    let half = |(x, y): (&BigInt, &BigInt)| y.is_zero() && x.is_negative();
+    match (below(a), below(b)) {
+        // Of two angles from zero on the sum is, too; only two half turns come back to the direction of x.
+        (false, false) => i32::from(below(sum) || (half(a) && half(b))),
+        (true, true) => -i32::from(!below(sum)),
+        _ => 0,
+    }
+}
+
+/// `p/q` for a number, `angle(x, y)` for an angle, `angle(x, y) + k turns` beyond (−π, π].
 impl fmt::Display for Exact {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.0 {
             Value::Number(v) => write!(f, "{v}"),
-            Value::Angle(x, y) => write!(f, "angle({x}, {y})"),
+            Value::Angle(x, y, k) if k.is_zero() => write!(f, "angle({x}, {y})"),
+            Value::Angle(x, y, k) => write!(f, "angle({x}, {y}) + {k} turns"),
             Value::Undefined => f.write_str("undefined"),
         }
     }

@@ -1,6 +1,8 @@
 //! Shared by the property tests: how they are run, random formulas, a carrier that bounds rounding.
 #![allow(dead_code)] // every test binary uses its own part
 
+pub mod fragment;
+pub mod laws;
 pub mod rounding;
 pub mod tree;
 

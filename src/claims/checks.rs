@@ -17,9 +17,9 @@ use std::collections::BTreeMap;
 /// assert!(prove(&Machine::default(), &Statement::parse(&slip).unwrap()).fails());
 /// ```
 pub fn prove(machine: &Machine, statement: &Statement) -> Outcome {
-    let values = machine.values(&|s| Normal::symbol(s.clone()));
+    let values = machine.normal();
     let value = |s: &Symbol| values.get(s).cloned().unwrap_or_else(|| Normal::symbol(s.clone()));
-    Outcome::all(statement.equations().iter().map(|equation| {
+    Outcome::all(statement.in_question().iter().map(|equation| {
         let (left, right) = (equation.left.eval(&value), equation.right.eval(&value));
         match (left, right) {
             (Some(l), Some(r)) if l.equals(&r) => Outcome::PROVED,
@@ -28,6 +28,11 @@ pub fn prove(machine: &Machine, statement: &Statement) -> Outcome {
             _ => refuted_or_undefined(machine, equation),
         }
     }))
+}
+
+/// The check that [`prove`]s statements about a machine.
+pub fn proving(machine: Machine) -> impl Fn(&Statement, &Sampling) -> Outcome + Send + Sync + 'static {
+    move |statement, _| prove(&machine, statement)
 }
 
 /// The simplest counterexample to an equation that is known to be no identity.

@@ -1,11 +1,12 @@
 //! What the program derives, by name, for statements to speak of.
 
 use crate::error::Result;
-use crate::formula::{Expr, Scalar, Symbol};
+use crate::formula::{Expr, Normal, Scalar, Symbol};
 use crate::mechanism::Definitions;
 use crate::model::{Model, Trailer};
 use crate::vehicles;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::{Arc, OnceLock};
 
 /// Named formulas derived by the program; what they do not define is free.
 ///
@@ -17,6 +18,8 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Clone, Debug, Default)]
 pub struct Machine {
     definitions: Definitions,
+    /// The normal forms of all of them, worked out when first asked for: many statements are put to one machine.
+    normal: Arc<OnceLock<BTreeMap<Symbol, Normal>>>,
 }
 
 impl Machine {
@@ -53,12 +56,13 @@ impl Machine {
                 definitions.define(name.clone(), formula.clone());
             }
         }
-        Self { definitions }
+        Self { definitions, normal: Arc::default() }
     }
 
     /// With one more formula, in place of an older one of that name.
     pub fn with(mut self, name: &str, formula: Expr) -> Self {
         self.definitions.define(name, formula);
+        self.normal = Arc::default();
         self
     }
 
@@ -70,9 +74,22 @@ impl Machine {
         }
     }
 
+    /// With definitions forgotten, so that these names are free: what holds then holds whatever they are.
+    pub fn freeing(self, names: &[&str]) -> Self {
+        let mut definitions = Definitions::default();
+        let kept = self.definitions.iter().filter(|(name, _)| !names.contains(&name.as_str()));
+        kept.for_each(|(name, formula)| definitions.define(name.clone(), formula.clone()));
+        Self { definitions, normal: Arc::default() }
+    }
+
     /// The formula of a name.
     pub fn formula(&self, name: &str) -> Option<&Expr> {
         self.definitions.get(&name.into())
+    }
+
+    /// Every value in normal form.
+    pub(super) fn normal(&self) -> &BTreeMap<Symbol, Normal> {
+        self.normal.get_or_init(|| self.values(&|s| Normal::symbol(s.clone())))
     }
 
     /// Every value in a carrier; `free` gives those that are not derived.

@@ -30,7 +30,7 @@ mod status;
 mod user;
 mod verify;
 
-pub use checks::{at_points, counterexample, near, prove, value_said};
+pub use checks::{at_points, counterexample, near, prove, proving, value_said};
 pub use claim::{Check, Claim, Evidence, Gives};
 pub use machine::Machine;
 pub use mutants::{Mutant, mutants};

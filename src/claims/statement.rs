@@ -19,6 +19,8 @@ pub struct Statement {
     equations: Vec<Equation>,
     /// Whether it is enough to know that it is false: the simplest counterexample costs time.
     brief: bool,
+    /// The one equation in which it differs from a statement already found true.
+    changed: Option<usize>,
 }
 
 impl Statement {
@@ -36,13 +38,13 @@ impl Statement {
         let equation = |(left, right): &(T, T)| {
             Ok(Equation { left: Expr::parse(left.as_ref())?, right: Expr::parse(right.as_ref())? })
         };
-        Ok(Self { equations: equations.iter().map(equation).collect::<Result<_>>()?, brief: false })
+        Ok(Self { equations: equations.iter().map(equation).collect::<Result<_>>()?, ..Self::default() })
     }
 
     /// Equations made of formulas at hand.
     pub fn of(equations: impl IntoIterator<Item = (Expr, Expr)>) -> Self {
         let equations = equations.into_iter().map(|(left, right)| Equation { left, right }).collect();
-        Self { equations, brief: false }
+        Self { equations, ..Self::default() }
     }
 
     /// The equations.
@@ -65,6 +67,7 @@ impl Statement {
     pub(super) fn with(&self, index: usize, right: Expr) -> Self {
         let mut changed = self.clone();
         changed.equations[index].right = right;
+        changed.changed = Some(index);
         changed
     }
 
@@ -72,6 +75,14 @@ impl Statement {
     pub(super) fn in_brief(mut self) -> Self {
         self.brief = true;
         self
+    }
+
+    /// The equations whose truth is not known from elsewhere: of a slip, the one it was made in.
+    pub(super) fn in_question(&self) -> &[Equation] {
+        match self.changed {
+            Some(i) => &self.equations[i..=i],
+            None => &self.equations,
+        }
     }
 
     /// Whether one only wants to know if it is true.

@@ -2,6 +2,9 @@
 
 mod domain;
 mod finite;
+mod ideal_limit;
+mod open;
+mod planning;
 mod rotation;
 mod single_body;
 mod trailers;
@@ -16,5 +19,15 @@ use super::Claim;
 /// assert!(creepage::claims::all().iter().any(|c| c.id == "eq-24"));
 /// ```
 pub fn all() -> Vec<Claim> {
-    [rotation::claims(), traverse::claims(), wheel::claims(), single_body::claims(), trailers::claims()].concat()
+    [
+        rotation::claims(),
+        traverse::claims(),
+        wheel::claims(),
+        single_body::claims(),
+        trailers::claims(),
+        ideal_limit::claims(),
+        planning::claims(),
+        open::claims(),
+    ]
+    .concat()
 }

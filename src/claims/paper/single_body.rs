@@ -1,6 +1,6 @@
 //! Section 4: vehicles with a single body, equations (26)–(28), what the first theorem says of them.
 
-use crate::claims::{Claim, Machine, Outcome, Sampling, Statement, Status, prove};
+use crate::claims::{Claim, Machine, Outcome, Sampling, Statement, Status, prove, proving};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Heading, Velocity};
 use crate::model::mechanism;
@@ -80,10 +80,6 @@ fn car() -> Machine {
     let ideal = |e: Expr| e.substitute(&|s| matches!(s.as_str(), "e_rc" | "e_tc" | "e_f").then(zero));
     let by = |e: &str| ideal(yaw.derivative(&e.into()));
     machine.with("det", det).with("yaw_by_f", by("e_f")).with("yaw_by_r", by("e_tc"))
-}
-
-fn on_car(s: &Statement, _: &Sampling) -> Outcome {
-    prove(&car(), s)
 }
 
 pub(super) fn claims() -> Vec<Claim> {
@@ -225,7 +221,7 @@ fn corrected_theorem() -> Vec<Claim> {
                     ("phi'", "v_l/L*((tan(delta) + e_f)/(1 - e_f*tan(delta)) - e_tc)"),
                     ("det", "-r^3*theta'^3*(1 - e_rc)^2/(L*cos(delta)^2*(1 - e_f*tan(delta))^2)"),
                 ],
-                on_car,
+                proving(car()),
             ),
         Claim::new(
             "understeer",
@@ -240,7 +236,7 @@ fn corrected_theorem() -> Vec<Claim> {
         .proof(
             "derivatives of the yaw rate at the ideal car",
             &[("yaw_by_f", "r*theta'/(L*cos(delta)^2)"), ("yaw_by_r", "-r*theta'/L")],
-            on_car,
+            proving(car()),
         ),
     ]
 }

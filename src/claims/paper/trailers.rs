@@ -2,7 +2,7 @@
 
 use super::domain::undefined_exactly_where;
 use crate::claims::driven::{driven, model, undefined};
-use crate::claims::{Claim, Machine, Outcome, Sampling, Statement, Status, near, prove, value_said};
+use crate::claims::{Claim, Machine, Outcome, Sampling, Statement, Status, near, prove, proving, value_said};
 use crate::model::Trailer;
 
 const CHAPTER: &str = "06-trailers";
@@ -45,20 +45,33 @@ fn recursion() -> Vec<Claim> {
     const PLACE: &str = "section 4, second theorem; corrected theorem (c)";
     vec![
         base("trailer-recursion", "each axle follows from the one ahead: v_i, v_t,i and θ̇_i with hitch offsets and creep", PLACE)
-            .under("d_i ≠ 0; shown for three trailers, the formulas repeat")
-            .proof(
-                "derived rows against h = v_t − c·θ̇ of the hitch",
-                &[
-                    ("v_1", "v_l*cos(phi - phi_1) - (v_t - c_1*phi')*sin(phi - phi_1)"),
-                    ("vt_1", "e_tc_1*v_1"),
-                    ("d_1*phi_1'", "v_l*sin(phi - phi_1) + (v_t - c_1*phi')*cos(phi - phi_1) - e_tc_1*v_1"),
-                    ("v_2", "v_1*cos(phi_1 - phi_2) - (vt_1 - c_2*phi_1')*sin(phi_1 - phi_2)"),
-                    ("d_2*phi_2'", "v_1*sin(phi_1 - phi_2) + (vt_1 - c_2*phi_1')*cos(phi_1 - phi_2) - e_tc_2*v_2"),
-                    ("v_3", "v_2*cos(phi_2 - phi_3) - (vt_2 - c_3*phi_2')*sin(phi_2 - phi_3)"),
-                    ("d_3*phi_3'", "v_2*sin(phi_2 - phi_3) + (vt_2 - c_3*phi_2')*cos(phi_2 - phi_3) - e_tc_3*v_3"),
-                ],
-                |s, _| prove(&train(3), s),
-            ),
+.under("d_i ≠ 0; any N: each step is shown for whatever the axle ahead does")
+        .proof(
+            "the first axle behind the tractor, with h = v_t − c·θ̇ of the hitch",
+            &[
+                ("v_1", "v_l*cos(phi - phi_1) - (v_t - c_1*phi')*sin(phi - phi_1)"),
+                ("vt_1", "e_tc_1*v_1"),
+                ("d_1*phi_1'", "v_l*sin(phi - phi_1) + (v_t - c_1*phi')*cos(phi - phi_1) - e_tc_1*v_1"),
+            ],
+            proving(train(1).freeing(&["v_l", "v_t"])),
+        )
+        .proof(
+            "an axle behind an axle",
+            &[
+                ("v_2", "v_1*cos(phi_1 - phi_2) - (vt_1 - c_2*phi_1')*sin(phi_1 - phi_2)"),
+                ("vt_2", "e_tc_2*v_2"),
+                ("d_2*phi_2'", "v_1*sin(phi_1 - phi_2) + (vt_1 - c_2*phi_1')*cos(phi_1 - phi_2) - e_tc_2*v_2"),
+            ],
+            proving(train(2).freeing(&["v_1", "vt_1", "phi_1'"])),
+        )
+        .proof(
+            "and the next",
+            &[
+                ("v_3", "v_2*cos(phi_2 - phi_3) - (vt_2 - c_3*phi_2')*sin(phi_2 - phi_3)"),
+                ("d_3*phi_3'", "v_2*sin(phi_2 - phi_3) + (vt_2 - c_3*phi_2')*cos(phi_2 - phi_3) - e_tc_3*v_3"),
+            ],
+            proving(train(3).freeing(&["v_2", "vt_2", "phi_2'"])),
+        ),
         base("trailers-on-axle", "with hitches on the axles only the angles between bodies and the creeps of both axles enter", PLACE)
             .under("c_i = 0")
             .proof(
@@ -69,7 +82,7 @@ fn recursion() -> Vec<Claim> {
                     ("v_2", "v_1*(cos(phi_1 - phi_2) - e_tc_1*sin(phi_1 - phi_2))"),
                     ("d_2*phi_2'", "v_1*((1 + e_tc_2*e_tc_1)*sin(phi_1 - phi_2) + (e_tc_1 - e_tc_2)*cos(phi_1 - phi_2))"),
                 ],
-                |s, _| prove(&on_axle(2), s),
+                proving(on_axle(2)),
             ),
         base("trailers-in-courses", "in courses χ_i = θ_i + arctan e_i a creeping train is an ideal one with lengths d_i·cos α_i", PLACE)
             .under("c_i = 0, e_i = tan α_i")
@@ -81,7 +94,7 @@ fn recursion() -> Vec<Claim> {
                     ("v_1", "V_0*cos(chi_0 - phi_1)"),
                     ("v_2", "V_1*cos(chi_1 - phi_2)"),
                 ],
-                |s, _| prove(&courses(2), s),
+                proving(courses(2)),
             ),
         base("trailer-speeds", "the speeds of trailers are determined, no rotation creep of theirs enters: v_N = v_l·Π cos β_i without creep", PLACE)
             .under("c_i = 0, no traverse creep")

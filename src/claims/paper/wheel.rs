@@ -122,11 +122,8 @@ fn proposition() -> Vec<Claim> {
                 &[("det", "-(r*theta')^2*(1 - e_rc)"), ("1 - v_l/(r*theta')", "e_rc"), ("v_t/v_l", "e_tc")],
                 on_wheel,
             )
-            .confirmation(
-                "any rational twist back to coefficients and round again",
-                &[("u", "v_l"), ("w", "v_t")],
-                inverse,
-            )
+            .proof("any twist (U, W) to coefficients and back to motion", &[("v_l", "U"), ("v_t", "W")], inverse)
+            .sabotaged_by(&[&[("v_l", "W"), ("v_t", "W")], &[("v_l", "U"), ("v_t", "-W")]])
             .confirmation(
                 "constant twists through the simulator: the pose is that of the screw motion",
                 &printed,

@@ -1,0 +1,147 @@
+//! The ideal limit: creep vanishes with its coefficients. Corrected theorem (d).
+
+use super::wheel::wheel;
+use crate::claims::driven::{Creep, TURN, WHEEL, driven, model, undefined};
+use crate::claims::{Claim, Fault, Machine, Status, near, prove, proving, value_said};
+use crate::error::Result;
+use crate::model::Trailer;
+use proptest::prelude::*;
+
+const CHAPTER: &str = "07-ideal-limit";
+
+/// κ as its two parts, and its derivatives at zero creep.
+fn kappa() -> Machine {
+    let machine = Machine::default().with_text("re", "1 - e_rc").with_text("im", "(1 - e_rc)*e_tc");
+    ["re", "im"].into_iter().fold(machine.clone(), |m, part| {
+        let whole = super::single_body::written_out(&machine, part);
+        ["e_rc", "e_tc"].into_iter().fold(m, |m, e| {
+            let ideal = |s: &crate::formula::Symbol| s.as_str().starts_with("e_").then(|| crate::formula::Expr::int(0));
+            m.with(&format!("{part}_by_{e}"), whole.derivative(&e.into()).substitute(&ideal))
+        })
+    })
+}
+
+pub(super) fn claims() -> Vec<Claim> {
+    vec![one_wheel(), differential_drive(), trailers()]
+}
+
+fn base(id: &str, status: Status, says: &str) -> Claim {
+    Claim::new(id, status, says)
+        .at("section 1 and conclusions: creep vanishes with its coefficients; corrected theorem (d)")
+        .chapter(CHAPTER)
+        .code(&["src/motion/trajectory.rs"])
+        .tests(&["tests/motion_kinematics.rs", "tests/motion_sensitivity.rs"])
+}
+
+fn one_wheel() -> Claim {
+    base("ideal-limit-wheel", Status::Proved, "the wheel is off by exactly |κ − 1| of the way: e_rc² + (1 − e_rc)²·e_tc² squared, −e_rc + i·e_tc to first order")
+        .under("constant coefficients; any inputs, any time")
+        .proof(
+            "size and first order of κ − 1",
+            &[
+                ("(re - 1)^2 + im^2", "e_rc^2 + (1 - e_rc)^2*e_tc^2"),
+                ("re_by_e_rc*e_rc + re_by_e_tc*e_tc", "-e_rc"),
+                ("im_by_e_rc*e_rc + im_by_e_tc*e_tc", "e_tc"),
+            ],
+            proving(kappa()),
+        )
+        .proof("without creep the motion is the ideal one", &[("v_l", "r*theta'"), ("x'", "r*theta'*cos(phi)"), ("y'", "r*theta'*sin(phi)")], |s, _| {
+            prove(&wheel().with_text("e_rc", "0").with_text("e_tc", "0"), s)
+        })
+}
+
+/// The order with which two runs approach each other as all creeps shrink tenfold.
+fn order(run: impl Fn(f64) -> Result<Vec<f64>>, said: f64) -> std::result::Result<(), Fault> {
+    let at = |scale: f64| run(scale).map_err(|e| undefined(&e));
+    let ideal = at(0.0)?;
+    let gap = |scale: f64| -> std::result::Result<f64, Fault> {
+        Ok(at(scale)?.iter().zip(&ideal).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt())
+    };
+    let (wide, narrow) = (gap(1e-2)?, gap(1e-3)?);
+    // Creeps that hardly show at the end of the run leave nothing to measure an order of.
+    if narrow < 1e-6 {
+        return Err(Fault::Outside);
+    }
+    near("the order", (wide / narrow).log10(), said, 0.05)
+}
+
+type Case = (Vec<f64>, Vec<f64>, f64);
+
+fn cases() -> impl Strategy<Value = Case> {
+    (prop::collection::vec(-1.0..1.0f64, 7), prop::collection::vec(-1.0..1.0f64, 4), 0.5..2.0f64)
+}
+
+fn shown((c, e, t): &Case) -> Vec<(String, String)> {
+    let list = |name: &str, v: &[f64]| {
+        v.iter().enumerate().map(|(i, v)| (format!("{name}_{i}"), v.to_string())).collect::<Vec<_>>()
+    };
+    [list("c", c), list("e", e), vec![("t".into(), t.to_string())]].concat()
+}
+
+fn differential_drive() -> Claim {
+    base("ideal-limit-differential-drive", Status::Sampled, "a differential drive approaches its ideal motion with the first power of the creeps; its heading is off by the integrated slip over the track")
+        .under("constant coefficients, finite time")
+        .sample("order of the gap as the creeps shrink tenfold", &[("order", "1")], |s, sampling| {
+            let said = s.number("order").unwrap_or(f64::NAN);
+            sampling.one_in(8).cases(cases(), shown, |(c, e, t)| {
+                order(|scale| Ok(two_wheels(c, e, scale, *t)?.0), said)
+            })
+        })
+        .sample("heading against the slip of the wheels", &[("heading", "(r/a)*(slip_2 - slip_1)")], |s, sampling| {
+            sampling.one_in(8).cases(cases(), shown, |(c, e, t)| {
+                let (crept, slips) = two_wheels(c, e, 0.1, *t).map_err(|e| undefined(&e))?;
+                let (ideal, _) = two_wheels(c, e, 0.0, *t).map_err(|e| undefined(&e))?;
+                let at = |name: &str| match name {
+                    "r" => Some(0.1),
+                    "a" => Some(0.4),
+                    "slip_1" => Some(slips[0]),
+                    "slip_2" => Some(slips[1]),
+                    _ => None,
+                };
+                near("heading", crept[2] - ideal[2], value_said(s, "heading", &at)?, 1e-8)
+            })
+        })
+}
+
+/// Right and left wheel rate; the integrals of e_i·θ̇_i are in closed form.
+const RIGHT: &str = "3 + c_0 + c_1*cos(2*t)";
+const LEFT: &str = "3 + c_2 + c_3*cos(2*t)";
+
+fn two_wheels(c: &[f64], e: &[f64], scale: f64, t: f64) -> Result<(Vec<f64>, [f64; 2])> {
+    let (left, right) = (scale * e[0], scale * e[1]);
+    // Values in alphabetical order: e_left, e_right.
+    let creeps: [Creep; 2] =
+        [("unequal-rotation-creep", None, vec![left, right]), ("traverse-creep", None, vec![scale * e[2]])];
+    let parameters = [("wheel_radius", 0.1), ("track_width", 0.4)];
+    let drive = model("differential-drive", &parameters, &[], &creeps)?;
+    let inputs = [("wheel_rate_right", RIGHT), ("wheel_rate_left", LEFT)];
+    let path = driven(&drive, &inputs, c, &[0.0; 3], &[0.0, t])?;
+    let rolled = |i: usize| (3.0 + c[i]) * t + c[i + 1] * (2.0 * t).sin() / 2.0;
+    Ok((path[1].clone(), [right * rolled(0), left * rolled(2)]))
+}
+
+fn trailers() -> Claim {
+    base(
+        "ideal-limit-trailers",
+        Status::Sampled,
+        "a wheel with three trailers approaches its ideal motion with the first power of the creeps",
+    )
+    .under("constant coefficients, finite time")
+    .sample("order of the gap as the creeps shrink tenfold", &[("order", "1")], |s, sampling| {
+        let said = s.number("order").unwrap_or(f64::NAN);
+        sampling.one_in(8).cases(cases(), shown, |(c, e, t)| {
+            order(
+                |scale| {
+                    let mut creeps: Vec<Creep> = vec![("traverse-creep", None, vec![scale * e[0]])];
+                    creeps.extend((1..=3).map(|i| ("trailer-traverse-creep", Some(i), vec![scale * e[i]])));
+                    let bars = [1.2, 0.8, 1.0].map(|length| Trailer { length, hitch: 0.2 });
+                    let train = model("unicycle", &[("wheel_radius", 0.5)], &bars, &creeps)?;
+                    let inputs = [("wheel_rate", WHEEL), ("yaw_rate", TURN)];
+                    let start = [0.0, 0.0, 0.3, 0.1, 0.0, -0.1];
+                    Ok(driven(&train, &inputs, c, &start, &[0.0, *t])?.remove(1))
+                },
+                said,
+            )
+        })
+    })
+}

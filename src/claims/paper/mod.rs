@@ -6,6 +6,7 @@ mod ideal_limit;
 mod open;
 mod planning;
 mod rotation;
+mod simulation;
 mod single_body;
 mod trailers;
 mod traverse;
@@ -23,6 +24,7 @@ pub fn all() -> Vec<Claim> {
         rotation::claims(),
         traverse::claims(),
         wheel::claims(),
+        simulation::claims(),
         single_body::claims(),
         trailers::claims(),
         ideal_limit::claims(),

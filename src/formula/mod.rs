@@ -5,6 +5,7 @@
 //! | floating point | value | `f64` |
 //! | dual numbers | first and second derivatives, vectors of any length | [`Dual`] |
 //! | exact numbers | a proof at a point: rationals, angles as rational points of the circle | [`Exact`] |
+//! | power series | all derivatives at a point, exactly | [`Jet`] |
 //! | unit exponents | units of a formula, or why it has none | [`Unit`] |
 //! | expressions | substitution | [`Expr`] |
 //!
@@ -19,6 +20,7 @@ mod expr;
 mod float;
 mod fun;
 mod graph;
+mod jet;
 mod latex;
 mod lex;
 mod parse;
@@ -36,6 +38,7 @@ pub use exact::Exact;
 pub use expr::{Expr, Node};
 pub use fun::Fun;
 pub use graph::{Graph, NodeId, Op};
+pub use jet::{Jet, Layout};
 pub use latex::latex_symbol;
 pub use polynomial::Polynomial;
 pub use program::Program;

@@ -166,15 +166,23 @@ fn derivative(e: &Expr, powers: [u32; 3]) -> Expr {
 #[test]
 fn coefficients_are_the_derivatives_of_the_formula() {
     let compared = std::cell::Cell::new(0);
-    check(250, (parsed(formulas(3).0), points()), |(e, at)| {
-        let exact = |s: &Symbol| VARIABLES.iter().position(|v| *v == s.as_str()).map_or(Exact::ratio(0, 0), |k| at[k].clone());
+    check(400, (parsed(formulas(3).0), points()), |(e, at)| {
+        let exact =
+            |s: &Symbol| VARIABLES.iter().position(|v| *v == s.as_str()).map_or(Exact::ratio(0, 0), |k| at[k].clone());
         let (value, jet) = (e.eval(&exact), e.eval(&near(3, &at)));
         let Some(jet) = jet else { return Ok(()) };
         prop_assert!(value.is_some_and(|v| v.equals(jet.constant())), "{}", e);
         for (powers, factor) in derivatives(3).into_iter().skip(1) {
             let Some(expected) = derivative(&e, powers).eval(&exact) else { continue };
             let found = jet.coefficient(&powers) * ratio(factor, 1);
-            prop_assert!(expected.equals(&Exact::rational(found.clone())), "{} {:?}: {} {}", e, powers, expected, found);
+            prop_assert!(
+                expected.equals(&Exact::rational(found.clone())),
+                "{} {:?}: {} {}",
+                e,
+                powers,
+                expected,
+                found
+            );
             compared.set(compared.get() + usize::from(!found.is_zero()));
         }
         Ok(())
@@ -185,7 +193,8 @@ fn coefficients_are_the_derivatives_of_the_formula() {
 #[test]
 fn a_formula_is_defined_as_a_series_where_its_derivatives_are() {
     check(400, (parsed(formulas(3).0), points()), |(e, at)| {
-        let exact = |s: &Symbol| VARIABLES.iter().position(|v| *v == s.as_str()).map_or(Exact::ratio(0, 0), |k| at[k].clone());
+        let exact =
+            |s: &Symbol| VARIABLES.iter().position(|v| *v == s.as_str()).map_or(Exact::ratio(0, 0), |k| at[k].clone());
         let all = || VARIABLES.iter().map(|v| e.derivative(&Symbol::from(*v)));
         let smooth = e.eval(&exact).is_some() && all().all(|d| d.eval(&exact).is_some());
         prop_assert!(!smooth || e.eval(&near(2, &at)).is_some(), "{}", e);
@@ -219,7 +228,9 @@ fn monomials_are_counted_and_multiplied() {
         for v in 0..3 {
             let slope = layout.derivative(v, i);
             assert_eq!(slope.map(|s| s.0), Some(layout.powers(i)[v]).filter(|k| *k > 0));
-            assert!(slope.is_none_or(|(k, m)| layout.powers(m)[v] + 1 == k && layout.degree(m) + 1 == layout.degree(i)));
+            assert!(
+                slope.is_none_or(|(k, m)| layout.powers(m)[v] + 1 == k && layout.degree(m) + 1 == layout.degree(i))
+            );
         }
     }
 }

@@ -77,7 +77,11 @@ fn a_set_is_regular_or_it_is_not_listed() {
     // By hand: rolling knows only the side of a wheel (right 1, 3; left 2, 4), direction only its axle (front 1, 2;
     // rear 3, 4). Two sides and an axle: 4·4; one side and both axles: 4·4.
     assert_eq!((found.sets.len(), found.is_complete), (32, true));
-    let sides = |set: &[usize]| set.iter().map(|r| (r % 2, if r % 2 == 0 { r / 2 % 2 } else { r / 4 })).collect::<std::collections::BTreeSet<_>>();
+    let sides = |set: &[usize]| {
+        set.iter()
+            .map(|r| (r % 2, if r % 2 == 0 { r / 2 % 2 } else { r / 4 }))
+            .collect::<std::collections::BTreeSet<_>>()
+    };
     assert!(found.sets.iter().all(|s| sides(s).len() == 3), "{:?}", found.sets);
     // R T_front T_rear is among them.
     assert!(found.sets.iter().any(|s| names(&skid, s) == ["e_rc_1", "e_tc_w1", "e_tc_w3"]));
@@ -98,15 +102,20 @@ fn a_castor_is_passive_when_its_angle_is_measured() {
     let unseen = realised(&robot, &["theta_1'", "theta_2'"], &general());
     assert_eq!((unseen.signature().as_str(), unseen.sets.len()), ("R^2T^2", 1));
     assert_eq!(unseen.unknown, rates(&["x'", "y'", "phi'", "psi'"]));
-    // A castor that rolls with an encoder is one more rolling constraint.
+    // A castor with an encoder is one more rolling constraint, and rolling comes first: it tells the side slide that
+    // the axle's direction told before.
     let counted = realised(&robot, &["theta_1'", "theta_2'", "theta_3'", "psi'"], &general());
-    assert_eq!((counted.signature().as_str(), counted.passive.len()), ("R^2T", 2));
+    assert_eq!((counted.signature().as_str(), counted.passive.len()), ("R^3", 2));
+    assert!(counted.sets.iter().any(|s| names(&robot, s) == ["e_rc_1", "e_rc_2", "e_tc"]));
 }
 
 #[test]
 fn passive_coefficients_follow_from_the_chosen_ones() {
     // A further wheel h ahead of the axle and w to its left: e = (v_t + h·phi')/(v_l - w·phi').
-    let robot = of(&format!("{TWO_WHEEL}{}", r#"
+    let robot = of(
+        &format!(
+            "{TWO_WHEEL}{}",
+            r#"
 [[wheels]]
 name = "further"
 forward = "h"
@@ -115,16 +124,27 @@ radius = "R"
 rate = "theta_3'"
 rotation_creep = "e_rc_3"
 traverse_creep = "e_3"
-"#), 0);
+"#
+        ),
+        0,
+    );
     let at = general().with("h", Exact::ratio(3, 4)).with("w", Exact::ratio(1, 3));
     let found = realised(&robot, &["theta_1'", "theta_2'", "theta_3'"], &at);
     assert_eq!(found.signature(), "R^2T");
     assert_eq!(names(&robot, &found.passive), ["e_rc_3", "e_3"]);
     let ratio = |p: i64, q: i64| BigRational::new(p.into(), q.into());
     let values = [
-        ("e_rc_1", ratio(1, 50)), ("e_rc_2", ratio(1, 20)), ("e_tc", ratio(-1, 10)),
-        ("theta_1'", ratio(4, 1)), ("theta_2'", ratio(3, 1)), ("theta_3'", ratio(7, 2)),
-        ("r", ratio(1, 2)), ("R", ratio(2, 3)), ("a", ratio(3, 2)), ("h", ratio(3, 4)), ("w", ratio(1, 3)),
+        ("e_rc_1", ratio(1, 50)),
+        ("e_rc_2", ratio(1, 20)),
+        ("e_tc", ratio(-1, 10)),
+        ("theta_1'", ratio(4, 1)),
+        ("theta_2'", ratio(3, 1)),
+        ("theta_3'", ratio(7, 2)),
+        ("r", ratio(1, 2)),
+        ("R", ratio(2, 3)),
+        ("a", ratio(3, 2)),
+        ("h", ratio(3, 4)),
+        ("w", ratio(1, 3)),
     ];
     let value = |name: &str| values.iter().find(|(n, _)| *n == name).map(|(_, v)| v.clone()).unwrap();
     let wheel = |k: usize| {
@@ -134,10 +154,7 @@ traverse_creep = "e_3"
     let (v_l, yaw) = ((wheel(1) + wheel(2)) / ratio(2, 1), (wheel(1) - wheel(2)) / value("a"));
     let v_t = value("e_tc") * &v_l;
     let along = &v_l - value("w") * &yaw;
-    let expected = [
-        ratio(1, 1) - &along / (value("R") * value("theta_3'")),
-        (v_t + value("h") * &yaw) / along,
-    ];
+    let expected = [ratio(1, 1) - &along / (value("R") * value("theta_3'")), (v_t + value("h") * &yaw) / along];
     for (constraint, expected) in found.passive.iter().zip(expected) {
         let formula = robot.passive_coefficient(&found, *constraint).unwrap();
         let known = |s: &Symbol| match s.as_str() {

@@ -10,7 +10,9 @@ use crate::error::Result;
 /// | holonomic | n − final dimension of the growth vector, at most | integrals found, at least |
 /// | nonholonomic | rank − holonomic | |
 ///
-/// Each count bounds the true one from its side, so where they agree both are proved.
+/// Each count bounds the true one from its side, so where they agree both are proved. A motion of one dimension is
+/// integrable whatever the search for integrals finds (Frobenius): a body that can only roll straight, with a trailer,
+/// has an integral tan(β/2)·exp(s/d) that is none of the functions tried.
 #[derive(Clone, Debug)]
 pub struct Nonholonomy {
     /// The growth vector.
@@ -25,7 +27,7 @@ pub struct Nonholonomy {
 
 impl Nonholonomy {
     /// Whether brackets and integrals give the same count.
-    pub fn is_proved(&self) -> bool {
+    pub fn counts_agree(&self) -> bool {
         self.holonomic == self.integrals.len()
     }
 }
@@ -42,7 +44,7 @@ impl Mechanism {
     /// let at = lengths.iter().fold(Point::default(), |p, (s, a, b)| p.with(*s, Exact::ratio(*a, *b)));
     /// let found = robot.nonholonomy(&at.with("phi", Exact::half_tangent(1, 2)), 6).unwrap();
     /// assert_eq!((found.holonomic, found.nonholonomic), (1, 2));
-    /// assert!(found.is_proved());
+    /// assert!(found.counts_agree());
     /// ```
     ///
     /// # Errors

@@ -6,6 +6,7 @@
 //! | dual numbers | first and second derivatives, vectors of any length | [`Dual`] |
 //! | exact numbers | a proof at a point: rationals, angles as rational points of the circle | [`Exact`] |
 //! | normal form | a proof for all values: quotients of trigonometric polynomials | [`Normal`] |
+//! | power series | all derivatives at a point, exactly | [`Jet`] |
 //! | unit exponents | units of a formula, or why it has none | [`Unit`] |
 //! | expressions | substitution | [`Expr`] |
 //!
@@ -20,6 +21,7 @@ mod expr;
 mod float;
 mod fun;
 mod graph;
+mod jet;
 mod latex;
 mod lex;
 mod normal;
@@ -38,6 +40,7 @@ pub use exact::Exact;
 pub use expr::{Expr, Node};
 pub use fun::Fun;
 pub use graph::{Graph, NodeId, Op};
+pub use jet::{Jet, Layout};
 pub use latex::latex_symbol;
 pub use normal::{Normal, identical};
 pub use polynomial::Polynomial;

@@ -7,17 +7,34 @@
 //!
 //! Type T is kept as a pair (s, p) with s·q̇₁ − p·q̇₃ = 0 and σ = p/s, so that no configuration is singular.
 
+mod ansatz;
 mod constraint;
 mod definitions;
+mod field;
+mod frame;
+mod growth;
 mod heading;
+mod integrals;
+mod linear;
+mod nonholonomy;
+mod point;
+mod proof;
+mod realisation;
 mod row;
+mod samples;
 pub mod solve;
 mod system;
+mod vanish;
 mod velocity;
 
 pub use constraint::{Constraint, Direction, Form, Rolling, sigma_closed_form};
 pub use definitions::Definitions;
+pub use growth::Growth;
 pub use heading::Heading;
+pub use integrals::Integral;
+pub use nonholonomy::Nonholonomy;
+pub use point::Point;
+pub use realisation::Realisation;
 pub use row::Row;
 pub use system::Mechanism;
 pub use velocity::Velocity;

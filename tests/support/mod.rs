@@ -1,6 +1,7 @@
 //! Shared by the property tests: how they are run, random formulas, a carrier that bounds rounding.
 #![allow(dead_code)] // every test binary uses its own part
 
+pub mod described;
 pub mod fragment;
 pub mod laws;
 pub mod rounding;

@@ -1,0 +1,166 @@
+//! The functions among which integrals are looked for.
+
+use super::Point;
+use super::linear::{Echelon, dot, whole_and_positive};
+use super::samples::Samples;
+use crate::formula::{Exact, Expr, Fun, Scalar, Symbol};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{Signed, Zero};
+
+/// A product of parameters, a coordinate, and the cosine or sine of a coordinate that is constant.
+#[derive(Clone)]
+pub(super) struct Term {
+    /// Parameters with repetition.
+    pub parameters: Vec<Symbol>,
+    /// The place of the coordinate.
+    pub coordinate: usize,
+    /// cos or sin of another coordinate.
+    pub factor: Option<(Fun, usize)>,
+}
+
+/// Where the functions and the motions are evaluated.
+pub(super) struct Sample {
+    /// Coordinates and parameters.
+    pub point: Point,
+    /// The coordinates as they stand in sines and cosines.
+    pub directions: Vec<Exact>,
+    /// The coordinates as numbers. An angle and its sine are independent of each other as far as identities go, so
+    /// the number of an angle is drawn apart from its direction.
+    pub numbers: Vec<BigRational>,
+    /// A basis of the velocities the constraints leave.
+    pub motions: Vec<Vec<BigRational>>,
+}
+
+impl Sample {
+    /// A sample at a point where the rows leave these motions.
+    pub(super) fn at(
+        point: Point,
+        coordinates: &[Symbol],
+        motions: Vec<Vec<BigRational>>,
+        samples: &mut Samples,
+    ) -> Self {
+        let mut number = |q: &Symbol| match point.value(q).as_rational() {
+            Some(v) if !samples.is_angle(q) => v.clone(),
+            _ => samples.number(),
+        };
+        let numbers = coordinates.iter().map(&mut number).collect();
+        let directions = coordinates.iter().map(|q| point.value(q)).collect();
+        Self { point, directions, numbers, motions }
+    }
+}
+
+impl Term {
+    /// A coordinate by itself.
+    pub(super) fn plain(coordinate: usize) -> Self {
+        Self { parameters: Vec::new(), coordinate, factor: None }
+    }
+
+    /// The term times parameters.
+    pub(super) fn times(&self, parameters: &[Symbol]) -> Self {
+        Self { parameters: parameters.to_vec(), ..self.clone() }
+    }
+
+    /// The term as a formula.
+    pub(super) fn expr(&self, coordinates: &[Symbol]) -> Expr {
+        let product = self.parameters.iter().map(|p| Expr::sym(p.clone())).reduce(|a, b| &a * &b);
+        let q = Expr::sym(coordinates[self.coordinate].clone());
+        let product = product.map_or(q.clone(), |p| &p * &q);
+        match self.factor {
+            None => product,
+            Some((f, w)) => &product * &Expr::call(f, &Expr::sym(coordinates[w].clone())),
+        }
+    }
+
+    /// Its derivatives with respect to the coordinates; `None` where one is not exact.
+    pub(super) fn gradient(&self, at: &Sample) -> Option<Vec<BigRational>> {
+        let scale = self.parameters.iter().map(|p| at.point.value(p).as_rational().cloned());
+        let scale = scale.product::<Option<BigRational>>()?;
+        let mut slopes = vec![BigRational::zero(); at.numbers.len()];
+        slopes[self.coordinate] = scale.clone();
+        if let Some((f, w)) = self.factor {
+            let (value, slope) = circular(f, &at.directions[w])?;
+            slopes[self.coordinate] = &scale * value;
+            slopes[w] += scale * slope * &at.numbers[self.coordinate];
+        }
+        Some(slopes)
+    }
+}
+
+/// cos or sin of an angle, and its derivative.
+fn circular(f: Fun, angle: &Exact) -> Option<(BigRational, BigRational)> {
+    let of = |f: Fun| Exact::call(f, angle).as_rational().cloned();
+    let (cos, sin) = (of(Fun::Cos)?, of(Fun::Sin)?);
+    Some(if f == Fun::Cos { (cos, -sin) } else { (sin, cos) })
+}
+
+/// A rational combination of terms.
+#[derive(Clone)]
+pub(super) struct Combination {
+    /// Terms with whole factors, none zero.
+    pub parts: Vec<(BigInt, Term)>,
+}
+
+impl Combination {
+    /// Its derivatives with respect to the coordinates.
+    pub(super) fn gradient(&self, at: &Sample) -> Option<Vec<BigRational>> {
+        let mut sum = vec![BigRational::zero(); at.numbers.len()];
+        for (factor, term) in &self.parts {
+            let factor = BigRational::from_integer(factor.clone());
+            sum.iter_mut().zip(term.gradient(at)?).for_each(|(s, g)| *s += &factor * g);
+        }
+        Some(sum)
+    }
+
+    /// As a formula.
+    pub(super) fn expr(&self, coordinates: &[Symbol]) -> Expr {
+        self.parts.iter().fold(Expr::int(0), |sum, (factor, term)| {
+            let size = &Expr::number(&BigRational::from_integer(factor.abs())) * &term.expr(coordinates);
+            if factor.is_negative() { &sum - &size } else { &sum + &size }
+        })
+    }
+}
+
+/// All combinations of terms that no motion of the samples changes, those of fewest terms first.
+///
+/// Each motion q̇ at each sample gives one linear condition Σ c·(∇h·q̇) = 0 on the factors c. Samples are taken until
+/// several in a row bring no new condition.
+pub(super) fn unchanged(terms: &[Term], mut sample: impl FnMut() -> Option<Sample>) -> Vec<Combination> {
+    let mut conditions = Echelon::new(terms.len());
+    let mut idle = 0;
+    for _ in 0..20 * (terms.len() + 1) {
+        let Some(at) = sample() else { continue };
+        let gradients: Option<Vec<_>> = terms.iter().map(|t| t.gradient(&at)).collect();
+        let Some(gradients) = gradients else { continue };
+        let condition = |motion: &Vec<BigRational>| gradients.iter().map(|g| dot(g, motion)).collect::<Vec<_>>();
+        let fresh = at.motions.iter().filter(|m| conditions.insert(&condition(m))).count();
+        idle = if fresh == 0 { idle + 1 } else { 0 };
+        if idle >= 3 || conditions.rank() == terms.len() {
+            break;
+        }
+    }
+    let mut found: Vec<Combination> = conditions.null_space().iter().map(|c| combination(c, terms)).collect();
+    found.sort_by_key(|c| c.parts.iter().map(|(_, t)| 1 + t.parameters.len()).sum::<usize>());
+    found
+}
+
+fn combination(factors: &[BigRational], terms: &[Term]) -> Combination {
+    let whole = whole_and_positive(factors);
+    let parts = whole.into_iter().zip(terms).filter(|(c, _)| !c.is_zero());
+    Combination { parts: parts.map(|(c, t)| (c, t.clone())).collect() }
+}
+
+/// All products of at most `degree` of the parameters, the shortest first.
+pub(super) fn monomials(parameters: &[Symbol], degree: usize) -> Vec<Vec<Symbol>> {
+    let mut all: Vec<Vec<Symbol>> = vec![Vec::new()];
+    let mut last = vec![(0, Vec::new())];
+    for _ in 0..degree {
+        let longer = |(from, m): &(usize, Vec<Symbol>)| {
+            let grown = |i: usize| (i, m.iter().chain([&parameters[i]]).cloned().collect());
+            (*from..parameters.len()).map(grown).collect::<Vec<_>>()
+        };
+        last = last.iter().flat_map(longer).collect();
+        all.extend(last.iter().map(|(_, m)| m.clone()));
+    }
+    all
+}

@@ -1,0 +1,81 @@
+//! Whether a function is constant under constraints, for all configurations.
+
+use super::linear::Echelon;
+use super::vanish::vanishes;
+use super::{Row, ansatz::Sample};
+use crate::formula::{Exact, Expr, Fun, Scalar, Symbol};
+use num_rational::BigRational;
+use num_traits::One;
+
+/// The size of the largest determinant that is written out.
+const LARGEST: usize = 6;
+
+/// The fewest rows, by leaving out later ones first, of which gradients are combinations at every sample.
+///
+/// Each sample has the matrix of the rows and the gradient of the function.
+pub(super) fn needed_rows(count: usize, samples: &[(Vec<Vec<BigRational>>, Vec<BigRational>)]) -> Option<Vec<usize>> {
+    let spans = |rows: &[usize]| {
+        samples.iter().all(|(matrix, gradient)| {
+            let chosen: Vec<_> = rows.iter().map(|r| matrix[*r].clone()).collect();
+            !Echelon::of(gradient.len(), &chosen).insert(gradient)
+        })
+    };
+    let mut rows: Vec<usize> = (0..count).collect();
+    if !spans(&rows) {
+        return None;
+    }
+    for r in (0..count).rev() {
+        let fewer: Vec<usize> = rows.iter().copied().filter(|k| *k != r).collect();
+        if spans(&fewer) {
+            rows = fewer;
+        }
+    }
+    Some(rows)
+}
+
+/// Whether dh is a combination of independent rows at all configurations where they are independent.
+///
+/// It is when every minor of the matrix (rows, dh) that borders a regular minor of the rows vanishes identically.
+pub(super) fn follows(h: &Expr, rows: &[Row], coordinates: &[Symbol], samples: &[Sample]) -> bool {
+    let rates: Vec<Symbol> = coordinates.iter().map(Symbol::rate).collect();
+    let pivots = samples.iter().find_map(|at| {
+        let values: Option<Vec<_>> = rows.iter().map(|r| at.point.row(r, &rates)).collect();
+        Some(Echelon::of(rates.len(), &values?).pivots()).filter(|p| p.len() == rows.len())
+    });
+    let Some(pivots) = pivots.filter(|p| p.len() < LARGEST) else { return false };
+    let mut matrix: Vec<Vec<Expr>> = rows.iter().map(|r| rates.iter().map(|q| r.coefficient(q)).collect()).collect();
+    matrix.push(coordinates.iter().map(|q| h.derivative(q)).collect());
+    let others = (0..rates.len()).filter(|c| !pivots.contains(c));
+    others.into_iter().all(|c| {
+        let columns: Vec<usize> = pivots.iter().copied().chain([c]).collect();
+        let minor: Vec<Vec<Expr>> = matrix.iter().map(|r| columns.iter().map(|c| r[*c].clone()).collect()).collect();
+        vanishes(&determinant(&minor))
+    })
+}
+
+/// The determinant, expanded along the first row.
+fn determinant(matrix: &[Vec<Expr>]) -> Expr {
+    let Some((first, rest)) = matrix.split_first() else { return Expr::int(1) };
+    let mut sum = Expr::int(0);
+    for (c, factor) in first.iter().enumerate().filter(|(_, f)| !f.is_zero()) {
+        let minor: Vec<Vec<Expr>> = rest
+            .iter()
+            .map(|r| r.iter().enumerate().filter(|(i, _)| *i != c).map(|(_, v)| v.clone()).collect())
+            .collect();
+        let term = factor * &determinant(&minor);
+        sum = if c % 2 == 0 { &sum + &term } else { &sum - &term };
+    }
+    sum
+}
+
+/// An exact value as a formula: a number, or an angle as twice an arc tangent; `None` for half a turn and for angles
+/// without rational sine and cosine.
+pub(super) fn written(value: &Exact) -> Option<Expr> {
+    if let Some(number) = value.as_rational() {
+        return Some(Expr::number(number));
+    }
+    let part = |f: Fun| Exact::call(f, value).as_rational().cloned();
+    let (sin, cos) = (part(Fun::Sin)?, part(Fun::Cos)?);
+    let half = Exact::rational(sin).div(&Exact::rational(BigRational::one() + cos));
+    Some(&Expr::int(2) * &Expr::call(Fun::Atan, &Expr::number(half.as_rational()?)))
+}

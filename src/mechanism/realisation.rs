@@ -1,0 +1,201 @@
+//! Which coefficients of creep make a motion what it is, given what is measured: the signature RᵏTᵐ by ranks.
+
+use super::linear::{Echelon, dot};
+use super::{Form, Mechanism, Point, Row, solve};
+use crate::error::{Error, Result};
+use crate::formula::{Expr, Symbol};
+use num_rational::BigRational;
+use num_traits::Zero;
+
+/// As many smallest sets as are listed at most.
+const LISTED: usize = 1000;
+
+/// The sets of coefficients that realise the motion of a mechanism near an ideal motion.
+///
+/// | symbol | meaning |
+/// |---|---|
+/// | u | velocities that are not measured: twist, trailer rates, castor rates |
+/// | S | a set of constraints, each with its coefficient eᵢ |
+/// | A_S,u | their rows of the Pfaffian matrix, columns u |
+///
+/// S realises the motion when A_S,u is regular and each coefficient acts, ∂(row·q̇)/∂eᵢ ≠ 0: then e_S ↦ u is one to one
+/// near e = 0, and every other coefficient is a function of e_S and the measured rates. A wheel whose own rate is not
+/// measured turns as it must: its rolling constraint gives that rate and no coefficient.
+/// Valid near e = 0 at the point, for a general ideal motion. Source: THEOREM of the paper with E17–E21 of the errata.
+///
+/// ```
+/// use creepage::formula::Exact;
+/// use creepage::mechanism::Point;
+/// use creepage::{model::mechanism, vehicles};
+/// let robot = mechanism(vehicles::named("differential-drive").unwrap(), 0);
+/// let lengths = [("a", 3, 4), ("r_1", 1, 3), ("r_2", 1, 3)];
+/// let at = lengths.iter().fold(Point::default(), |p, (s, a, b)| p.with(*s, Exact::ratio(*a, *b)));
+/// let at = at.with("phi", Exact::half_tangent(1, 2));
+/// let found = robot.realisation(&["theta_1'".into(), "theta_2'".into()], &at).unwrap();
+/// assert_eq!(found.signature(), "R^2T");
+/// ```
+#[derive(Clone, Debug)]
+pub struct Realisation {
+    /// u.
+    pub unknown: Vec<Symbol>,
+    /// All smallest sets S by the places of their constraints, the canonical one first: R before T, each in the order
+    /// of the description, taken while independent.
+    pub sets: Vec<Vec<usize>>,
+    /// Whether every smallest set is listed.
+    pub is_complete: bool,
+    /// Constraints outside the canonical set whose coefficient acts: it follows from the canonical ones.
+    pub passive: Vec<usize>,
+    letters: Vec<char>,
+}
+
+impl Realisation {
+    /// The canonical set.
+    pub fn canonical(&self) -> &[usize] {
+        self.sets.first().map_or(&[], Vec::as_slice)
+    }
+
+    /// k and m of the canonical set.
+    pub fn counts(&self) -> (usize, usize) {
+        let rolling = self.canonical().iter().filter(|r| self.letters[**r] == 'R').count();
+        (rolling, self.canonical().len() - rolling)
+    }
+
+    /// `R^kT^m` of the canonical set, exponents of one left out.
+    pub fn signature(&self) -> String {
+        let (k, m) = self.counts();
+        let power = |letter: char, n: usize| match n {
+            0 => String::new(),
+            1 => letter.to_string(),
+            _ => format!("{letter}^{n}"),
+        };
+        power('R', k) + &power('T', m)
+    }
+}
+
+impl Mechanism {
+    /// The sets of coefficients that realise the motion when these rates are measured.
+    ///
+    /// # Errors
+    /// When a constraint has no exact value at the point, two constraints share a coefficient, or the constraints do
+    /// not determine the velocities that are not measured.
+    pub fn realisation(&self, measured: &[Symbol], at: &Point) -> Result<Realisation> {
+        let candidates = self.candidates(measured);
+        let unknown = self.unknown(measured, &candidates);
+        let acting = self.acting(at)?;
+        let rows = self.ideal_rows();
+        let values = at.matrix(&rows, &unknown)?;
+        let mut order: Vec<usize> = candidates.into_iter().filter(|r| acting[*r]).collect();
+        order.sort_by_key(|r| (self.constraints[*r].letter(), *r));
+        let (sets, is_complete) = bases(&order, &values, unknown.len());
+        let Some(canonical) = sets.first() else { return Err(not_determined(&unknown)) };
+        let passive = (0..rows.len()).filter(|r| order.contains(r) && !canonical.contains(r)).collect();
+        let letters = self.constraints.iter().map(super::Constraint::letter).collect();
+        Ok(Realisation { unknown, is_complete, passive, letters, sets })
+    }
+
+    /// Constraints with a coefficient to choose: all but the rolling of wheels whose rate is not measured.
+    fn candidates(&self, measured: &[Symbol]) -> Vec<usize> {
+        let turns_as_it_must = |r: &usize| match &self.constraints[*r].form {
+            Form::R(rolling) => !measured.contains(&rolling.rate),
+            Form::T(_) => false,
+        };
+        (0..self.constraints.len()).filter(|r| !turns_as_it_must(r)).collect()
+    }
+
+    /// The rates in these constraints that are not measured.
+    fn unknown(&self, measured: &[Symbol], candidates: &[usize]) -> Vec<Symbol> {
+        let rows = self.rows();
+        let occurs = |q: &Symbol| candidates.iter().any(|r| rows[*r].rates().any(|rate| rate == q));
+        self.rates().into_iter().filter(|q| occurs(q) && !measured.contains(q)).collect()
+    }
+
+    /// For each constraint, whether its coefficient changes its row at a general ideal motion.
+    fn acting(&self, at: &Point) -> Result<Vec<bool>> {
+        if let Some(shared) = self.shared_coefficient() {
+            return Err(Error::input(format!("two constraints have the coefficient {shared}"))
+                .help("give every constraint a coefficient of its own"));
+        }
+        let rates = self.rates();
+        let ideal = Echelon::of(rates.len(), &at.matrix(&self.ideal_rows(), &rates)?);
+        let motion = general(&ideal.null_space(), rates.len());
+        let slopes = at.matrix(&self.slopes(), &rates)?;
+        Ok(slopes.iter().map(|slope| !dot(slope, &motion).is_zero()).collect())
+    }
+
+    fn shared_coefficient(&self) -> Option<&Symbol> {
+        let mut met = std::collections::HashSet::new();
+        self.constraints.iter().map(|c| &c.creep).find(|e| !met.insert(*e))
+    }
+
+    /// The part of each row that its coefficient multiplies; a row is linear in it.
+    fn slopes(&self) -> Vec<Row> {
+        let slope = |c: &super::Constraint| {
+            let at = |e: i64| c.row().substitute(&|s| (*s == c.creep).then(|| Expr::int(e)));
+            at(1).plus(&Expr::int(-1), &at(0))
+        };
+        self.constraints.iter().map(slope).collect()
+    }
+
+    /// The coefficient of a passive constraint as a formula of the canonical coefficients and the measured rates.
+    ///
+    /// `None` when the velocities cannot be solved for, or the coefficient is not passive.
+    pub fn passive_coefficient(&self, found: &Realisation, constraint: usize) -> Option<Expr> {
+        if !found.passive.contains(&constraint) {
+            return None;
+        }
+        let rows: Vec<Row> = found.canonical().iter().map(|r| self.constraints[*r].row()).collect();
+        let velocities = solve::together(&rows, &found.unknown)?;
+        let velocity = |s: &Symbol| velocities.iter().find(|(u, _)| u == s).map(|(_, v)| v.clone());
+        let along = |row: &Row| row.expr().substitute(&velocity);
+        let slope = self.slopes().swap_remove(constraint);
+        Some(-&(&along(&self.constraints[constraint].ideal_row()) / &along(&slope)))
+    }
+}
+
+/// A motion with no special relation between its parts: a basis with factors 1, 1/2, 1/3, …, alternating in sign.
+fn general(basis: &[Vec<BigRational>], width: usize) -> Vec<BigRational> {
+    let mut motion = vec![BigRational::zero(); width];
+    for (k, vector) in basis.iter().enumerate() {
+        let sign = if k % 2 == 0 { 1 } else { -1 };
+        let factor = BigRational::new(sign.into(), (k + 1).into());
+        motion.iter_mut().zip(vector).for_each(|(m, v)| *m += &factor * v);
+    }
+    motion
+}
+
+fn not_determined(unknown: &[Symbol]) -> Error {
+    let names: Vec<String> = unknown.iter().map(Symbol::to_string).collect();
+    Error::input(format!("the constraints do not determine {} at this point", names.join(", ")))
+        .help("measure more rates, or choose a point where no wheel is at rest")
+}
+
+/// All sets of `size` independent rows in the order given, the first ones first, and whether these are all.
+fn bases(order: &[usize], rows: &[Vec<BigRational>], size: usize) -> (Vec<Vec<usize>>, bool) {
+    let mut found = Vec::new();
+    extend(&Echelon::new(size), &[], order, rows, &mut found);
+    let is_complete = found.len() <= LISTED;
+    found.truncate(LISTED);
+    (found, is_complete)
+}
+
+/// Adds to `found` every set that begins with `chosen` and goes on with rows from `rest`.
+fn extend(known: &Echelon, chosen: &[usize], rest: &[usize], rows: &[Vec<BigRational>], found: &mut Vec<Vec<usize>>) {
+    if known.is_full() {
+        found.push(chosen.to_vec());
+        return;
+    }
+    for (i, r) in rest.iter().enumerate() {
+        let (mut grown, later) = (known.clone(), &rest[i + 1..]);
+        if found.len() > LISTED || !grown.insert(&rows[*r]) {
+            continue;
+        }
+        // Only ways that lead to a set are gone.
+        let mut reach = grown.clone();
+        later.iter().for_each(|r| {
+            reach.insert(&rows[*r]);
+        });
+        if reach.is_full() {
+            extend(&grown, &[chosen, &[*r]].concat(), later, rows, found);
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! Random rational points at which formulas are looked at.
+
+use super::Point;
+use crate::formula::{Exact, Expr, Fun, Node, Symbol};
+use num_rational::BigRational;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use std::collections::BTreeSet;
+
+/// Draws values: the same ones in every run.
+pub(super) struct Samples {
+    source: ChaCha8Rng,
+    angles: BTreeSet<Symbol>,
+}
+
+impl Samples {
+    /// Values for the symbols of formulas.
+    pub(super) fn of<'a>(formulas: impl Iterator<Item = &'a Expr>) -> Self {
+        let mut angles = BTreeSet::new();
+        formulas.for_each(|e| find_angles(e, false, &mut angles));
+        Self { source: ChaCha8Rng::seed_from_u64(0x6372_6565_7061_6765), angles }
+    }
+
+    /// Whether a symbol stands for an angle: the formulas take its sine, cosine or tangent.
+    pub(super) fn is_angle(&self, symbol: &Symbol) -> bool {
+        self.angles.contains(symbol)
+    }
+
+    /// A positive rational number.
+    pub(super) fn number(&mut self) -> BigRational {
+        let (p, q) = (self.source.random_range(1..60), self.source.random_range(1..12));
+        BigRational::new(p.into(), q.into())
+    }
+
+    /// An angle that is no multiple of a right angle, where formulas would vanish that do not elsewhere.
+    fn angle(&mut self) -> Exact {
+        let (p, q) = (self.source.random_range(1..30), self.source.random_range(1..30));
+        let p = if p == q { p + 1 } else { p };
+        Exact::half_tangent(if self.source.random() { p } else { -p }, q)
+    }
+
+    /// A value of the kind the symbol has.
+    pub(super) fn value(&mut self, symbol: &Symbol) -> Exact {
+        match self.is_angle(symbol) {
+            true => self.angle(),
+            false => Exact::rational(self.number()),
+        }
+    }
+
+    /// A point with new values for these symbols and the values of another for the rest.
+    pub(super) fn point(&mut self, symbols: &[Symbol], others: &Point) -> Point {
+        let mut point = others.clone();
+        symbols.iter().for_each(|s| point.set(s.clone(), self.value(s)));
+        point
+    }
+}
+
+/// Collects the symbols of which a formula takes a sine, cosine or tangent, alone or in a sum with whole factors.
+fn find_angles(e: &Expr, in_angle: bool, found: &mut BTreeSet<Symbol>) {
+    match e.node() {
+        Node::Sym(s) if in_angle => {
+            found.insert(s.clone());
+        }
+        Node::Call(f, x) => find_angles(x, matches!(f, Fun::Sin | Fun::Cos | Fun::Tan | Fun::Cot), found),
+        Node::Neg(_) | Node::Add(..) | Node::Sub(..) => {
+            e.children().iter().for_each(|c| find_angles(c, in_angle, found));
+        }
+        Node::Mul(a, b) => {
+            let times = |n: &Expr| in_angle && n.as_number().is_some();
+            find_angles(a, times(b), found);
+            find_angles(b, times(a), found);
+        }
+        _ => e.children().iter().for_each(|c| find_angles(c, false, found)),
+    }
+}

@@ -10,7 +10,9 @@
 mod constraint;
 mod definitions;
 mod heading;
+mod regime;
 mod row;
+mod sample;
 pub mod solve;
 mod system;
 mod velocity;
@@ -18,6 +20,8 @@ mod velocity;
 pub use constraint::{Constraint, Direction, Form, Rolling, sigma_closed_form};
 pub use definitions::Definitions;
 pub use heading::Heading;
+pub use regime::{Landmark, Limits, RotationMotion, RotationRegime, Side, TraverseMotion, TraverseRegime, Way};
 pub use row::Row;
+pub use sample::Sample;
 pub use system::Mechanism;
 pub use velocity::Velocity;

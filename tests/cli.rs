@@ -75,6 +75,111 @@ fn wrong_usage_is_exit_code_2() {
     assert!(!dir.path().join("report").exists() && !dir.path().join("out.csv").exists());
 }
 
+/// A model file of the vehicle with every parameter one, and effects.
+fn model_of(vehicle: &str, effects: &str) -> String {
+    let parameters = creepage::vehicles::named(vehicle).unwrap().parameters.keys();
+    let lines: String = parameters.map(|p| format!("{p} = 1.0\n")).collect();
+    format!("vehicle = \"{vehicle}\"\n[parameters]\n{lines}{effects}")
+}
+
+/// A log of every input of the vehicle, each constant.
+fn log_of(vehicle: &str) -> String {
+    let roles: Vec<&str> = creepage::vehicles::named(vehicle).unwrap().inputs.keys().map(String::as_str).collect();
+    let row = |t: i32| format!("{t},0,0,0{}\n", ",0.5".repeat(roles.len()));
+    let header = [&["time", "x", "y", "heading"], &roles[..]].concat().join(",");
+    format!("{header}\n{}", (0..4).map(row).collect::<String>())
+}
+
+#[test]
+fn every_vehicle_is_described_and_simulated_or_refused() {
+    for v in creepage::vehicles::all() {
+        let (model, log) = (model_of(&v.id, ""), log_of(&v.id));
+        let dir = folder(&[("model.toml", model.as_bytes()), ("run.csv", log.as_bytes())]);
+        for format in ["text", "latex", "json"] {
+            let output = creepage(dir.path(), &["describe", "model.toml", "--format", format]);
+            assert_eq!(output.status.code(), Some(0), "{}: {}", v.id, stderr(&output));
+        }
+        let simulate = &["simulate", "model.toml", "--inputs", "run.csv", "--out", "out.csv"][..];
+        let discover = &["discover", "run.csv", "--model", "model.toml", "--out", "report"][..];
+        for arguments in [simulate, discover] {
+            let output = creepage(dir.path(), arguments);
+            let message = stderr(&output);
+            match &v.instead {
+                None => assert_eq!(output.status.code(), Some(0), "{}: {message}", v.id),
+                Some(advice) => {
+                    assert_eq!(output.status.code(), Some(2), "{}: {message}", v.id);
+                    let start = format!("creepage: model.toml: the constraints of {} ", v.id);
+                    assert!(message.starts_with(&start) && message.contains(advice.as_str()), "{message}");
+                    assert_eq!(message.trim_end().lines().count(), 1, "{message}");
+                }
+            }
+        }
+        for written in ["out.csv", "report"] {
+            assert_eq!(dir.path().join(written).exists(), v.instead.is_none(), "{}", v.id);
+        }
+    }
+}
+
+#[test]
+fn limits_name_the_regime_of_every_coefficient() {
+    let effects = "[[effects]]\nid = \"rotation-creep\"\ne_rc = 0.2\n";
+    let dir = folder(&[("model.toml", model_of("unicycle", effects).as_bytes())]);
+    let describe = |more: &[&str]| {
+        let output = creepage(dir.path(), &[&["describe", "model.toml"], more].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let plain = describe(&[]);
+    assert!(plain.contains("e_rc = 0.2: backward-creep (by its sign; limits were not given)."), "{plain}");
+    assert!(!plain.contains("e_tc = 0:"), "{plain}");
+    let rotation = describe(&["--rotation-limits=-0.2,0.2"]);
+    assert!(rotation.contains("e_rc = 0.2: slipping (limits -0.2 to 0.2)."), "{rotation}");
+    assert!(!rotation.contains("e_tc = 0:"), "{rotation}");
+    let both = describe(&["--rotation-limits", "-0.2,0.3", "--traverse-limits", "-0.1,0.1"]);
+    assert!(both.contains("e_rc = 0.2: backward-creep (limits -0.2 to 0.3)."), "{both}");
+    assert!(both.contains("e_tc = 0: ideal (limits -0.1 to 0.1)."), "{both}");
+    let latex = describe(&["--traverse-limits=-0.1,0.1", "--format", "latex"]);
+    assert!(latex.contains("$e_{tc} = 0$, ideal (limits -0.1 to 0.1)."), "{latex}");
+    let json: serde_json::Value =
+        serde_json::from_str(&describe(&["--rotation-limits=-0.2,0.2", "--format", "json"])).unwrap();
+    assert_eq!(json["constraints"][0]["coefficient"]["regime"], "slipping");
+    assert!(json["constraints"][1]["coefficient"].is_null());
+}
+
+#[test]
+fn limits_that_are_none_are_refused() {
+    let dir = folder(&[("model.toml", MODEL.as_bytes())]);
+    for flag in ["--rotation-limits", "--traverse-limits"] {
+        for (value, why) in [
+            ("0,0.2", "the lower limit 0 must be below zero"),
+            ("-0.2,-0.1", "the upper limit -0.1 must be above zero"),
+            ("-inf,0.2", "must be finite"),
+            ("-0.2,nan", "must be finite"),
+            ("-0.2", "limits are two numbers"),
+            ("-0.2,0.1,0.3", "limits are two numbers"),
+            ("a,b", "limits are two numbers"),
+        ] {
+            let output = creepage(dir.path(), &["describe", "model.toml", &format!("{flag}={value}")]);
+            let message = stderr(&output);
+            assert_eq!(output.status.code(), Some(2), "{flag} {value}: {message}");
+            assert!(message.contains(why) && message.contains("-0.2,0.2"), "{flag} {value}: {message}");
+            assert!(output.stdout.is_empty() && !message.contains("panicked"), "{message}");
+        }
+    }
+}
+
+#[test]
+fn trailers_behind_a_vehicle_that_cannot_pull_are_refused() {
+    for tractor in ["disk", "sleigh", "skid-steer"] {
+        let model = format!("vehicle = \"n-trailer\"\ntractor = \"{tractor}\"\n[parameters]\ntrailer_lengths = [3]\n");
+        let dir = folder(&[("model.toml", model.as_bytes())]);
+        let output = creepage(dir.path(), &["describe", "model.toml"]);
+        let message = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.contains(&format!("model.toml:2:11: unknown tractor \"{tractor}\"")), "{message}");
+    }
+}
+
 #[test]
 fn a_log_too_short_or_too_still_is_an_answer_not_an_error() {
     let still: String = (0..500).map(|i| format!("{},1.0,2.0,0.5,0.0,0.0\n", f64::from(i) * 0.04)).collect();

@@ -7,7 +7,7 @@ use creepage::effects::{self, Applied};
 use creepage::formula::{Expr, Symbol, Unit};
 use creepage::model::Model;
 use creepage::vehicles;
-use models::{machines, machines_with_effects, reviewed};
+use models::{machines, machines_with_effects, reviewed, reviewed_as_text, still, with_each_effect};
 use serde_json::Value;
 use std::collections::BTreeSet;
 
@@ -17,14 +17,16 @@ fn all() -> Vec<(String, Model)> {
         let effects: Vec<String> = m.effects.iter().map(Applied::label).collect();
         (format!("{} + {} {effects:?}", m.vehicle.id, m.trailers.len()), m)
     };
-    let with = machines_with_effects().into_iter().map(|(m, e, t)| {
+    let still_with = still().iter().flat_map(with_each_effect).collect::<Vec<_>>();
+    let with = machines_with_effects().into_iter().chain(still_with).map(|(m, e, t)| {
         let sizes = e.parameters.values().map(|p| p.size).collect();
         m.with_effect(Applied::new(e, t, sizes))
     });
     let mut speed = reviewed()[0].1.clone();
     speed.inputs = vec!["speed".into(), "yaw_rate".into()];
     let reviewed = reviewed().into_iter().map(|(_, m)| m);
-    machines().into_iter().chain(with).chain(reviewed).chain([speed]).map(named).collect()
+    let later = reviewed_as_text().into_iter().map(|(_, m)| m);
+    machines().into_iter().chain(still()).chain(with).chain(reviewed).chain(later).chain([speed]).map(named).collect()
 }
 
 fn parse(text: &str) -> Expr {
@@ -219,10 +221,16 @@ fn signatures_are_those_of_the_theory() {
             ("car", 1, 2),
             ("four-wheel-car", 1, 2),
             ("tricycle", 1, 2),
+            ("differential-drive-castor", 3, 2),
+            ("synchro-drive", 3, 3),
         ] {
             let d = Description::of(&models::vehicle(id, &[1.0]).with_trailers(&trailers)).unwrap();
             assert_eq!((d.signature.r, d.signature.t), (r, t + n), "{id} + {n}");
         }
+    }
+    for (id, r, t) in [("disk", 1, 0), ("sleigh", 0, 1), ("skid-steer", 4, 2)] {
+        let d = Description::of(&models::vehicle(id, &[1.0])).unwrap();
+        assert_eq!((d.signature.r, d.signature.t), (r, t), "{id}");
     }
 }
 
@@ -248,7 +256,9 @@ fn the_row_of_a_model_holds_its_effects() {
 #[test]
 fn the_catalogues_parse_and_hold_these_entries() {
     let ids: Vec<&str> = vehicles::all().iter().map(|v| v.id.as_str()).collect();
-    assert_eq!(ids, ["unicycle", "differential-drive", "car", "four-wheel-car", "tricycle"]);
+    let first = ["unicycle", "differential-drive", "car", "four-wheel-car", "tricycle"];
+    let later = ["disk", "sleigh", "differential-drive-castor", "synchro-drive", "skid-steer"];
+    assert_eq!(ids, [first, later].concat());
     let ids: Vec<&str> = effects::all().iter().map(|e| e.id.as_str()).collect();
     let expected = [
         "rotation-creep",

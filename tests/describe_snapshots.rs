@@ -2,8 +2,9 @@
 
 mod models;
 
-use creepage::describe::{self, Description};
+use creepage::describe::{self, CreepLimits, Description};
 use creepage::effects;
+use creepage::model::Model;
 
 fn reviewed(run: impl FnOnce()) {
     let mut settings = insta::Settings::clone_current();
@@ -22,6 +23,37 @@ fn descriptions_as_text() {
         let d = Description::of(&model).unwrap();
         reviewed(|| insta::assert_snapshot!(format!("describe-{name}-text"), describe::text(&d)));
     }
+}
+
+#[test]
+fn descriptions_of_later_vehicles_as_text() {
+    for (name, model) in models::reviewed_as_text() {
+        let d = Description::of(&model).unwrap();
+        reviewed(|| insta::assert_snapshot!(format!("describe-{name}-text"), describe::text(&d)));
+    }
+}
+
+#[test]
+fn regimes_in_every_format() {
+    let limits = CreepLimits { rotation: "-0.2,0.2".parse().ok(), traverse: "-0.1,0.1".parse().ok() };
+    let wheel = Model::new("unicycle", &[("wheel_radius", 0.3)]).unwrap();
+    let spinning = wheel.clone().with_effect(models::effect("rotation-creep", None, &[1.0]));
+    let sliding = models::effect("cornering-creep", None, &[0.1]);
+    let model = spinning.with_effect(models::effect("traverse-creep", None, &[-0.05])).with_effect(sliding);
+    let d = Description::of(&model).unwrap();
+    let judged = d.clone().with_limits(limits);
+    reviewed(|| insta::assert_snapshot!("regimes-by-sign-text", constraints(&describe::text(&d))));
+    reviewed(|| insta::assert_snapshot!("regimes-text", constraints(&describe::text(&judged))));
+    reviewed(|| insta::assert_snapshot!("regimes-latex", constraints(&describe::latex(&judged))));
+    let json = describe::json(&judged);
+    let told: Vec<_> = json["constraints"].as_array().unwrap().iter().map(|c| c["coefficient"].clone()).collect();
+    reviewed(|| insta::assert_snapshot!("regimes-json", pretty(&told.into())));
+}
+
+/// The part of a description that speaks of the constraints.
+fn constraints(text: &str) -> &str {
+    let end = text.find("Pfaffian matrix").unwrap();
+    &text[text.find("Constraints\n").or(text.find("{Constraints}")).unwrap()..end]
 }
 
 #[test]
@@ -59,7 +91,11 @@ fn the_list_of_effects() {
         entry["vehicles"].as_array().unwrap().iter().map(|v| v.as_str().unwrap().to_string()).collect::<Vec<_>>()
     };
     assert_eq!(applies("yaw-rate-bias"), ["unicycle", "n-trailer"]);
-    assert_eq!(applies("track-width"), ["differential-drive", "n-trailer"]);
+    assert_eq!(applies("track-width"), ["differential-drive", "differential-drive-castor", "n-trailer"]);
+    let pairs = ["differential-drive", "differential-drive-castor", "n-trailer"];
+    assert_eq!(applies("unequal-rotation-creep"), pairs);
+    assert_eq!(applies("wheel-radius-mismatch"), pairs);
+    assert!(!applies("drift").contains(&"disk".to_string()) && applies("lever-arm").contains(&"disk".to_string()));
     assert_eq!(applies("hitch-offset"), ["n-trailer"]);
     assert_eq!(applies("understeer"), ["car", "four-wheel-car", "tricycle", "n-trailer"]);
 }

@@ -6,7 +6,7 @@ mod support;
 use creepage::describe::Jacobian;
 use creepage::formula::{Dual, Expr, Symbol};
 use creepage::mechanism::{Constraint, Direction, Form, Heading, Row, Velocity, sigma_closed_form};
-use models::{Values, anywhere, at, random, value};
+use models::{Values, anywhere, at, random_described as random, value};
 use num_dual::Dual64;
 use proptest::prelude::*;
 use std::f64::consts::PI;
@@ -60,6 +60,9 @@ fn the_pair_is_that_of_the_heading_of_the_wheel() {
             let Form::T(t) = &c.form else { continue };
             let read = |n: &str| at(&v)(&n.into());
             let psi = match c.name.split(',').next().unwrap() {
+                "castor" => read("phi") + read("gamma"),
+                name if r.model.vehicle.id == "synchro-drive" && name.ends_with("wheel") => read("phi") + read("delta"),
+                "front axle" if r.model.vehicle.id == "skid-steer" => read("phi"),
                 name if name.starts_with("front") => read("phi") + read("delta"),
                 name if name.starts_with("trailer") => read(&name.replace("trailer ", "phi_")),
                 _ => read("phi"),

@@ -3,8 +3,9 @@
 use super::lists::pretty;
 use super::print;
 use clap::{Args, ValueEnum};
-use creepage::describe::{Description, json, latex, text};
+use creepage::describe::{CreepLimits, Description, json, latex, text};
 use creepage::files::ModelFile;
+use creepage::mechanism::Limits;
 use creepage::model::{self, Model};
 use creepage::{Result, effects};
 use std::path::PathBuf;
@@ -14,7 +15,10 @@ use std::path::PathBuf;
 #[command(after_help = "\
 Example:
   creepage describe examples/runs/steering/model.toml
-  creepage describe examples/runs/steering/model.toml --format latex > model.tex")]
+  creepage describe examples/runs/steering/model.toml --format latex > model.tex
+  creepage describe report/model.patched.toml --rotation-limits=-0.2,0.2 --traverse-limits=-0.1,0.1
+
+A coefficient that the model gives is named by its regime; limits tell creep from sliding, and name every coefficient.")]
 pub struct Arguments {
     /// The model
     #[arg(value_name = "MODEL.toml")]
@@ -22,6 +26,16 @@ pub struct Arguments {
     /// How to print it
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    /// Limits of rotation creep: skidding at the lower one, slipping at the upper one
+    #[arg(long, value_name = "E2,E1", allow_hyphen_values = true, value_parser = limits)]
+    rotation_limits: Option<Limits>,
+    /// Limits of traverse creep: side-slip at and beyond them
+    #[arg(long, value_name = "E2,E1", allow_hyphen_values = true, value_parser = limits)]
+    traverse_limits: Option<Limits>,
+}
+
+fn limits(text: &str) -> std::result::Result<Limits, String> {
+    text.parse().map_err(|e: creepage::Error| e.to_string())
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -36,7 +50,8 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let library = effects::all();
     let file = ModelFile::read(&arguments.model, &model::known(library))?;
     let roles: Vec<String> = file.columns.inputs.iter().map(|i| i.role.clone()).collect();
-    let description = Description::of(&Model::from_file(&file, library, &roles)?)?;
+    let limits = CreepLimits { rotation: arguments.rotation_limits, traverse: arguments.traverse_limits };
+    let description = Description::of(&Model::from_file(&file, library, &roles)?)?.with_limits(limits);
     print(&match arguments.format {
         Format::Text => text(&description),
         Format::Latex => latex(&description),

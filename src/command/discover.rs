@@ -7,7 +7,8 @@ use creepage::discrepancy::discover::{Discovery, Request, discover};
 use creepage::discrepancy::html::{gap_svg, html};
 use creepage::discrepancy::summary::summary_text;
 use creepage::files::{ModelFile, Run, write_all_or_nothing};
-use creepage::{Error, Result, effects, model};
+use creepage::model::{self, Model};
+use creepage::{Error, Result, effects};
 use std::path::{Path, PathBuf};
 
 /// Find where model and measurement disagree, name the missing effect, add it to the model
@@ -54,6 +55,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     progress.say("reading the runs");
     let library = effects::all();
     let file = ModelFile::read(&arguments.model, &model::known(library))?;
+    Model::check_motion(&file)?;
     let read = |paths: &[PathBuf]| paths.iter().map(|p| Run::read(p, &file)).collect::<Result<Vec<_>>>();
     let (runs, held_out) = (read(&arguments.runs)?, read(&arguments.held_out)?);
     distinct(&arguments.runs, &arguments.held_out)?;

@@ -48,6 +48,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     progress.say("integrating");
     let library = effects::all();
     let file = ModelFile::read(&arguments.model, &model::known(library))?;
+    Model::check_motion(&file)?;
     let inputs = Inputs::read(&arguments.inputs, &file)?;
     let model = Model::from_file(&file, library, &inputs.roles)?;
     let signals = Signals::new(&inputs.time, &inputs.columns, file.input_timing.into());

@@ -2,6 +2,7 @@
 
 use super::Jacobian;
 use super::jacobian::rates;
+use super::regime::Coefficient;
 use crate::formula::{Expr, Node, Symbol};
 use crate::mechanism::{Constraint, Form, Row};
 
@@ -28,6 +29,8 @@ pub struct ConstraintEntry {
     pub ideal: Row,
     /// The row of the model as it stands: what effects changed put in, a coefficient that none changed zero.
     pub model: Expr,
+    /// Its creep coefficient in the model as it stands.
+    pub coefficient: Coefficient,
     /// Derivatives of row·q̇.
     pub jacobian: Jacobian,
 }
@@ -70,6 +73,14 @@ impl ConstraintEntry {
             },
             row: ordered(constraint.row()),
             ideal: ordered(constraint.ideal_row()),
+            coefficient: Coefficient {
+                creep: constraint.creep.clone(),
+                form: letter,
+                value: None,
+                given: false,
+                row_holds: true,
+                limits: None,
+            },
             model: in_place(&written(constraint, &order), in_model),
             jacobian: Jacobian::of(constraint, coordinates),
         }

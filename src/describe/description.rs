@@ -1,10 +1,10 @@
 //! Everything that follows from a model.
 
-use super::{ConstraintEntry, Signature, Symbols};
+use super::{ConstraintEntry, CreepLimits, Signature, Symbols};
 use crate::effects::Applied;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
-use crate::mechanism::{Constraint, Definitions};
+use crate::mechanism::{Constraint, Definitions, Sample};
 use crate::model::{Model, WITH_TRAILERS};
 use std::collections::BTreeSet;
 
@@ -27,7 +27,10 @@ pub struct Description {
     pub pfaffian: Vec<Vec<Expr>>,
     /// Number of coefficients by form.
     pub signature: Signature,
-    /// The equations of motion, each using only earlier ones, states and inputs.
+    /// Why there are no equations of motion, where the constraints do not determine it.
+    pub undetermined: Option<Error>,
+    /// The equations of motion, each using only earlier ones, states and inputs; where the constraints do not
+    /// determine the motion, the definitions of what stands in their rows.
     pub definitions: Vec<Equation>,
     /// Rates of the states that no sensor sees.
     pub states: Vec<Equation>,
@@ -59,10 +62,11 @@ impl Description {
     /// Derives everything from a model.
     ///
     /// # Errors
-    /// When the constraints do not determine the motion, or formulas use each other in a circle.
+    /// When an effect does not apply, or formulas use each other in a circle.
     pub fn of(model: &Model) -> Result<Self> {
-        let definitions = model.definitions()?;
-        let plain = Model { effects: vec![], ..model.clone() }.definitions()?;
+        let definitions = model.row_definitions()?;
+        let plain = Model { effects: vec![], ..model.clone() }.row_definitions()?;
+        let undetermined = model.determined().err();
         let coordinates = model.coordinates();
         let found = model.constraints();
         let in_rows: BTreeSet<Symbol> = found.iter().flat_map(coefficient_symbols).collect();
@@ -80,6 +84,7 @@ impl Description {
             trailers: model.trailers.len(),
             pfaffian: constraints.iter().map(entry).collect(),
             signature: Signature::of(&found),
+            undetermined,
             definitions: sorted.map(|(name, f)| Equation { name: name.clone(), formula: f.clone() }).collect(),
             states: model
                 .effects
@@ -98,7 +103,28 @@ impl Description {
             constraints,
         };
         description.symbols = Symbols::of(model, &definitions, &description.used())?;
+        description.fill_coefficients(&definitions, &plain);
         Ok(description)
+    }
+
+    /// The description with the limits between creep and sliding.
+    pub fn with_limits(mut self, limits: CreepLimits) -> Self {
+        for c in &mut self.constraints {
+            c.coefficient.limits = if c.form == 'R' { limits.rotation } else { limits.traverse };
+        }
+        self
+    }
+
+    /// Values of the coefficients in the model as it stands, and whether its motion keeps to their rows.
+    fn fill_coefficients(&mut self, definitions: &Definitions, plain: &Definitions) {
+        let points: Vec<Sample> = (0..3).filter_map(|k| Sample::of(definitions, k)).collect();
+        for c in &mut self.constraints {
+            c.coefficient.value = self.symbols.get(&c.creep).and_then(|s| s.value);
+            c.coefficient.given = definitions.get(&c.creep) != plain.get(&c.creep);
+            // Without a motion there is nothing that could depart from the rows.
+            c.coefficient.row_holds =
+                self.undetermined.is_some() || points.iter().all(|point| point.annihilates(&c.row));
+        }
     }
 
     /// The name of the whole, as in a model file.

@@ -1,7 +1,7 @@
 //! The list of effects.
 
 use super::page::Page;
-use super::vehicles::{sample, sample_train};
+use super::vehicles::{sample, sample_train, tractors};
 use crate::effects::{Effect, Parameter};
 use crate::error::Result;
 use crate::formula::{Symbol, latex_symbol};
@@ -50,7 +50,7 @@ fn applies_to(e: &Effect) -> Result<Vec<&'static str>> {
             found.push(v.id.as_str());
         }
     }
-    for v in vehicles::all() {
+    for v in tractors() {
         if !found.contains(&WITH_TRAILERS) && !sample_train(v)?.applicable(library).is_empty() {
             found.push(WITH_TRAILERS);
         }

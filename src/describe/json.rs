@@ -26,6 +26,7 @@ pub fn json(d: &Description) -> Value {
             "r": d.signature.r, "t": d.signature.t,
             "text": d.signature.to_string(), "latex": d.signature.latex(), "counts": Signature::COUNTS,
         },
+        "undetermined": d.undetermined.as_ref().map(ToString::to_string),
         "definitions": d.definitions.iter().map(|e| equation(s, e, &e.name)).collect::<Vec<_>>(),
         "states": d.states.iter().map(|e| equation(s, e, &e.name.rate())).collect::<Vec<_>>(),
         "beside_rows": names(&d.beside_rows),
@@ -74,7 +75,20 @@ fn constraint(s: &Symbols, c: &ConstraintEntry) -> Value {
         "row": row(s, &c.row),
         "ideal_row": row(s, &c.ideal),
         "model_row": formula(s, &c.model),
+        "coefficient": coefficient(c),
         "jacobian": { "q": by_q, "q_dot": by_rate, "e": row(s, &c.jacobian.e) },
+    })
+}
+
+/// Null where nothing gives the coefficient and there are no limits to judge it by.
+fn coefficient(c: &ConstraintEntry) -> Option<Value> {
+    let e = &c.coefficient;
+    let limits = e.limits.map(|l| [l.lower(), l.upper()]);
+    e.is_told().then(|| {
+        object!({
+            "value": e.value, "regime": e.regime(), "landmark": e.landmark(), "limits": limits,
+            "row_holds": e.row_holds, "words": e.words(),
+        })
     })
 }
 

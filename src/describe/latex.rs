@@ -69,6 +69,10 @@ fn constraint(out: &mut String, s: &Symbols, c: &ConstraintEntry) {
         display.vanishing(&row);
         display.write(out);
     }
+    if c.coefficient.is_told() {
+        let value = c.coefficient.value.map_or(String::new(), |v| format!(" = {v}"));
+        let _ = writeln!(out, "Coefficient in the model as it stands: ${creep}{value}$, {}.", c.coefficient.words());
+    }
     let _ = writeln!(out, "Derivatives of $g$, the row times the rates, that are not zero everywhere:");
     let mut display = Display::new(s);
     let by = |name: String| format!("\\frac{{\\partial g}}{{\\partial {name}}}");
@@ -91,6 +95,9 @@ fn pfaffian(out: &mut String, d: &Description) {
 
 fn motion(out: &mut String, d: &Description) {
     let _ = writeln!(out, "\\section{{Equations of motion}}");
+    if let Some(why) = &d.undetermined {
+        let _ = writeln!(out, "None: {}.\n\nWhat stands in the rows:", plain(&why.to_string()));
+    }
     let mut display = Display::new(&d.symbols);
     d.definitions.iter().for_each(|e| display.equation(&d.symbols.latex_symbol(&e.name), &e.formula));
     display.write(out);

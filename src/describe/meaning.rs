@@ -9,9 +9,11 @@ type Known = (&'static str, Kind, &'static str, &'static str);
 const NAMES: &[Known] = &[
     ("x", Kind::Coordinate, "m", "position of the reference point along x"),
     ("y", Kind::Coordinate, "m", "position of the reference point along y"),
+    ("s", Kind::Coordinate, "m", "distance of the reference point along its line"),
     ("phi", Kind::Coordinate, "rad", "heading of the body, counter-clockwise from x"),
     ("x'", Kind::Rate, "m/s", "velocity of the reference point along x"),
     ("y'", Kind::Rate, "m/s", "velocity of the reference point along y"),
+    ("s'", Kind::Rate, "m/s", "speed of the reference point along its line"),
     ("phi'", Kind::Rate, "rad/s", "yaw rate"),
     ("v_d", Kind::Defined, "m/s", "forward speed that the wheels ask for"),
     ("v_n", Kind::Defined, "m/s", "speed to the left that the direction constraints ask for"),

@@ -165,20 +165,26 @@ fn look_up(model: &Model, symbol: &Symbol) -> Option<(Kind, String, String)> {
         .or_else(|| meaning::of(name, model.trailers.len()))
 }
 
-/// The angle of a wheel or a coefficient of its creep.
+/// A name of a wheel: a coefficient of its creep, its angles and their rates where nothing defines them.
 fn wheel(model: &Model, symbol: &Symbol) -> Option<(Kind, String, String)> {
     let is = |s: &Option<Symbol>| s.as_ref() == Some(symbol);
-    let is_rate_of = |w: &Wheel| w.rate == Some(symbol.rate());
-    model.vehicle.wheels.iter().find_map(|w| {
-        if is(&w.rotation_creep) {
-            Some((Kind::Creep, "1".into(), format!("rotation creep of the {}", w.name)))
-        } else if is(&w.traverse_creep) {
-            Some((Kind::Creep, "1".into(), format!("traverse creep of the {}", w.name)))
-        } else if is_rate_of(w) {
-            Some((Kind::Coordinate, "rad".into(), format!("angle turned by the {}", w.name)))
-        } else {
-            None
-        }
+    type Test<'t> = &'t dyn Fn(&Wheel) -> bool;
+    let table: [(Test, Kind, &str, &str); 6] = [
+        (&|w| is(&w.rotation_creep), Kind::Creep, "1", "rotation creep of the"),
+        (&|w| is(&w.traverse_creep), Kind::Creep, "1", "traverse creep of the"),
+        (&|w| w.rate == Some(symbol.rate()), Kind::Coordinate, "rad", "angle turned by the"),
+        (&|w| is(&w.rate), Kind::Rate, "rad/s", "rate of the"),
+        (&|w| is(&w.steering), Kind::Coordinate, "rad", "angle from the body's heading to that of the"),
+        (
+            &|w| w.steering.as_ref().map(Symbol::rate).as_ref() == Some(symbol),
+            Kind::Rate,
+            "rad/s",
+            "rate of the angle from the body's heading to that of the",
+        ),
+    ];
+    table.into_iter().find_map(|(test, kind, unit, means)| {
+        let names: Vec<&str> = model.vehicle.wheels.iter().filter(|w| test(w)).map(|w| w.name.as_str()).collect();
+        (!names.is_empty()).then(|| (kind, unit.into(), format!("{means} {}", names.join(", "))))
     })
 }
 

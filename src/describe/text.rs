@@ -69,10 +69,20 @@ fn constraint(page: &mut Page, number: usize, c: &ConstraintEntry) {
         page.line(&format!("{label}:"));
         page.formula(&format!("{row} = 0"));
     }
+    if c.coefficient.is_told() {
+        page.line("Coefficient in the model as it stands:");
+        page.line(&told(c));
+    }
     page.line("Derivatives of g:");
     c.jacobian.q.iter().for_each(|(q, d)| page.formula(&format!("dg/d({q}) = {d}")));
     c.jacobian.rates.iter().for_each(|(rate, d)| page.formula(&format!("dg/d({rate}) = {d}")));
     page.formula(&format!("dg/d({}) = {}", c.creep, c.jacobian.e));
+}
+
+/// e = value: regime
+fn told(c: &ConstraintEntry) -> String {
+    let value = c.coefficient.value.map_or(String::new(), |v| format!(" = {v}"));
+    format!("{}{value}: {}.", c.creep, c.coefficient.words())
 }
 
 fn pfaffian(page: &mut Page, d: &Description) {
@@ -88,7 +98,13 @@ fn pfaffian(page: &mut Page, d: &Description) {
 
 fn motion(page: &mut Page, d: &Description) {
     page.heading(2, "Equations of motion");
-    page.line("Each uses only earlier ones, states, inputs and parameters.");
+    match &d.undetermined {
+        None => page.line("Each uses only earlier ones, states, inputs and parameters."),
+        Some(why) => {
+            page.paragraph(&format!("None: {why}."));
+            page.line("What stands in the rows:");
+        }
+    }
     let equation = |page: &mut Page, e: &Equation| page.formula(&format!("{} = {}", e.name, e.formula));
     d.definitions.iter().for_each(|e| equation(page, e));
     if !d.states.is_empty() {

@@ -43,14 +43,18 @@ pub fn vehicles_text() -> Result<String> {
             let instead = i.instead.as_ref().map(|o| format!(", or {} ({})", o.role, o.unit)).unwrap_or_default();
             page.entry(&format!("input {role} ({}){instead}: {}", i.unit, i.meaning));
         }
+        if let Some(advice) = &vehicle.instead {
+            page.entry(&format!("motion: not determined by its constraints; {advice}"));
+        }
         rows(&mut page, &sample(vehicle)?);
     }
     page.heading(2, WITH_TRAILERS);
     page.paragraph(TRAIN);
-    page.entry("tractor: any vehicle above; car when left out");
+    let ids: Vec<&str> = tractors().map(|v| v.id.as_str()).collect();
+    page.entry(&format!("tractor: {}; car when left out", ids.join(", ")));
     page.entry("parameter trailer_lengths (m): from hitch to axle, nearest first");
     page.entry("parameter hitch_offsets (m, optional): hitch behind the axle ahead of it");
-    for vehicle in vehicles::all() {
+    for vehicle in tractors() {
         let Signature { r, t } = Signature::of(&sample(vehicle)?.constraints());
         page.entry(&format!("signature of N trailers behind {}: {}T^(N+{t})", vehicle.id, power('R', r)));
     }
@@ -59,6 +63,11 @@ pub fn vehicles_text() -> Result<String> {
     page.line("The row of the first trailer:");
     row(&mut page, &all, &constraints[constraints.len() - 1]);
     Ok(page.finished())
+}
+
+/// The vehicles that trailers can be put behind.
+pub(super) fn tractors() -> impl Iterator<Item = &'static Vehicle> {
+    vehicles::all().iter().filter(|v| v.pulls())
 }
 
 fn power(letter: char, n: usize) -> String {
@@ -102,7 +111,7 @@ fn entry(vehicle: &Vehicle, model: &Model) -> Result<Value> {
     let constraints = model.constraints();
     let signature = Signature::of(&constraints);
     Ok(json!({
-        "id": vehicle.id, "title": vehicle.title,
+        "id": vehicle.id, "title": vehicle.title, "undetermined": vehicle.instead,
         "parameters": vehicle.parameters.iter().map(parameter).collect::<Vec<_>>(),
         "inputs": vehicle.inputs.iter().map(input).collect::<Vec<_>>(),
         "signature": { "r": signature.r, "t": signature.t, "text": signature.to_string() },
@@ -134,7 +143,7 @@ fn train() -> Result<Value> {
             parameter("trailer_lengths", "from hitch to axle, nearest first", false),
             parameter("hitch_offsets", "hitch behind the axle ahead of it", true),
         ],
-        "tractors": vehicles::all().iter().map(tractor).collect::<Result<Vec<_>>>()?,
+        "tractors": tractors().map(tractor).collect::<Result<Vec<_>>>()?,
         "constraints": [constraint(&model, &constraints[constraints.len() - 1])],
     }))
 }

@@ -45,6 +45,11 @@ impl Definitions {
         true
     }
 
+    /// The definitions but for some names, which then stand for anything.
+    pub fn without(&self, left_out: &impl Fn(&Symbol) -> bool) -> Self {
+        Self { entries: self.entries.iter().filter(|(n, _)| !left_out(n)).cloned().collect() }
+    }
+
     /// Names and formulas in the order they were made.
     pub fn iter(&self) -> impl Iterator<Item = &(Symbol, Expr)> {
         self.entries.iter()

@@ -41,6 +41,11 @@ impl Row {
         Row::default().plus(factor, self)
     }
 
+    /// The row without the terms of rates that are known to be zero.
+    pub fn without(&self, zero: &impl Fn(&Symbol) -> bool) -> Row {
+        Row { terms: self.terms.iter().filter(|(r, _)| !zero(r)).cloned().collect() }
+    }
+
     /// The coefficient of a rate; zero when the rate does not occur.
     pub fn coefficient(&self, rate: &Symbol) -> Expr {
         self.terms.iter().find(|(r, _)| r == rate).map_or_else(|| Expr::int(0), |(_, c)| c.clone())

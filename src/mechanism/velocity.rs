@@ -31,6 +31,11 @@ impl Velocity {
         Self { terms: vec![(one.clone(), forward.into(), heading.clone()), (one, sideways.into(), heading.left())] }
     }
 
+    /// `speed`·u(heading): motion along a line.
+    pub fn along_line(speed: impl Into<Symbol>, heading: &Heading) -> Self {
+        Self { terms: vec![(Expr::int(1), speed.into(), heading.clone())] }
+    }
+
     /// The velocity of a point `length` further along a turning direction: adds length·d/dt u(heading).
     pub fn at_offset(&self, heading: &Heading, length: &Expr) -> Self {
         let mut v = self.clone();

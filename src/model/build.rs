@@ -1,10 +1,11 @@
 //! The definitions of a model: constraints solved for the motion, effects applied.
 
-use super::constraints::{direction, rolling, trailer_creep, trailer_direction, trailer_lengths};
+use super::constraints::{trailer_creep, trailer_direction, trailer_lengths};
 use super::{Model, trailer_heading};
+use crate::effects::Effect;
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
-use crate::mechanism::{Definitions, Heading, Row, Velocity, solve};
+use crate::mechanism::{Definitions, Heading, Velocity, solve};
 
 /// A formula of this file; a malformed one would be a fault of the program, seen by every test.
 fn formula(text: &str) -> Expr {
@@ -20,18 +21,70 @@ impl Model {
     /// | v_l, v_t | forward and sideways speed of the reference point |
     /// | v_n | sideways speed that the direction constraints ask for |
     /// | x', y', phi', phi_1' … | rates of the coordinates |
+    /// | gamma', theta_c' … | what a castor does: the motion gives it, and does not depend on it |
     /// | x_m, y_m, heading_m | what the sensor measures |
     /// | delay | how far the inputs are looked up in the past |
     ///
     /// # Errors
     /// When the constraints do not determine the motion, or an effect does not apply.
     pub fn definitions(&self) -> Result<Definitions> {
-        let mut d = self.ideal_definitions()?;
+        self.with_effects(self.ideal_definitions()?)
+    }
+
+    /// [`Model::definitions`]; where the constraints do not determine the motion, only what stands in their rows: the
+    /// symbols of the vehicle and the coefficients of creep.
+    ///
+    /// # Errors
+    /// When an effect does not apply.
+    ///
+    /// ```
+    /// use creepage::model::Model;
+    /// let sleigh = Model::new("sleigh", &[("mass", 2.0), ("inertia", 0.5), ("mass_offset", 0.1)]).unwrap();
+    /// assert!(sleigh.definitions().is_err());
+    /// assert!(sleigh.row_definitions().unwrap().get(&"e_tc".into()).unwrap().is_zero());
+    /// ```
+    pub fn row_definitions(&self) -> Result<Definitions> {
+        self.with_effects(self.bare_definitions())
+    }
+
+    /// What is defined before any effect: all of the motion, or what stands in the rows.
+    fn bare_definitions(&self) -> Definitions {
+        self.ideal_definitions().unwrap_or_else(|_| {
+            let mut d = Definitions::default();
+            self.define_vehicle(&mut d);
+            (1..=self.trailers.len()).for_each(|i| define_trailer(i, &mut d));
+            d
+        })
+    }
+
+    /// That the constraints determine the motion from the inputs.
+    ///
+    /// # Errors
+    /// An input error that says why they do not, and what to use instead.
+    ///
+    /// ```
+    /// use creepage::model::Model;
+    /// let sleigh = Model::new("sleigh", &[("mass", 2.0), ("inertia", 0.5), ("mass_offset", 0.1)]).unwrap();
+    /// let error = sleigh.determined().unwrap_err();
+    /// assert!(error.exit_code() == 2 && error.to_string().contains("use unicycle"));
+    /// ```
+    pub fn determined(&self) -> Result<()> {
+        self.ideal_definitions().map(|_| ())
+    }
+
+    /// What an effect rewrites on this vehicle; `None` when it does not apply.
+    pub(super) fn targets(&self, e: &Effect, trailer: Option<usize>, names: &[Symbol]) -> Option<Vec<(Symbol, Expr)>> {
+        let logged = e.needs.iter().all(|role| self.vehicle.inputs.contains_key(role));
+        let found = e.targets(names, trailer).filter(|_| logged)?;
+        found.iter().all(|(name, _)| !self.vehicle.held.contains(name)).then_some(found)
+    }
+
+    fn with_effects(&self, mut d: Definitions) -> Result<Definitions> {
         let mut effects: Vec<_> = self.effects.iter().collect();
         effects.sort_by_key(|e| (e.effect.order, e.trailer));
         for applied in effects {
             let names: Vec<Symbol> = d.iter().map(|(n, _)| n.clone()).collect();
-            let targets = applied.effect.targets(&names, applied.trailer);
+            let targets = self.targets(&applied.effect, applied.trailer, &names);
             let targets = targets.ok_or_else(|| {
                 Error::input(format!(
                     "the effect {} does not apply to the vehicle {}",
@@ -50,8 +103,7 @@ impl Model {
 
     /// The names an effect may rewrite.
     pub(super) fn definition_names(&self) -> Vec<Symbol> {
-        let d = self.ideal_definitions();
-        d.map(|d| d.iter().map(|(n, _)| n.clone()).collect()).unwrap_or_default()
+        self.bare_definitions().iter().map(|(n, _)| n.clone()).collect()
     }
 
     fn ideal_definitions(&self) -> Result<Definitions> {
@@ -66,6 +118,11 @@ impl Model {
         ] {
             d.define(name, formula(text));
         }
+        if self.vehicle.line {
+            d.define("s'", formula("v_l"));
+        }
+        self.check_rows(&d)?;
+        self.solve_passive(&mut d)?;
         (1..=self.trailers.len()).try_for_each(|i| solve_trailer(i, &mut d))?;
         for (name, text) in [
             ("delay", "0"),
@@ -91,51 +148,21 @@ impl Model {
         for (name, definition) in &self.vehicle.define {
             d.define(name.clone(), definition.formula.substitute(&replaced));
         }
-        let creeps = self.vehicle.wheels.iter().flat_map(|w| [&w.rotation_creep, &w.traverse_creep]);
-        creeps.flatten().for_each(|creep| d.define(creep.clone(), Expr::int(0)));
+        self.vehicle.creeps().for_each(|creep| d.define(creep.clone(), Expr::int(0)));
     }
+}
 
-    /// Solves the wheels' constraints for v_d, v_n and, where it is no input, phi'.
-    fn solve_body(&self, d: &mut Definitions) -> Result<()> {
-        let (body, yaw) = (Heading::along("phi"), Symbol::from("phi'"));
-        let rows = |speed: &str| -> (Vec<Row>, Vec<Row>) {
-            let reference = Velocity::in_body(speed, "v_n", &body);
-            // Passive wheels, of unknown rate or angle, follow the motion and do not determine it.
-            let known = |s: &Option<Symbol>| s.as_ref().is_none_or(|s| self.vehicle.define.contains_key(s));
-            let wheels = || self.vehicle.wheels.iter().filter(|w| known(&w.steering));
-            let r = wheels().filter(|w| known(&w.rate)).filter_map(|w| rolling(w, &reference, &body));
-            let r = r.map(|c| c.row()).collect();
-            let t = wheels().filter_map(|w| direction(w, &reference, &body)).map(|c| c.row()).collect();
-            (r, t)
-        };
-        let undetermined = || Error::run(format!("the constraints of {} do not determine its motion", self.vehicle.id));
-        let yaw_is_input = d.get(&yaw).is_some();
-        let wanted = |names: &[&str]| -> Vec<Symbol> {
-            let yaw = (!yaw_is_input).then(|| yaw.clone());
-            names.iter().map(|n| Symbol::from(*n)).chain(yaw).collect()
-        };
-        // All rows together give the speed the wheels ask for.
-        let (r, t) = rows("v_d");
-        let together = solve::together(&[r, t].concat(), &wanted(&["v_d", "v_n"])).ok_or_else(undetermined)?;
-        // The direction rows alone give the rest from v_l, where they can; an effect may make v_l a state.
-        let (_, t) = rows("v_l");
-        let directions = solve::chained(&t, &wanted(&["v_n"])).or_else(|| solve::chained(&t, &["v_n".into()]));
-        let directions = directions.ok_or_else(undetermined)?;
-        for (name, formula) in directions.into_iter().chain(together) {
-            if d.get(&name).is_none() {
-                d.define(name, formula);
-            }
-        }
-        Ok(())
-    }
+/// Lengths and coefficient of a trailer.
+fn define_trailer(i: usize, d: &mut Definitions) {
+    let (length, hitch) = trailer_lengths(i);
+    d.define(length, Expr::sym(Symbol::new(&format!("trailer_length_{i}"))));
+    d.define(hitch, Expr::sym(Symbol::new(&format!("hitch_offset_{i}"))));
+    d.define(trailer_creep(i), Expr::int(0));
 }
 
 /// Adds a trailer: its forward speed v_i, sideways speed vt_i and the rate of its heading.
 fn solve_trailer(i: usize, d: &mut Definitions) -> Result<()> {
-    let (length, hitch) = trailer_lengths(i);
-    d.define(length, Expr::sym(Symbol::new(&format!("trailer_length_{i}"))));
-    d.define(hitch.clone(), Expr::sym(Symbol::new(&format!("hitch_offset_{i}"))));
-    d.define(trailer_creep(i), Expr::int(0));
+    define_trailer(i, d);
     let (ahead, heading) = match i {
         1 => (["v_l".into(), "v_t".into()], Symbol::from("phi")),
         _ => ([format!("v_{}", i - 1), format!("vt_{}", i - 1)].map(|s| Symbol::new(&s)), trailer_heading(i - 1)),

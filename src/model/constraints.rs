@@ -64,7 +64,7 @@ pub(super) fn behind(ahead: &Velocity, i: usize) -> Velocity {
 /// The coordinates and constraints of a vehicle with a number of trailers, derived from the description alone.
 ///
 /// Each wheel gives its rolling constraint and its direction constraint, each trailer a direction constraint.
-/// Coordinates: x, y, phi, the angles that are steered or free, the angles of the wheels, and phi_1, phi_2, … of the
+/// Coordinates: x, y, phi (along a line s), the angles that are steered or free, the angles of the wheels, and phi_1, phi_2, … of the
 /// trailers. An angle that is a formula of others, as on an Ackermann axle, is written out.
 ///
 /// ```
@@ -89,7 +89,7 @@ pub fn mechanism(vehicle: &Vehicle, trailers: usize) -> Mechanism {
     }
     let turns = vehicle.wheels.iter().filter_map(|w| w.rate.as_ref());
     let turns = turns.map(|r| Symbol::new(r.as_str().trim_end_matches('\'')));
-    let mut coordinates: Vec<Symbol> = ["x", "y", "phi"].map(Symbol::from).to_vec();
+    let mut coordinates = body_coordinates(vehicle);
     for q in angles.into_iter().chain(turns).chain((1..=trailers).map(trailer_heading)) {
         if !coordinates.contains(&q) {
             coordinates.push(q);
@@ -98,9 +98,17 @@ pub fn mechanism(vehicle: &Vehicle, trailers: usize) -> Mechanism {
     Mechanism { coordinates, constraints: constraints_of(vehicle, trailers) }.substitute(&derived)
 }
 
+/// x, y and phi; s for a vehicle on a line.
+pub(super) fn body_coordinates(vehicle: &Vehicle) -> Vec<Symbol> {
+    if vehicle.line { vec!["s".into()] } else { ["x", "y", "phi"].map(Symbol::from).to_vec() }
+}
+
 fn constraints_of(vehicle: &Vehicle, trailers: usize) -> Vec<Constraint> {
     let body = Heading::along("phi");
-    let reference = Velocity::of_reference_point();
+    let reference = match vehicle.line {
+        true => Velocity::along_line("s'", &body),
+        false => Velocity::of_reference_point(),
+    };
     let mut found = Vec::new();
     for wheel in &vehicle.wheels {
         found.extend(rolling(wheel, &reference, &body));

@@ -31,7 +31,7 @@ fn known_vehicle(v: &Vehicle) -> KnownVehicle {
         optional_parameters: names(true).collect(),
         inputs: v.inputs.iter().map(input).collect(),
         trailers: false,
-        tractor: true,
+        tractor: v.pulls(),
     }
 }
 
@@ -49,6 +49,16 @@ fn known_effect(e: &Effect) -> KnownEffect {
 }
 
 impl Model {
+    /// That a file's model can be simulated and fitted: the constraints of its vehicle determine the motion.
+    ///
+    /// # Errors
+    /// As [`Model::determined`], with the file.
+    pub fn check_motion(file: &ModelFile) -> Result<()> {
+        Self::from_file(&ModelFile { effects: vec![], ..file.clone() }, &[], &[])?
+            .determined()
+            .map_err(|e| e.at_file(&file.path))
+    }
+
     /// The model that a file describes, logged by the given input roles.
     ///
     /// # Errors
@@ -72,7 +82,7 @@ impl Model {
             model.effects.push(applied(entry, library).ok_or_else(|| {
                 Error::input(format!("unknown effect {:?}", entry.id)).at_file(&file.path).at(entry.line, 1)
             })?);
-            model.definitions().map_err(|e| {
+            model.row_definitions().map_err(|e| {
                 let advice = "remove the entry; `creepage describe` shows what the vehicle has";
                 e.at_file(&file.path).at(entry.line, 1).help(advice)
             })?;

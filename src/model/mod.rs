@@ -3,6 +3,7 @@
 //! From the description everything else is derived: the constraints in the two forms, and by solving
 //! them the equations of motion as [`Definitions`](crate::mechanism::Definitions).
 
+mod body;
 mod build;
 mod constraints;
 mod equations;
@@ -103,9 +104,7 @@ impl Model {
     /// The effects of a library that apply to the vehicle, one entry for each trailer they may belong to.
     pub fn applicable<'a>(&self, library: &'a [Effect]) -> Vec<(&'a Effect, Option<usize>)> {
         let names = self.definition_names();
-        let fits = |e: &Effect, t: Option<usize>| {
-            e.needs.iter().all(|role| self.vehicle.inputs.contains_key(role)) && e.targets(&names, t).is_some()
-        };
+        let fits = |e: &Effect, t: Option<usize>| self.targets(e, t, &names).is_some();
         let places = |e: &Effect| -> Vec<Option<usize>> {
             if e.per_trailer { (1..=self.trailers.len()).map(Some).collect() } else { vec![None] }
         };
@@ -113,9 +112,11 @@ impl Model {
         all.filter(|(e, t)| fits(e, *t)).collect()
     }
 
-    /// Coordinates: x, y, phi, the angles of the measured wheels, and phi_1, phi_2, … of the trailers.
+    /// Coordinates: x, y, phi (along a line s), the angles of castors, the angles turned by the wheels, and phi_1,
+    /// phi_2, … of the trailers. An angle that is steered is an input here.
     pub fn coordinates(&self) -> Vec<Symbol> {
-        let mut found: Vec<Symbol> = ["x", "y", "phi"].map(Symbol::from).to_vec();
+        let mut found = constraints::body_coordinates(&self.vehicle);
+        found.extend(self.vehicle.wheels.iter().filter_map(|w| w.steering.clone().filter(|s| self.vehicle.is_free(s))));
         let rates = self.vehicle.wheels.iter().filter_map(|w| w.rate.as_ref());
         found.extend(rates.map(|r| Symbol::new(r.as_str().trim_end_matches('\''))));
         found.extend((1..=self.trailers.len()).map(trailer_heading));

@@ -23,6 +23,37 @@ pub struct Vehicle {
     pub define: BTreeMap<Symbol, Definition>,
     /// Its wheels.
     pub wheels: Vec<Wheel>,
+    /// It moves along a line in the direction of its heading: one coordinate s, no yaw, no sideways motion.
+    #[serde(default)]
+    pub line: bool,
+    /// Names of the motion that no effect may rewrite, because the effects take them to mean something else: a
+    /// forward speed across the wheels, a yaw rate that the geometry forbids.
+    #[serde(default)]
+    pub held: Vec<Symbol>,
+    /// What to use instead, for a vehicle whose constraints do not determine its motion.
+    pub instead: Option<String>,
+}
+
+impl Vehicle {
+    /// Whether the constraints determine the motion from the inputs; if not, it can only be described.
+    pub fn moves(&self) -> bool {
+        self.instead.is_none()
+    }
+
+    /// Whether trailers can be put behind it.
+    pub fn pulls(&self) -> bool {
+        self.moves() && !self.line
+    }
+
+    /// The coefficients of creep of its wheels; one that several wheels share comes once for each.
+    pub fn creeps(&self) -> impl Iterator<Item = &Symbol> {
+        self.wheels.iter().flat_map(|w| [&w.rotation_creep, &w.traverse_creep]).flatten()
+    }
+
+    /// Whether a symbol is no formula of the inputs: the angle of a castor, the rate of a passive wheel.
+    pub fn is_free(&self, symbol: &Symbol) -> bool {
+        !self.define.contains_key(symbol)
+    }
 }
 
 /// Unit and meaning of a number.

@@ -17,23 +17,64 @@ pub fn vehicle(id: &str, values: &[f64]) -> Model {
     Model::new(id, &given).unwrap()
 }
 
-/// Every vehicle of the catalogue alone and with two trailers, the second one off-axle.
+/// Vehicles whose constraints do not determine their motion, and those that pull no trailers.
+pub const STILL: [&str; 2] = ["sleigh", "skid-steer"];
+pub const ALONE: [&str; 3] = ["disk", "sleigh", "skid-steer"];
+
+fn of_catalogue(keep: impl Fn(&str) -> bool) -> Vec<Model> {
+    vehicles::all().iter().filter(|v| keep(&v.id)).map(|v| vehicle(&v.id, &[0.7, 0.3, 2.1])).collect()
+}
+
+/// Every vehicle of the catalogue that moves, alone and with two trailers, the second one off-axle.
 pub fn machines() -> Vec<Model> {
     let train = [Trailer { length: 3.0, hitch: 0.0 }, Trailer { length: 2.5, hitch: 0.4 }];
-    let alone = vehicles::all().iter().map(|v| vehicle(&v.id, &[0.7, 0.3, 2.1]));
-    alone.flat_map(|m| [m.clone(), m.with_trailers(&train)]).collect()
+    let moving = of_catalogue(|id| !STILL.contains(&id)).into_iter();
+    let both = |m: Model| match ALONE.contains(&m.vehicle.id.as_str()) {
+        true => vec![m],
+        false => vec![m.clone(), m.with_trailers(&train)],
+    };
+    moving.flat_map(both).collect()
+}
+
+/// Every vehicle of the catalogue that can only be described.
+pub fn still() -> Vec<Model> {
+    of_catalogue(|id| STILL.contains(&id))
+}
+
+/// A model with each effect of the library that applies to it.
+pub fn with_each_effect(m: &Model) -> Vec<(Model, &'static Effect, Option<usize>)> {
+    m.applicable(effects::all()).into_iter().map(|(e, t)| (m.clone(), e, t)).collect()
 }
 
 /// Every machine with each effect that applies to it.
 pub fn machines_with_effects() -> Vec<(Model, &'static Effect, Option<usize>)> {
-    let all = machines().into_iter();
-    all.flat_map(|m| m.applicable(effects::all()).into_iter().map(|(e, t)| (m.clone(), e, t)).collect::<Vec<_>>())
-        .collect()
+    machines().iter().flat_map(with_each_effect).collect()
 }
 
 /// An effect of the library with its values in the order of their names.
 pub fn effect(id: &str, trailer: Option<usize>, values: &[f64]) -> Applied {
     Applied::new(effects::named(id).unwrap(), trailer, values.to_vec())
+}
+
+/// The models of every vehicle that came later, as a person has read them in text alone.
+pub fn reviewed_as_text() -> Vec<(&'static str, Model)> {
+    let castor = [
+        ("wheel_radius", 0.1),
+        ("track_width", 0.4),
+        ("castor_offset", -0.3),
+        ("castor_trail", 0.04),
+        ("castor_wheel_radius", 0.03),
+    ];
+    let sleigh = [("mass", 2.0), ("inertia", 0.5), ("mass_offset", 0.1)];
+    let skid = [("wheel_radius", 0.1), ("track_width", 0.5), ("wheelbase", 0.4)];
+    let model = |id: &'static str, p: &[(&str, f64)]| (id, Model::new(id, p).unwrap());
+    vec![
+        model("disk", &[("wheel_radius", 0.3)]),
+        model("sleigh", &sleigh),
+        model("differential-drive-castor", &castor),
+        model("synchro-drive", &[("wheel_radius", 0.1)]),
+        model("skid-steer", &skid),
+    ]
 }
 
 /// The five models whose descriptions a person has read.
@@ -67,13 +108,24 @@ pub struct Random {
     pub numbers: Vec<f64>,
 }
 
-/// Random machines; every second hitch is on the axle.
+/// Random machines that move; every second hitch is on the axle.
 pub fn random() -> impl Strategy<Value = Random> {
+    random_of(|id| !STILL.contains(&id))
+}
+
+/// Random machines, those that can only be described among them.
+pub fn random_described() -> impl Strategy<Value = Random> {
+    random_of(|_| true)
+}
+
+fn random_of(keep: impl Fn(&str) -> bool) -> impl Strategy<Value = Random> {
     let trailer = (0.5..4.0f64, prop_oneof![Just(0.0), -1.0..1.0f64]);
     let trailers = prop::collection::vec(trailer.prop_map(|(length, hitch)| Trailer { length, hitch }), 0..=10);
-    let id = prop::sample::select(vehicles::all().iter().map(|v| v.id.clone()).collect::<Vec<_>>());
+    let ids = vehicles::all().iter().map(|v| v.id.clone()).filter(|id| keep(id));
+    let id = prop::sample::select(ids.collect::<Vec<_>>());
     let numbers = prop::collection::vec(-1.0..1.0f64, 40);
     (id, prop::array::uniform3(0.2..3.0f64), trailers, numbers).prop_map(|(id, parameters, trailers, numbers)| {
+        let trailers = if ALONE.contains(&id.as_str()) { vec![] } else { trailers };
         let model = vehicle(&id, &parameters).with_trailers(&trailers);
         Random { model: creeping(&model, &numbers), numbers }
     })
@@ -104,6 +156,11 @@ pub fn situation(model: &Model, numbers: &[f64]) -> Values {
         let size = if s.as_str() == "steering_angle" { 0.9 } else { 4.0 };
         values.insert(s, size * number());
     }
+    // The angle of a castor is no state: nothing depends on it.
+    let angles = model.vehicle.wheels.iter().filter_map(|w| w.steering.clone());
+    for s in angles.filter(|s| model.vehicle.is_free(s)) {
+        values.insert(s, 3.2 * number());
+    }
     values
 }
 
@@ -131,7 +188,7 @@ pub fn value(e: &Expr, values: &Values) -> f64 {
 
 /// Values for every name in the model's formulas, related in no way.
 pub fn anywhere(model: &Model, numbers: &[f64]) -> Values {
-    let mut names: Vec<Symbol> = model.definitions().unwrap().iter().map(|(n, _)| n.clone()).collect();
+    let mut names: Vec<Symbol> = model.row_definitions().unwrap().iter().map(|(n, _)| n.clone()).collect();
     names.extend(model.coordinates().iter().flat_map(|q| [q.clone(), q.rate()]));
     names.into_iter().zip(numbers.iter().cycle()).enumerate().map(|(k, (n, x))| (n, x + 0.01 * k as f64)).collect()
 }

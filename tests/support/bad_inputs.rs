@@ -303,6 +303,26 @@ pub const BAD_MODELS: &[Case] = &[
         &["model.toml:2:11: unknown tractor \"sleigh\"", "known tractors: unicycle, differential-drive, car"],
     ),
     bad_model(
+        "disk that pulls",
+        "vehicle = \"n-trailer\"\ntractor = \"disk\"\n[parameters]\nwheel_radius = 1\ntrailer_lengths = [3]\n",
+        &["model.toml:2:11: unknown tractor \"disk\"", "known tractors: unicycle, differential-drive, car"],
+    ),
+    bad_model(
+        "disk of no radius",
+        "vehicle = \"disk\"\n[parameters]\nwheel_radius = 0\n",
+        &["model.toml:3:16: wheel_radius = 0.0 is out of range", "greater than zero"],
+    ),
+    bad_model(
+        "sleigh without mass",
+        "vehicle = \"sleigh\"\n[parameters]\nmass = 0\ninertia = 1\nmass_offset = -0.1\n",
+        &["model.toml:3:8: mass = 0.0 is out of range", "greater than zero"],
+    ),
+    bad_model(
+        "castor without trail",
+        "vehicle = \"differential-drive-castor\"\n[parameters]\nwheel_radius = 1\ntrack_width = 1\ncastor_offset = -1\ncastor_trail = 0\ncastor_wheel_radius = 1\n",
+        &["model.toml:6:16: castor_trail = 0.0 is out of range", "greater than zero"],
+    ),
+    bad_model(
         "tractor twice",
         "vehicle = \"n-trailer\"\ntractor = \"car\"\n[parameters]\ntractor = \"car\"\ntrailer_lengths = [3]\n",
         &["model.toml:4:1: tractor is named twice", "remove one"],

@@ -37,6 +37,12 @@ pub fn known() -> Known {
             vehicle("car", &["wheel_radius", "wheelbase"], &["wheel_rate", "steering_angle"]),
             four_wheels,
             vehicle("n-trailer", &[], &[]),
+            vehicle("disk", &["wheel_radius"], &["wheel_rate"]),
+            vehicle(
+                "differential-drive-castor",
+                &["wheel_radius", "track_width", "castor_offset", "castor_trail", "castor_wheel_radius"],
+                &["wheel_rate_left", "wheel_rate_right"],
+            ),
             vehicle("sleigh", &["mass", "inertia", "mass_offset"], &[]),
         ],
         effects: vec![

@@ -1,0 +1,71 @@
+//! The coefficient of a constraint in the model as it stands, and what it is called.
+
+use crate::formula::Symbol;
+use crate::mechanism::{Landmark, Limits, RotationRegime, TraverseRegime};
+
+/// Limits of creep, as far as they are given.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CreepLimits {
+    /// Of rotation creep.
+    pub rotation: Option<Limits>,
+    /// Of traverse creep.
+    pub traverse: Option<Limits>,
+}
+
+/// The coefficient of a constraint in the model as it stands.
+#[derive(Clone, Debug)]
+pub struct Coefficient {
+    /// Its symbol.
+    pub creep: Symbol,
+    /// `R` or `T`.
+    pub form: char,
+    /// Its value; `None` where it is not constant.
+    pub value: Option<f64>,
+    /// Whether an effect gives it.
+    pub given: bool,
+    /// Whether the motion keeps to the row; effects beside the rows make it creep otherwise.
+    pub row_holds: bool,
+    /// Limits of its form, where they are given.
+    pub limits: Option<Limits>,
+}
+
+impl Coefficient {
+    /// Whether there is something to say: it is given, or limits are.
+    pub fn is_told(&self) -> bool {
+        self.given || self.limits.is_some()
+    }
+
+    /// The name of its regime. A row that the motion does not keep to is not ideal for having no coefficient.
+    pub fn regime(&self) -> &'static str {
+        let unknown = !self.row_holds && self.value == Some(0.0);
+        let e = self.value.filter(|_| !unknown).unwrap_or(f64::NAN);
+        match self.form {
+            'R' => RotationRegime::of(e, self.limits).name(),
+            _ => TraverseRegime::of(e, self.limits).name(),
+        }
+    }
+
+    /// What else a coefficient of rotation creep means.
+    pub fn landmark(&self) -> Option<&'static str> {
+        self.value.filter(|_| self.form == 'R').and_then(Landmark::of).map(Landmark::name)
+    }
+
+    /// Regime, landmark, limits and reservations in words.
+    pub fn words(&self) -> String {
+        let mut said = match self.value {
+            None => "not constant".to_string(),
+            Some(_) => self.regime().to_string(),
+        };
+        if let Some(landmark) = self.landmark() {
+            said += &format!(", {landmark}");
+        }
+        said += &match self.limits {
+            Some(limits) => format!(" (limits {limits})"),
+            None => " (by its sign; limits were not given)".into(),
+        };
+        if !self.row_holds {
+            said += "; effects beside the rows change the motion further";
+        }
+        said
+    }
+}

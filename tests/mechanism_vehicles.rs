@@ -177,17 +177,28 @@ fn a_castor_follows_and_does_not_steer() {
 }
 
 #[test]
-fn mechanisms_have_the_coordinates_of_the_theory() {
-    for (id, expected, constraints) in [
-        ("disk", "s theta", 1),
-        ("sleigh", "x y phi", 1),
-        ("differential-drive-castor", "x y phi gamma theta_1 theta_2 theta_c", 5),
-        ("synchro-drive", "x y phi delta theta_1 theta_2 theta_3", 6),
-        ("skid-steer", "x y phi theta_1 theta_2 theta_3 theta_4", 6),
+fn mechanisms_have_the_coordinates_and_the_rank_of_the_theory() {
+    for (id, expected, constraints, independent) in [
+        ("disk", "s theta", 1, 1),
+        ("sleigh", "x y phi", 1, 1),
+        ("differential-drive-castor", "x y phi gamma theta_1 theta_2 theta_c", 5, 5),
+        ("synchro-drive", "x y phi delta theta_1 theta_2 theta_3", 6, 5),
+        ("skid-steer", "x y phi theta_1 theta_2 theta_3 theta_4", 6, 6),
     ] {
         let m = mechanism(vehicles::named(id).unwrap(), 0);
         let names: Vec<&str> = m.coordinates.iter().map(Symbol::as_str).collect();
         assert_eq!((names.join(" ").as_str(), m.constraints.len()), (expected, constraints), "{id}");
+        // Straight wheels and turned ones: three wheels leave no angle of steering at which the body could turn.
+        for delta in [0.0, 0.7, std::f64::consts::FRAC_PI_2] {
+            let at = |s: &Symbol| match s.as_str() {
+                "delta" => delta,
+                name => name.bytes().fold(0.3, |x, b| (x * 7.3 + f64::from(b)).sin() + 1.3),
+            };
+            let rows = m.ideal_rows();
+            let entry = |i: usize, j: usize| rows[i].coefficient(&m.coordinates[j].rate()).eval(&at).unwrap();
+            let matrix = nalgebra::DMatrix::from_fn(rows.len(), m.coordinates.len(), entry);
+            assert_eq!(matrix.rank(1e-9), independent, "{id} at {delta}");
+        }
     }
 }
 

@@ -107,7 +107,16 @@ impl Description {
         Ok(description)
     }
 
-    /// The description with the limits between creep and sliding.
+    /// The description with the limits between creep and sliding, by which every coefficient is named.
+    ///
+    /// ```
+    /// use creepage::{describe::{CreepLimits, Description}, model::Model};
+    /// let wheel = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+    /// let limits = CreepLimits { traverse: Some("-0.1,0.1".parse().unwrap()), rotation: None };
+    /// let description = Description::of(&wheel).unwrap().with_limits(limits);
+    /// assert_eq!(description.constraints[1].coefficient.words(), "ideal (limits -0.1 to 0.1)");
+    /// assert!(!description.constraints[0].coefficient.is_told());
+    /// ```
     pub fn with_limits(mut self, limits: CreepLimits) -> Self {
         for c in &mut self.constraints {
             c.coefficient.limits = if c.form == 'R' { limits.rotation } else { limits.traverse };

@@ -128,6 +128,25 @@ fn tidying_collects_like_terms() {
     }
 }
 
+#[test]
+fn tidying_leaves_a_product_alone_that_would_not_end() {
+    let names: Vec<_> = (0..20).map(|k| format!("(a{k} + b{k})")).collect();
+    let product = names.join("*");
+    let tidied = Expr::parse(&format!("{product} + x - {product} + x")).unwrap().tidy();
+    assert_eq!(tidied.to_string(), "2*x");
+    let value = |e: &Expr| e.eval(&|s| if s.as_str() == "a7" { 2.0 } else { 0.5 });
+    for text in [product.clone(), format!("({product})^3 - x"), format!("({product}*x + 1)/({product})")] {
+        let e = Expr::parse(&text).unwrap();
+        let (a, b) = (value(&e).unwrap(), value(&e.tidy()).unwrap());
+        assert!((a - b).abs() < 1e-12 * a.abs(), "{a} and {b}");
+    }
+    let long = Expr::parse(&names[..14].join("*")).unwrap().tidy();
+    assert_eq!(long.to_string().matches(" + ").count(), (1 << 14) - 1);
+    assert_eq!(Expr::parse(&long.to_string()).unwrap(), long);
+    assert!(Expr::parse("(a + b + c + d)^8").unwrap().tidy().to_string().matches(" + ").count() > 150);
+    assert!(Expr::parse("((a + b + c + d)^8)^8").unwrap().tidy().to_string().starts_with('('));
+}
+
 /// Whether every number of a graph is a double, so that folding constants rounds nothing.
 fn folds_exactly(graph: &Graph) -> bool {
     (0..graph.len()).all(|id| match graph.op(id) {

@@ -7,8 +7,9 @@ use std::collections::BTreeMap;
 
 /// A sum of rational multiples of products of atoms.
 ///
-/// An atom is a symbol, a function of something, or a form that is no polynomial (a quotient). Two
-/// formulas with the same polynomial are equal wherever both are defined.
+/// An atom is a symbol, a function of something, or a form that is no polynomial (a quotient); so is a product
+/// that would take more than 20 000 products of terms: it is not multiplied out. Two formulas with the same
+/// polynomial are equal wherever both are defined.
 ///
 /// ```
 /// use creepage::formula::{Expr, Polynomial};
@@ -22,6 +23,9 @@ pub struct Polynomial {
 
 /// Powers of atoms, each atom named by its printed form.
 type Monomial = BTreeMap<Atom, i32>;
+
+/// Most products of two terms that multiplying out one product may take.
+const MAX_WORK: usize = 20_000;
 
 #[derive(Clone, Debug)]
 struct Atom {
@@ -73,14 +77,15 @@ impl Polynomial {
             Node::Neg(x) => Self::of(x).scaled(&-BigRational::one()),
             Node::Add(a, b) => Self::of(a).plus(&Self::of(b)),
             Node::Sub(a, b) => Self::of(a).plus(&Self::of(b).scaled(&-BigRational::one())),
-            Node::Mul(a, b) => Self::of(a).times(&Self::of(b)),
+            Node::Mul(a, b) => Self::of(a).times(&Self::of(b)).unwrap_or_else(|| Self::atom(e)),
             Node::Div(a, b) => match b.as_number() {
                 Some(v) if !v.is_zero() => Self::of(a).scaled(&v.recip()),
-                _ => Self::of(a).times(&Self::atom(&(&Expr::int(1) / b))),
+                _ => Self::of(a).times(&Self::atom(&(&Expr::int(1) / b))).unwrap_or_else(|| Self::atom(e)),
             },
             Node::Pow(x, n) if (0..=8).contains(n) => {
                 let base = Self::of(x);
-                (0..*n).fold(Self::constant(BigRational::one()), |p, _| p.times(&base))
+                let power = (0..*n).try_fold(Self::constant(BigRational::one()), |p, _| p.times(&base));
+                power.unwrap_or_else(|| Self::atom(e))
             }
             Node::Sym(_) | Node::Pow(..) | Node::Call(..) => Self::atom(e),
         }
@@ -119,7 +124,11 @@ impl Polynomial {
         self
     }
 
-    fn times(&self, other: &Self) -> Self {
+    /// The product; nothing where it is too large.
+    fn times(&self, other: &Self) -> Option<Self> {
+        if self.terms.len().saturating_mul(other.terms.len()) > MAX_WORK {
+            return None;
+        }
         let mut product = Self::default();
         for (m, v) in &self.terms {
             for (n, w) in &other.terms {
@@ -128,7 +137,7 @@ impl Polynomial {
                 product.add_term(joined, v * w);
             }
         }
-        product
+        Some(product)
     }
 
     /// Whether every term has cancelled.
@@ -138,10 +147,8 @@ impl Polynomial {
 
     /// The polynomial as a formula, terms and factors in a fixed order.
     pub fn expr(&self) -> Expr {
-        self.terms.iter().fold(Expr::int(0), |sum, (m, v)| {
-            let term = term(m, &v.abs());
-            if v.is_negative() { &sum - &term } else { &sum + &term }
-        })
+        let terms: Vec<_> = self.terms.iter().map(|(m, v)| (v.is_negative(), term(m, &v.abs()))).collect();
+        signed_sum(&terms)
     }
 
     /// The same with cos²x + sin²x written as one.
@@ -202,6 +209,18 @@ impl Polynomial {
     }
 }
 
+/// Terms of a sum that stand one after the other; longer sums are nested, so that no walk goes deep.
+const RUN: usize = 200;
+
+/// A sum of terms, with which of them are subtracted.
+pub(super) fn signed_sum(terms: &[(bool, Expr)]) -> Expr {
+    if terms.len() > RUN {
+        let (a, b) = terms.split_at(terms.len() / 2);
+        return &signed_sum(a) + &signed_sum(b);
+    }
+    terms.iter().fold(Expr::int(0), |sum, (negative, term)| if *negative { &sum - term } else { &sum + term })
+}
+
 /// A rational multiple of a product: small denominators as a quotient, others as a decimal where they are one.
 fn term(m: &Monomial, size: &BigRational) -> Expr {
     let quotient = *size.denom() <= 9.into();
@@ -229,7 +248,7 @@ fn is_reciprocal(e: &Expr) -> bool {
 }
 
 impl Expr {
-    /// The formula multiplied out with like terms collected.
+    /// The formula multiplied out with like terms collected, as far as [`Polynomial`] goes.
     pub fn tidy(&self) -> Expr {
         Polynomial::of(self).expr()
     }

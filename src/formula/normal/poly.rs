@@ -1,6 +1,7 @@
 //! Polynomials in atoms with whole coefficients, each in its only form.
 
 use super::atom::{Atom, Monomial};
+use crate::formula::polynomial::signed_sum;
 use crate::formula::{Expr, Symbol};
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -17,8 +18,6 @@ const MAX_WORK: usize = 2_000_000;
 const MAX_DEGREE: u32 = 1000;
 /// Most binary digits of a coefficient.
 pub(super) const MAX_BITS: u64 = 100_000;
-/// Terms of a sum that are written one after the other; longer sums are nested, so that no walk goes deep.
-const RUN: usize = 200;
 
 /// A sum of whole multiples of monomials. No sine stands squared in it: sin² is written as 1 − cos².
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
@@ -187,20 +186,9 @@ impl Poly {
 
     /// The polynomial as a formula, the greatest term first.
     pub fn expr(&self) -> Expr {
-        let terms: Vec<_> = self.terms.iter().rev().collect();
-        sum(&terms)
+        let terms: Vec<_> = self.terms.iter().rev().map(|(m, v)| (v.is_negative(), term(m, &v.abs()))).collect();
+        signed_sum(&terms)
     }
-}
-
-fn sum(terms: &[(&Monomial, &BigInt)]) -> Expr {
-    if terms.len() > RUN {
-        let (a, b) = terms.split_at(terms.len() / 2);
-        return &sum(a) + &sum(b);
-    }
-    terms.iter().fold(Expr::int(0), |sum, (m, v)| {
-        let term = term(m, &v.abs());
-        if v.is_negative() { &sum - &term } else { &sum + &term }
-    })
 }
 
 fn term(m: &Monomial, size: &BigInt) -> Expr {

@@ -12,6 +12,7 @@ pub mod mechanism;
 pub mod model;
 pub mod motion;
 pub mod picture;
+pub mod theory;
 pub mod vehicles;
 
 pub use error::{Error, Result};

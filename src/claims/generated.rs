@@ -21,7 +21,8 @@ pub enum Drive {
     Tricycle,
 }
 
-/// A further wheel: place, whether it is a castor.
+/// A further wheel: place, whether it is a castor. A fixed one stands on the line of the axle; anywhere else it would
+/// leave the ideal vehicle no turn.
 #[derive(Clone, Debug)]
 pub struct Further {
     forward: Exact,
@@ -42,9 +43,17 @@ pub struct Generated {
 }
 
 /// Vehicles of one kind with up to `further` more wheels and `trailers` trailers.
-pub fn vehicles(drive: impl Strategy<Value = Drive> + 'static, further: usize, trailers: usize) -> impl Strategy<Value = Generated> {
+pub fn vehicles(
+    drive: impl Strategy<Value = Drive> + 'static,
+    further: usize,
+    trailers: usize,
+) -> impl Strategy<Value = Generated> {
     let place = || (value(Domain::Any), value(Domain::Any), any::<bool>());
-    let wheel = place().prop_map(|(forward, left, castor)| Further { forward, left, castor });
+    let wheel = place().prop_map(|(forward, left, castor)| Further {
+        forward: if castor { forward } else { Exact::ratio(0, 1) },
+        left,
+        castor,
+    });
     let bar = (value(Domain::Positive), value(Domain::Creep));
     (
         drive,
@@ -130,7 +139,13 @@ impl Generated {
         }
         let inputs = BTreeMap::from([("steering_angle".to_string(), input())]);
         let define = BTreeMap::from([(Symbol::from("delta"), defined())]);
-        Vehicle { id: "generated".into(), wheels: wheels.into_iter().map(|w| w.0).collect(), inputs, define, ..Vehicle::default() }
+        Vehicle {
+            id: "generated".into(),
+            wheels: wheels.into_iter().map(|w| w.0).collect(),
+            inputs,
+            define,
+            ..Vehicle::default()
+        }
     }
 
     /// Coordinates and constraints.
@@ -168,7 +183,8 @@ impl Generated {
     /// Whether no part of it stands across what pulls it: there the ideal motion has no speed for a coefficient.
     pub fn is_regular(&self) -> bool {
         let at = self.point();
-        let delta_is_straight = at.value(&"delta".into()).as_direction().is_some_and(|(x, _)| !num_traits::Zero::is_zero(&x));
+        let delta_is_straight =
+            at.value(&"delta".into()).as_direction().is_some_and(|(x, _)| !num_traits::Zero::is_zero(&x));
         let heading = |i: usize| match i {
             0 => at.value(&"phi".into()),
             i => at.value(&symbol("phi", i)),

@@ -144,7 +144,7 @@ fn simple_values(domain: Domain) -> Vec<Exact> {
     match domain {
         Domain::Positive => ratios(&[(1, 1), (2, 1), (1, 2), (3, 1), (1, 3), (3, 2), (2, 3)]),
         Domain::Nonzero => ratios(&[(1, 1), (-1, 1), (2, 1), (1, 2), (-2, 1), (3, 1), (1, 3)]),
-        Domain::Any => ratios(&[(1, 1), (0, 1), (-1, 1), (2, 1), (1, 2), (-2, 1), (3, 1)]),
+        Domain::Any => ratios(&[(1, 1), (2, 1), (0, 1), (-1, 1), (1, 2), (-2, 1), (3, 1)]),
         Domain::Creep => ratios(&[(0, 1), (1, 2), (-1, 2), (1, 3), (-1, 3), (2, 3), (1, 4)]),
         Domain::Angle => {
             let halves = [(0, 1), (1, 1), (1, 2), (-1, 1), (-1, 2), (1, 3), (1, 0)];

@@ -78,7 +78,7 @@ impl Statement {
     }
 
     /// The equations whose truth is not known from elsewhere: of a slip, the one it was made in.
-    pub(super) fn in_question(&self) -> &[Equation] {
+    pub fn in_question(&self) -> &[Equation] {
         match self.changed {
             Some(i) => &self.equations[i..=i],
             None => &self.equations,

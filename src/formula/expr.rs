@@ -191,6 +191,13 @@ impl Expr {
     }
 }
 
+/// The number zero.
+impl Default for Expr {
+    fn default() -> Self {
+        Self::int(0)
+    }
+}
+
 /// Whether the denominator has no prime factor but 2 and 5.
 fn is_decimal(value: &BigRational) -> bool {
     let mut rest = value.denom().clone();

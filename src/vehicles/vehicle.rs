@@ -5,7 +5,7 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 
 /// A body with wheels: the description from which constraints and motion are derived.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Vehicle {
     /// Its name in model files.
@@ -106,7 +106,7 @@ pub struct Definition {
 }
 
 /// A wheel, or an axle's worth of aligned wheels.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Wheel {
     /// What it is called.

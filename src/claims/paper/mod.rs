@@ -5,9 +5,13 @@ mod finite;
 mod ideal_limit;
 mod open;
 mod planning;
+mod realisation;
+mod regimes;
 mod rotation;
 mod simulation;
 mod single_body;
+mod structure;
+mod theorems;
 mod trailers;
 mod traverse;
 mod wheel;
@@ -23,9 +27,13 @@ pub fn all() -> Vec<Claim> {
     [
         rotation::claims(),
         traverse::claims(),
+        regimes::claims(),
         wheel::claims(),
         simulation::claims(),
         single_body::claims(),
+        structure::claims(),
+        theorems::claims(),
+        realisation::claims(),
         trailers::claims(),
         ideal_limit::claims(),
         planning::claims(),

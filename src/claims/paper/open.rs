@@ -42,7 +42,7 @@ pub(super) fn claims() -> Vec<Claim> {
             .at(place)
             .about(about)
             .remark("Open until dynamics exist.")
-            .chapter("09-open")
+            .chapter("10-open")
     };
     let mut all: Vec<Claim> = OPEN.iter().map(open).collect();
     all.push(

@@ -9,7 +9,7 @@ pub(super) fn claims() -> Vec<Claim> {
         Claim::new("planning", Status::Sampled, "a plan made on the ideal wheel misses its goal by (κ − 1)·goal when executed with creep, and hits when made with it")
             .at("sections 1 and 5: existing algorithms for planning and control should be modified")
             .under("constant known coefficients; the plan turns the wheel on the spot, then follows a given pair of rates, stretched")
-            .chapter("08-planning")
+            .chapter("09-planning")
             .code(&["src/motion/trajectory.rs"])
             .tests(&["tests/motion_kinematics.rs"])
             .sample(

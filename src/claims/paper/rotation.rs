@@ -9,8 +9,6 @@ use crate::model::mechanism;
 use crate::vehicles;
 
 const CHAPTER: &str = "02-rotation-creep";
-/// Until a disk is a vehicle of its own: the wheel that does not turn.
-const DISK: &str = "unicycle";
 const FORMS: &str = "src/mechanism/constraint.rs";
 
 /// The disk with the velocity of the particle of its rim that touches the ground.
@@ -20,7 +18,7 @@ fn disk() -> Machine {
     let by_u = rim.derivative(&"u".into()).substitute(&|s| (s.as_str() == "u").then(|| Expr::int(0)));
     let by_x = rim.derivative(&"x".into());
     let velocity = &(&by_x * &Expr::sym("v_l")) + &(&by_u * &Expr::sym("theta'"));
-    Machine::of(DISK).with("v_A", velocity).with_text("f_R", "-b_R*v_A").with_text("omega", "theta'")
+    Machine::of("disk").with("v_A", velocity).with_text("f_R", "-b_R*v_A").with_text("omega", "theta'")
 }
 
 fn on_disk(s: &Statement, _: &Sampling) -> Outcome {
@@ -262,7 +260,7 @@ fn generic_form() -> Vec<Claim> {
             .code(&[FORMS])
             .sample("exact values through the derived motion", &[("1 - v_l/(r*theta')", "e_rc")], |s, sampling| {
                 let names = [("r", Domain::Positive), ("theta'", Domain::Nonzero), ("e_rc", Domain::Any)];
-                at_points(&Machine::of(DISK), s, &names, sampling)
+                at_points(&Machine::of("disk"), s, &names, sampling)
             }),
     ]
 }

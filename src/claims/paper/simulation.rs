@@ -8,7 +8,7 @@ use crate::model::{Model, Trailer};
 use crate::motion::{Reading, fig7_case, fig7_path};
 use proptest::prelude::*;
 
-const CHAPTER: &str = "10-simulation";
+const CHAPTER: &str = "08-simulation";
 const CONSERVATIVE: &str = "src/motion/conservative.rs";
 
 pub(super) fn claims() -> Vec<Claim> {

@@ -40,7 +40,7 @@ fn determinant(machine: &Machine, velocities: [&str; 3], coefficients: [&str; 3]
 }
 
 /// Two driven wheels, right 1 and left 2, with the velocities of their contacts on the ground.
-fn two_wheels() -> Machine {
+pub(super) fn two_wheels() -> Machine {
     let machine = Machine::of("differential-drive")
         .with_text("r_1", "r")
         .with_text("r_2", "r")

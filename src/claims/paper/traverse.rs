@@ -10,13 +10,11 @@ use crate::vehicles;
 
 const CHAPTER: &str = "03-traverse-creep";
 const REGULAR: &str = "03b-singularity-free";
-/// Until the sleigh is a vehicle of its own: the wheel has its blade.
-const SLEIGH: &str = "unicycle";
 const FORMS: &str = "src/mechanism/constraint.rs";
 
 /// The sleigh's one constraint, type T.
 fn direction() -> Option<Direction> {
-    let sleigh = mechanism(vehicles::named(SLEIGH)?, 0);
+    let sleigh = mechanism(vehicles::named("sleigh")?, 0);
     sleigh.constraints.into_iter().find_map(|c| match c.form {
         Form::T(t) => Some(t),
         Form::R(_) => None,

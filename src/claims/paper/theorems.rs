@@ -1,0 +1,209 @@
+//! The two theorems over generated vehicles: how many coefficients of each type realise the motion.
+
+use super::single_body::two_wheels;
+use crate::claims::generated::{Drive, Generated, any_drive, vehicles};
+use crate::claims::{Claim, Fault, Machine, Outcome, Sampling, Statement, Status, Verdict, proving};
+use crate::formula::{Exact, Expr, Symbol};
+use crate::mechanism::{Heading, Mechanism, Velocity};
+use crate::model::mechanism;
+use crate::vehicles::{Vehicle, Wheel, named};
+use proptest::prelude::*;
+
+const REALISATION: &str = "src/mechanism/realisation.rs";
+const TESTS: &str = "tests/mechanism_realisation.rs";
+
+pub(super) fn claims() -> Vec<Claim> {
+    vec![single_body(), passive(), trailers(), only_traverse()]
+}
+
+/// The counts k and m of a generated vehicle against what is said of its kind, such as `car.m = N + 2`; what is said
+/// of `k` and `m` alone is said of every kind.
+fn counts(s: &Statement, vehicle: &Generated, yaw: bool) -> Verdict {
+    if !vehicle.is_regular() {
+        return Err(Fault::Outside);
+    }
+    let mechanism = vehicle.mechanism();
+    let found = mechanism.realisation(&vehicle.measured(yaw), &vehicle.point());
+    let (k, m) = found.map_err(|e| Fault::Undefined(e.to_string()))?.counts();
+    let kind = format!("{:?}", vehicle.drive).to_lowercase();
+    for (name, count) in [("k", k), ("m", m)] {
+        let said = s.said_of(&format!("{kind}.{name}")).or_else(|| s.said_of(name));
+        let Some(said) = said else { return Err(Fault::Undefined(format!("nothing is said of {kind}.{name}"))) };
+        let n = Exact::ratio(i64::try_from(vehicle.trailers()).unwrap_or(0), 1);
+        let value = said.eval(&|_: &Symbol| n.clone());
+        if value.as_ref().and_then(Exact::as_rational)
+            != Expr::int(i64::try_from(count).unwrap_or(-1)).as_number().as_ref()
+        {
+            return Err(Fault::False(format!("{name} is {count}, the statement says {said}")));
+        }
+    }
+    Ok(())
+}
+
+fn over(vehicles: impl Strategy<Value = Generated>, yaw: bool, s: &Statement, sampling: &Sampling) -> Outcome {
+    sampling.cases(vehicles, Generated::shown, |v| counts(s, v, yaw))
+}
+
+fn single_body() -> Claim {
+    let unequal = [("phi'", "r*(theta_1' - theta_2')/a")];
+    let creeping = [("phi'", "r*(theta_1'*(1 - e_rc_1) - theta_2'*(1 - e_rc_2))/a")];
+    let measured_yaw = |s: &Statement, sampling: &Sampling| over(vehicles(any_drive(), 3, 0), true, s, sampling);
+    Claim::new("theorem-single-body", Status::Corrected, "the creep of all wheeled cars with a single body is realised by type RT")
+        .at("section 4, first theorem; errata E17, E20; corrected theorem (b)")
+        .about(&[26, 27, 28])
+        .under("equal slip velocities of the driven contacts, or the yaw rate measured; else R²T for a differential drive and RT² with front steering")
+        .remark(
+            "As many coefficients are needed as there are components of the twist that are not measured. Wheels beyond \
+             those, castors of known angle included, are passive: their coefficients follow.",
+        )
+        .chapter("05b-corrected-single-body")
+        .code(&[REALISATION, "src/claims/generated.rs"])
+        .tests(&[TESTS])
+        .refutation("a two-wheeler with unequal creep, in six numbers", &unequal, &creeping, proving(two_wheels()))
+        .refutation_by(
+            "one coefficient of each type, for every generated vehicle",
+            &[("k", "1"), ("m", "1")],
+            std::sync::Arc::new(|s: &Statement, sampling: &Sampling| over(vehicles(any_drive(), 3, 0), false, s, sampling)),
+            &[("k", "1"), ("m", "1")],
+            std::sync::Arc::new(measured_yaw),
+        )
+        .sample("generated vehicles with up to three more wheels, yaw rate measured", &[("k", "1"), ("m", "1")], measured_yaw)
+        .sample(
+            "the same, yaw rate not measured",
+            &[
+                ("unicycle.k", "1"),
+                ("unicycle.m", "1"),
+                ("differential.k", "2"),
+                ("differential.m", "1"),
+                ("car.k", "1"),
+                ("car.m", "2"),
+                ("tricycle.k", "1"),
+                ("tricycle.m", "2"),
+            ],
+            |s, sampling| over(vehicles(any_drive(), 3, 0), false, s, sampling),
+        )
+        .proof(
+            "with equal slip velocities the two-wheeler keeps (28), and RT is enough",
+            &[("a*phi'", "r*(theta_1' - theta_2')"), ("v_l", "r*(1 - e)*(theta_1' + theta_2')/2"), ("v_t", "e_tc*v_l")],
+            proving(
+                two_wheels()
+                    .with_text("e_rc_1", "e*(theta_1' + theta_2')/(2*theta_1')")
+                    .with_text("e_rc_2", "e*(theta_1' + theta_2')/(2*theta_2')"),
+            ),
+        )
+}
+
+/// A differential drive with one more wheel, h ahead and b to the left, and the formula of its coefficient.
+fn further_wheel() -> Machine {
+    let Some(found) = passive_formula() else { return Machine::default() };
+    let body = Heading::along("phi");
+    let there = Velocity::in_body("v_l", "v_t", &body)
+        .at_offset(&body, &Expr::sym("h"))
+        .at_offset(&body.left(), &Expr::sym("b"));
+    let one_radius = |s: &Symbol| matches!(s.as_str(), "r_1" | "r_2").then(|| Expr::sym("r"));
+    two_wheels()
+        .with("e_further", found.substitute(&one_radius))
+        .with("quotient", &there.along(&body.left()).expr() / &there.along(&body).expr())
+}
+
+fn passive_formula() -> Option<Expr> {
+    let mut vehicle: Vehicle = named("differential-drive")?.clone();
+    vehicle.wheels.push(Wheel {
+        name: "further wheel".into(),
+        forward: Expr::sym("h"),
+        left: Expr::sym("b"),
+        traverse_creep: Some("e_further".into()),
+        ..Wheel::default()
+    });
+    let mechanism: Mechanism = mechanism(&vehicle, 0);
+    let numbers = [("a", 3, 2), ("r_1", 1, 2), ("r_2", 1, 2), ("h", 1, 3), ("b", 1, 5)];
+    let at = numbers.iter().fold(crate::mechanism::Point::default(), |p, (s, n, d)| p.with(*s, Exact::ratio(*n, *d)));
+    let at = at.with("phi", Exact::half_tangent(1, 3));
+    let found = mechanism.realisation(&["theta_1'".into(), "theta_2'".into()], &at).ok()?;
+    let further = mechanism.constraints.iter().position(|c| c.creep == "e_further".into())?;
+    mechanism.passive_coefficient(&found, further)
+}
+
+fn passive() -> Claim {
+    Claim::new(
+        "passive-wheels",
+        Status::Proved,
+        "the coefficient of every further wheel is a function of those that realise the motion",
+    )
+    .at("corrected theorem (b)4")
+    .about(&[25])
+    .under("differential drive with one more wheel h ahead and b to the left; v_l − b·φ̇ ≠ 0")
+    .chapter("05b-corrected-single-body")
+    .code(&[REALISATION])
+    .tests(&[TESTS])
+    .proof(
+        "the formula the machine derives, against the quotient of the velocities there",
+        &[("e_further", "(v_t + h*phi')/(v_l - b*phi')"), ("e_further", "quotient")],
+        proving(further_wheel()),
+    )
+}
+
+fn trailers() -> Claim {
+    let kinds = || prop::sample::select(vec![Drive::Unicycle, Drive::Differential, Drive::Car]);
+    let all = move |s: &Statement, sampling: &Sampling| over(vehicles(kinds(), 0, 10), false, s, &sampling.one_in(2));
+    Claim::new("theorem-trailers", Status::Corrected, "the creep of a car with N trailers is realised by type RT^(N+1)")
+        .at("section 4, second theorem; errata E21; corrected theorem (c)")
+        .under("a unicycle tractor; RT^(N+2) with front steering, R²T^(N+1) with a differential drive; no trailer across its hitch")
+        .remark(
+            "Right for the coordinates (x, y, φ, θ) and N trailers. The coordinates of the literature that the paper \
+             cites contain a steering angle and no wheel angle.",
+        )
+        .chapter("06-trailers")
+        .code(&[REALISATION, "src/claims/generated.rs"])
+        .tests(&[TESTS])
+        .refutation_by(
+            "the same counts whatever the tractor",
+            &[("k", "1"), ("m", "N + 1")],
+            std::sync::Arc::new(all),
+            &[("k", "1"), ("m", "N + 1")],
+            std::sync::Arc::new(|s: &Statement, sampling: &Sampling| {
+                over(vehicles(Just(Drive::Unicycle), 0, 10), false, s, &sampling.one_in(2))
+            }),
+        )
+        .sample(
+            "generated trains of up to ten trailers with any bars and hitches",
+            &[
+                ("unicycle.k", "1"),
+                ("unicycle.m", "N + 1"),
+                ("differential.k", "2"),
+                ("differential.m", "N + 1"),
+                ("car.k", "1"),
+                ("car.m", "N + 2"),
+            ],
+            all,
+        )
+}
+
+/// Without a wheel angle among the coordinates all of it is type T.
+fn only_traverse() -> Claim {
+    Claim::new("E21", Status::Corrected, "the 4 + N coordinates of the literature give RT^(N+1)")
+        .at("section 4, second theorem, \"simplified coordinates [8,9]\"; errata E21")
+        .under("coordinates x, y, φ, δ and N trailers; the speed and the steering rate are the inputs")
+        .remark("Those coordinates have N + 2 constraints and all are directions; without a wheel angle there is no type R.")
+        .chapter("06-trailers")
+        .code(&["src/model/constraints.rs"])
+        .tests(&["tests/mechanism_growth.rs"])
+        .refutation("one of type R, N + 1 of type T", &[("k", "1"), ("m", "N + 1")], &[("k", "0"), ("m", "N + 2")], forms)
+        .sample("constraints of the kinematic car with N = 0 … 10 trailers", &[("k", "0"), ("m", "N + 2")], forms)
+}
+
+fn forms(s: &Statement, sampling: &Sampling) -> Outcome {
+    let shown = |n: &usize| vec![("N".to_string(), n.to_string())];
+    sampling.cases(0usize..=10, shown, |n| {
+        let car = super::structure::described("kinematic-car").ok_or(Fault::Undefined("no kinematic car".into()))?;
+        let constraints = mechanism(car, *n).constraints;
+        let k = constraints.iter().filter(|c| c.letter() == 'R').count();
+        for (name, found) in [("k", k), ("m", constraints.len() - k)] {
+            let said = s.said_of(name).and_then(|e| e.eval(&|_: &Symbol| *n as f64));
+            if said != Some(found as f64) {
+                return Err(Fault::False(format!("{name} is {found}, the statement says otherwise")));
+            }
+        }
+        Ok(())
+    })
+}

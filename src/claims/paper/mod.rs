@@ -3,6 +3,7 @@
 mod domain;
 mod finite;
 mod ideal_limit;
+mod introduction;
 mod open;
 mod planning;
 mod realisation;
@@ -25,6 +26,7 @@ use super::Claim;
 /// ```
 pub fn all() -> Vec<Claim> {
     [
+        introduction::claims(),
         rotation::claims(),
         traverse::claims(),
         regimes::claims(),

@@ -44,10 +44,10 @@ pub struct Generated {
 
 /// Vehicles of one kind with up to `further` more wheels and `trailers` trailers.
 pub fn vehicles(
-    drive: impl Strategy<Value = Drive> + 'static,
+    drive: impl Strategy<Value = Drive> + Sync + 'static,
     further: usize,
     trailers: usize,
-) -> impl Strategy<Value = Generated> {
+) -> impl Strategy<Value = Generated> + Sync {
     let place = || (value(Domain::Any), value(Domain::Any), any::<bool>());
     let wheel = place().prop_map(|(forward, left, castor)| Further {
         forward: if castor { forward } else { Exact::ratio(0, 1) },
@@ -74,7 +74,7 @@ pub fn vehicles(
 }
 
 /// Any of the four ways to be driven.
-pub fn any_drive() -> impl Strategy<Value = Drive> {
+pub fn any_drive() -> impl Strategy<Value = Drive> + Sync {
     prop::sample::select(vec![Drive::Unicycle, Drive::Differential, Drive::Car, Drive::Tricycle])
 }
 

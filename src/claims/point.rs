@@ -3,7 +3,7 @@
 use super::Counterexample;
 use crate::formula::{Exact, Expr, Fun, Node, Symbol};
 use proptest::prelude::*;
-use proptest::strategy::BoxedStrategy;
+use proptest::strategy::SBoxedStrategy;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What values a symbol may take.
@@ -67,22 +67,22 @@ pub fn written(v: &Exact) -> String {
 
 /// Points with a value for each name, rationals with small numerators and denominators; they shrink towards 1,
 /// creeps and angles towards 0.
-pub fn points(names: &[(&str, Domain)]) -> BoxedStrategy<Point> {
+pub fn points(names: &[(&str, Domain)]) -> SBoxedStrategy<Point> {
     let names: Vec<(Symbol, Domain)> = names.iter().map(|(s, d)| (Symbol::new(s), *d)).collect();
-    let values: Vec<BoxedStrategy<Exact>> = names.iter().map(|(_, d)| value(*d)).collect();
-    values.prop_map(move |values| Point::new(names.iter().map(|(s, _)| s.clone()).zip(values))).boxed()
+    let values: Vec<SBoxedStrategy<Exact>> = names.iter().map(|(_, d)| value(*d)).collect();
+    values.prop_map(move |values| Point::new(names.iter().map(|(s, _)| s.clone()).zip(values))).sboxed()
 }
 
 /// Values of a domain.
-pub fn value(domain: Domain) -> BoxedStrategy<Exact> {
+pub fn value(domain: Domain) -> SBoxedStrategy<Exact> {
     match domain {
-        Domain::Positive => (1i64..=24, 1i64..=12).prop_map(|(p, q)| Exact::ratio(p, q)).boxed(),
+        Domain::Positive => (1i64..=24, 1i64..=12).prop_map(|(p, q)| Exact::ratio(p, q)).sboxed(),
         Domain::Nonzero => {
-            (any::<bool>(), 1i64..=24, 1i64..=12).prop_map(|(m, p, q)| Exact::ratio(if m { -p } else { p }, q)).boxed()
+            (any::<bool>(), 1i64..=24, 1i64..=12).prop_map(|(m, p, q)| Exact::ratio(if m { -p } else { p }, q)).sboxed()
         }
-        Domain::Any => (-24i64..=24, 1i64..=12).prop_map(|(p, q)| Exact::ratio(p, q)).boxed(),
-        Domain::Creep => (-9i64..=9, 10i64..=20).prop_map(|(p, q)| Exact::ratio(p, q)).boxed(),
-        Domain::Angle => (-12i64..=12, 1i64..=9).prop_map(|(p, q)| Exact::half_tangent(p, q)).boxed(),
+        Domain::Any => (-24i64..=24, 1i64..=12).prop_map(|(p, q)| Exact::ratio(p, q)).sboxed(),
+        Domain::Creep => (-9i64..=9, 10i64..=20).prop_map(|(p, q)| Exact::ratio(p, q)).sboxed(),
+        Domain::Angle => (-12i64..=12, 1i64..=9).prop_map(|(p, q)| Exact::half_tangent(p, q)).sboxed(),
     }
 }
 

@@ -3,6 +3,7 @@
 use super::{Counterexample, Outcome};
 use proptest::strategy::Strategy;
 use proptest::test_runner::{Config, RngAlgorithm, RngSeed, TestCaseError, TestError, TestRunner};
+use rayon::prelude::*;
 use std::fmt::Debug;
 
 /// How many cases a check tries, and the seed they are made from.
@@ -15,6 +16,9 @@ pub struct Sampling {
     /// Whether a failing case is made as small as it can be.
     pub shrink: bool,
 }
+
+/// Cases of one lot.
+const LOT: u32 = 100;
 
 /// Why a case does not agree with a statement.
 #[derive(Clone, Debug)]
@@ -42,11 +46,34 @@ impl Sampling {
     }
 
     /// Tries a law on generated cases; a case that fails is shrunk and shown.
-    pub fn cases<S: Strategy>(
+    ///
+    /// The cases are made in lots, each from a seed of its own, so that any number of threads finds the same: of the
+    /// lots that do not hold the first one counts.
+    pub fn cases<S: Strategy + Sync>(
         &self,
         values: S,
-        show: impl Fn(&S::Value) -> Vec<(String, String)>,
-        law: impl Fn(&S::Value) -> Verdict,
+        show: impl Fn(&S::Value) -> Vec<(String, String)> + Sync,
+        law: impl Fn(&S::Value) -> Verdict + Sync,
+    ) -> Outcome
+    where
+        S::Value: Debug,
+    {
+        let lots: Vec<Sampling> = (0..self.cases.div_ceil(LOT)).map(|i| self.lot(i)).collect();
+        let outcomes: Vec<Outcome> = lots.par_iter().map(|lot| lot.run(&values, &show, &law)).collect();
+        Outcome::all(outcomes)
+    }
+
+    /// The i-th lot; its seed is far from those of the others.
+    fn lot(&self, i: u32) -> Sampling {
+        let seed = self.seed.wrapping_add(u64::from(i).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        Sampling { cases: LOT.min(self.cases - i * LOT), seed, ..*self }
+    }
+
+    fn run<S: Strategy>(
+        &self,
+        values: &S,
+        show: &impl Fn(&S::Value) -> Vec<(String, String)>,
+        law: &impl Fn(&S::Value) -> Verdict,
     ) -> Outcome
     where
         S::Value: Debug,
@@ -89,7 +116,7 @@ impl Sampling {
 trait RunByReference {
     fn run_one_by_one<S: Strategy>(
         &mut self,
-        values: S,
+        values: &S,
         law: impl Fn(&S::Value) -> Result<(), TestCaseError>,
     ) -> Result<(), TestError<S::Value>>;
 }
@@ -97,9 +124,9 @@ trait RunByReference {
 impl RunByReference for TestRunner {
     fn run_one_by_one<S: Strategy>(
         &mut self,
-        values: S,
+        values: &S,
         law: impl Fn(&S::Value) -> Result<(), TestCaseError>,
     ) -> Result<(), TestError<S::Value>> {
-        self.run(&values, |case| law(&case))
+        self.run(values, |case| law(&case))
     }
 }

@@ -117,9 +117,11 @@ impl Mechanism {
         }
         let rates = self.rates();
         let ideal = Echelon::of(rates.len(), &at.matrix(&self.ideal_rows(), &rates)?);
-        let motion = general(&ideal.null_space(), rates.len());
+        let motions = ideal.null_space();
         let slopes = at.matrix(&self.slopes(), &rates)?;
-        Ok(slopes.iter().map(|slope| !dot(slope, &motion).is_zero()).collect())
+        // A linear form that vanishes on every ideal motion vanishes on a general one, and only then.
+        let acts = |slope: &Vec<BigRational>| motions.iter().any(|motion| !dot(slope, motion).is_zero());
+        Ok(slopes.iter().map(acts).collect())
     }
 
     fn shared_coefficient(&self) -> Option<&Symbol> {
@@ -150,17 +152,6 @@ impl Mechanism {
         let slope = self.slopes().swap_remove(constraint);
         Some(-&(&along(&self.constraints[constraint].ideal_row()) / &along(&slope)))
     }
-}
-
-/// A motion with no special relation between its parts: a basis with factors 1, 1/2, 1/3, …, alternating in sign.
-fn general(basis: &[Vec<BigRational>], width: usize) -> Vec<BigRational> {
-    let mut motion = vec![BigRational::zero(); width];
-    for (k, vector) in basis.iter().enumerate() {
-        let sign = if k % 2 == 0 { 1 } else { -1 };
-        let factor = BigRational::new(sign.into(), (k + 1).into());
-        motion.iter_mut().zip(vector).for_each(|(m, v)| *m += &factor * v);
-    }
-    motion
 }
 
 fn not_determined(unknown: &[Symbol]) -> Error {

@@ -201,6 +201,17 @@ fn integrals_are_found_and_written_with_their_parameters() {
 }
 
 #[test]
+fn a_body_that_turns_about_a_wheel_stays_on_its_circle() {
+    // The wheel at the left is steered out of the line of the axle: it stands still, and the body turns about it.
+    let text =
+        format!("{AXLE}[[wheels]]\nname = \"left\"\nleft = \"b\"\nsteering = \"delta\"\ntraverse_creep = \"e\"\n");
+    let found = of(&steered(&text), 0).nonholonomy(&general().with("b", Exact::ratio(3, 2)), 5).unwrap();
+    let formulas: Vec<String> = found.integrals.iter().map(|i| i.formula.to_string()).collect();
+    assert_eq!(formulas, ["y + b*cos(phi)", "x - b*sin(phi)"]);
+    assert_eq!((found.growth.dimensions.as_slice(), found.counts_agree()), (&[2][..], true));
+}
+
+#[test]
 fn an_integral_with_the_square_of_a_parameter_is_found() {
     // Radii that are products: b^2·theta_1 − b·k·theta_2 − a·phi.
     let text = TWO_WHEEL.replacen("radius = \"r\"", "radius = \"r_1\"", 1);

@@ -258,6 +258,13 @@ fn undefined_is_contagious() {
 }
 
 #[test]
+fn equal_means_every_coefficient() {
+    let layout = layout_of(2);
+    let [x, y] = ["x", "y"].map(|v| Jet::variable(&layout, &v.into(), Exact::ratio(1, 2)));
+    assert!(x.equals(&x) && !x.equals(&y) && !x.equals(&x.add(&x.mul(&x)).sub(&Jet::number(&ratio(1, 4)))));
+}
+
+#[test]
 fn functions_without_a_series_take_constants_only() {
     let x = Jet::variable(&layout_of(2), &"x".into(), Exact::ratio(1, 1));
     let one = Jet::number(&ratio(1, 1));

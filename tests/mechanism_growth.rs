@@ -3,7 +3,7 @@
 mod support;
 
 use creepage::formula::{Exact, Expr, Symbol};
-use creepage::mechanism::{Mechanism, Point};
+use creepage::mechanism::{Constraint, Form, Mechanism, Point, Rolling, Row};
 use support::described::*;
 
 /// A row of the table: coordinates, growth vector, holonomic and nonholonomic constraints.
@@ -201,6 +201,17 @@ fn integrals_are_found_and_written_with_their_parameters() {
 }
 
 #[test]
+fn a_body_that_turns_about_a_wheel_stays_on_its_circle() {
+    // The wheel at the left is steered out of the line of the axle: it stands still, and the body turns about it.
+    let text =
+        format!("{AXLE}[[wheels]]\nname = \"left\"\nleft = \"b\"\nsteering = \"delta\"\ntraverse_creep = \"e\"\n");
+    let found = of(&steered(&text), 0).nonholonomy(&general().with("b", Exact::ratio(3, 2)), 5).unwrap();
+    let formulas: Vec<String> = found.integrals.iter().map(|i| i.formula.to_string()).collect();
+    assert_eq!(formulas, ["y + b*cos(phi)", "x - b*sin(phi)"]);
+    assert_eq!((found.growth.dimensions.as_slice(), found.counts_agree()), (&[2][..], true));
+}
+
+#[test]
 fn an_integral_with_the_square_of_a_parameter_is_found() {
     // Radii that are products: b^2·theta_1 − b·k·theta_2 − a·phi.
     let text = TWO_WHEEL.replacen("radius = \"r\"", "radius = \"r_1\"", 1);
@@ -254,4 +265,53 @@ fn without_the_integral_the_end_is_not_proved() {
     // Brackets are too short to show all: the vector is cut where the search stopped.
     let growth = of(AXLE, 3).growth(&at_angles(&regular(3)), 6, 4).unwrap();
     assert_eq!((growth.dimensions.as_slice(), growth.is_final), (&[2, 3, 4, 5][..], false));
+}
+
+/// A mechanism of rows with given coefficients, such as no vehicle has.
+fn made_of(coordinates: &[&str], rows: &[&[(&str, &str)]]) -> Mechanism {
+    let constraint = |(k, terms): (usize, &&[(&str, &str)])| {
+        let mut pi = Row::default();
+        terms.iter().for_each(|(rate, c)| pi.add(*rate, &Expr::parse(c).unwrap()));
+        let form = Form::R(Rolling { pi, sigma: Expr::int(0), rate: "none'".into() });
+        Constraint { name: format!("row {k}"), form, creep: Symbol::new(&format!("e_{k}")) }
+    };
+    Mechanism {
+        coordinates: coordinates.iter().map(|q| Symbol::from(*q)).collect(),
+        constraints: rows.iter().enumerate().map(constraint).collect(),
+    }
+}
+
+#[test]
+fn the_fields_are_those_the_constraints_leave() {
+    // d[(z + u)(1 + v)] = 0 is integrable; with any sign wrong it is not.
+    let surface = made_of(&["z", "u", "v"], &[&[("z'", "1 + v"), ("u'", "1 + v"), ("v'", "z + u")]]);
+    let at = ["z", "u", "v"].iter().zip(2..).fold(Point::default(), |p, (q, k)| p.with(*q, Exact::ratio(k, 3)));
+    let growth = surface.growth(&at, 3, 5).unwrap();
+    assert_eq!((growth.dimensions.as_slice(), growth.is_final), (&[2][..], false));
+    // Martinet: z' = u^2·v' grows one bracket later on u = 0.
+    let martinet = made_of(&["z", "u", "v"], &[&[("z'", "1"), ("v'", "-u^2")]]);
+    let on = |u: i64| martinet.growth(&at.clone().with("u", Exact::ratio(u, 2)), 3, 5).unwrap().dimensions;
+    assert_eq!((on(0), on(1)), (vec![2, 2, 3], vec![2, 3]));
+}
+
+#[test]
+fn a_rank_that_changes_is_noticed_in_both_ways() {
+    let with = |c: &str| made_of(&["z", "u", "w"], &[&[("z'", "1")], &[("w'", c)]]);
+    let at = |u: Exact| Point::default().with("z", Exact::ratio(1, 1)).with("w", Exact::ratio(1, 1)).with("u", u);
+    // Flat at the point: short series do not see it, other points do.
+    let flat = with("u^6");
+    assert!(flat.growth(&at(Exact::ratio(0, 1)), 3, 2).is_err());
+    assert_eq!(flat.growth(&at(Exact::ratio(1, 2)), 3, 2).unwrap().dimensions, [1]);
+    // Without exact values elsewhere: the series see it.
+    let root = with("sqrt(1 + u^3 + u) - 1");
+    assert!(root.growth(&at(Exact::ratio(0, 1)), 3, 3).is_err());
+}
+
+#[test]
+fn samples_where_the_rank_drops_are_left_out() {
+    // The row vanishes at every whole u that may be drawn.
+    let zeros: Vec<String> = (1..60).map(|k| format!("(u - {k})")).collect();
+    let rows = made_of(&["z", "u"], &[&[("z'", &zeros.join("*"))]]);
+    let found = rows.integrals(&Point::default());
+    assert_eq!(found.iter().map(|i| i.formula.to_string()).collect::<Vec<_>>(), ["z"]);
 }

@@ -123,11 +123,14 @@ fn summary(found: &Nonholonomy) -> (Vec<usize>, usize, usize, usize, usize) {
     (found.growth.dimensions.clone(), found.growth.rank, found.holonomic, found.nonholonomic, found.integrals.len())
 }
 
-fn counts_fit(drawn: &Drawn, met: &std::cell::Cell<usize>) -> Outcome {
+/// How many vehicles had a growth vector, and of how many both counts agreed.
+type Met = (std::cell::Cell<usize>, std::cell::Cell<usize>);
+
+fn counts_fit(drawn: &Drawn, met: &Met) -> Outcome {
     let at = drawn.point(&Exact::ratio(0, 1));
     let mechanism = of(&drawn.text(&drawn.order()), drawn.betas.len());
     let Some(found) = drawn.found(&drawn.order(), &at) else { return Ok(()) };
-    met.set(met.get() + 1);
+    met.0.set(met.0.get() + 1);
     let (n, growth) = (mechanism.coordinates.len(), &found.growth);
     prop_assert_eq!(growth.rank + growth.dimensions[0], n);
     prop_assert_eq!(growth.rank, mechanism.rank(&at).unwrap());
@@ -135,18 +138,22 @@ fn counts_fit(drawn: &Drawn, met: &std::cell::Cell<usize>) -> Outcome {
     prop_assert!(growth.dimensions.len() == growth.degree_of_nonholonomy);
     prop_assert_eq!(found.holonomic + found.nonholonomic, growth.rank);
     prop_assert!(found.integrals.len() <= found.holonomic, "{:?}", found);
-    // A body that can only roll straight pulls its trailers straight: the integral tan(β/2)·exp(s/d) is none of those
-    // looked for, and Frobenius decides alone.
-    prop_assert!(found.counts_agree() || growth.dimensions == [1], "{} {:?}", drawn.text(&drawn.order()), found);
-    prop_assert!(growth.is_final);
+    // What a body drags behind may have integrals that are none of those looked for: of a trailer of a body that can
+    // only roll straight, tan(β/2)·exp(s/d). Then one count is short, and says so.
+    let drags = !drawn.betas.is_empty() || drawn.wheels.iter().any(|w| matches!(w.mount, Mount::Castor(_)));
+    let agree = found.counts_agree();
+    prop_assert!(agree || drags, "{} {:?}", drawn.text(&drawn.order()), found);
+    prop_assert_eq!(growth.is_final, agree || growth.dimensions[0] < 2);
+    met.1.set(met.1.get() + usize::from(agree));
     Ok(())
 }
 
 #[test]
 fn the_counts_of_generated_vehicles_fit_together() {
-    let met = std::cell::Cell::new(0);
+    let met = Met::default();
     check(150, vehicles(), |drawn| counts_fit(&drawn, &met));
-    assert!(met.get() > 100, "{}", met.get());
+    let (met, agreed) = (met.0.get(), met.1.get());
+    assert!(met > 130 && agreed > 100, "{met} {agreed}");
 }
 
 #[test]

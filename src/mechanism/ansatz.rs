@@ -6,16 +6,16 @@ use super::samples::Samples;
 use crate::formula::{Exact, Expr, Fun, Scalar, Symbol};
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{Signed, Zero};
+use num_traits::{One, Signed, Zero};
 
-/// A product of parameters, a coordinate, and the cosine or sine of a coordinate that is constant.
+/// A product of parameters, a coordinate, and the cosine or sine of an angle; of the last two one may be missing.
 #[derive(Clone)]
 pub(super) struct Term {
     /// Parameters with repetition.
     pub parameters: Vec<Symbol>,
     /// The place of the coordinate.
-    pub coordinate: usize,
-    /// cos or sin of another coordinate.
+    pub coordinate: Option<usize>,
+    /// cos or sin of the coordinate at a place, another one.
     pub factor: Option<(Fun, usize)>,
 }
 
@@ -53,7 +53,12 @@ impl Sample {
 impl Term {
     /// A coordinate by itself.
     pub(super) fn plain(coordinate: usize) -> Self {
-        Self { parameters: Vec::new(), coordinate, factor: None }
+        Self { parameters: Vec::new(), coordinate: Some(coordinate), factor: None }
+    }
+
+    /// The cosine or sine of a coordinate by itself.
+    pub(super) fn circular(f: Fun, angle: usize) -> Self {
+        Self { parameters: Vec::new(), coordinate: None, factor: Some((f, angle)) }
     }
 
     /// The term times parameters.
@@ -63,25 +68,28 @@ impl Term {
 
     /// The term as a formula.
     pub(super) fn expr(&self, coordinates: &[Symbol]) -> Expr {
-        let product = self.parameters.iter().map(|p| Expr::sym(p.clone())).reduce(|a, b| &a * &b);
-        let q = Expr::sym(coordinates[self.coordinate].clone());
-        let product = product.map_or(q.clone(), |p| &p * &q);
-        match self.factor {
-            None => product,
-            Some((f, w)) => &product * &Expr::call(f, &Expr::sym(coordinates[w].clone())),
-        }
+        let symbol = |q: usize| Expr::sym(coordinates[q].clone());
+        let circular = self.factor.map(|(f, w)| Expr::call(f, &symbol(w)));
+        let factors = self.parameters.iter().map(|p| Expr::sym(p.clone()));
+        let factors = factors.chain(self.coordinate.map(symbol)).chain(circular);
+        factors.reduce(|a, b| &a * &b).unwrap_or_else(|| Expr::int(1))
     }
 
     /// Its derivatives with respect to the coordinates; `None` where one is not exact.
     pub(super) fn gradient(&self, at: &Sample) -> Option<Vec<BigRational>> {
         let scale = self.parameters.iter().map(|p| at.point.value(p).as_rational().cloned());
         let scale = scale.product::<Option<BigRational>>()?;
+        let (value, slope) = match self.factor {
+            None => (BigRational::one(), BigRational::zero()),
+            Some((f, w)) => circular(f, &at.directions[w])?,
+        };
         let mut slopes = vec![BigRational::zero(); at.numbers.len()];
-        slopes[self.coordinate] = scale.clone();
-        if let Some((f, w)) = self.factor {
-            let (value, slope) = circular(f, &at.directions[w])?;
-            slopes[self.coordinate] = &scale * value;
-            slopes[w] += scale * slope * &at.numbers[self.coordinate];
+        if let Some(q) = self.coordinate {
+            slopes[q] = &scale * value;
+        }
+        if let Some((_, w)) = self.factor {
+            let number = self.coordinate.map_or_else(BigRational::one, |q| at.numbers[q].clone());
+            slopes[w] += scale * slope * number;
         }
         Some(slopes)
     }

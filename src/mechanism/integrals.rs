@@ -23,8 +23,9 @@ impl Mechanism {
     /// | step | functions tried |
     /// |---|---|
     /// | 1 | Σ c·q, the factors c rational |
-    /// | 2 | with angles w that step 1 found constant: Σ c·q, c·q·cos w, c·q·sin w |
-    /// | 3 | for each one found: its factors as products of at most two parameters, so that it holds for all values |
+    /// | 2 | Σ c·q, c·cos w, c·sin w with the angles w |
+    /// | 3 | with angles w found constant: Σ c·q, c·q·cos w, c·q·sin w |
+    /// | then | each one found again, its factors sums of products of at most two parameters, for all their values |
     ///
     /// Factors come from exact linear algebra at random rational points. Each integral is then proved: dh is a
     /// combination of the rows for all configurations. Constraints without exact values at random points (a root of
@@ -46,16 +47,8 @@ impl Mechanism {
         let mut search = Search::new(self, at);
         let plain: Vec<Term> = search.order.iter().map(|q| Term::plain(*q)).collect();
         search.round(&plain);
-        let constant = search.constant_coordinates();
-        let turning: Vec<usize> = constant.iter().copied().filter(|w| search.is_angle(*w)).collect();
-        if !turning.is_empty() && search.found.len() < search.rank {
-            // What is constant gives nothing new as a factor of itself.
-            let moving: Vec<Term> = plain.into_iter().filter(|t| !constant.contains(&t.coordinate)).collect();
-            let factors = turning.iter().flat_map(|w| [(Fun::Cos, *w), (Fun::Sin, *w)]).map(Some);
-            let factors: Vec<_> = std::iter::once(None).chain(factors).collect();
-            let products = |t: &Term| factors.iter().map(|f| Term { factor: *f, ..t.clone() }).collect::<Vec<_>>();
-            search.round(&moving.iter().flat_map(products).collect::<Vec<_>>());
-        }
+        search.round_with_circular(&plain);
+        search.round_with_products(&plain);
         search.found.into_iter().map(|(integral, _)| integral).collect()
     }
 }
@@ -154,6 +147,30 @@ impl<'a> Search<'a> {
         })
     }
 
+    /// Looks for integrals with cosines and sines of angles.
+    fn round_with_circular(&mut self, plain: &[Term]) {
+        if self.found.len() < self.rank {
+            let angles: Vec<usize> = self.order.iter().copied().filter(|w| self.is_angle(*w)).collect();
+            let circular = angles.iter().flat_map(|w| [Fun::Cos, Fun::Sin].map(|f| Term::circular(f, *w)));
+            self.round(&plain.iter().cloned().chain(circular).collect::<Vec<_>>());
+        }
+    }
+
+    /// Looks for integrals with products of coordinates and cosines or sines of constant angles.
+    fn round_with_products(&mut self, plain: &[Term]) {
+        let constant = self.constant_coordinates();
+        let turning: Vec<usize> = constant.iter().copied().filter(|w| self.is_angle(*w)).collect();
+        if turning.is_empty() || self.found.len() >= self.rank {
+            return;
+        }
+        // What is constant gives nothing new as a factor of itself.
+        let moving = plain.iter().filter(|t| t.coordinate.is_some_and(|q| !constant.contains(&q)));
+        let factors = turning.iter().flat_map(|w| [(Fun::Cos, *w), (Fun::Sin, *w)]).map(Some);
+        let factors: Vec<_> = std::iter::once(None).chain(factors).collect();
+        let products = |t: &Term| factors.iter().map(|f| Term { factor: *f, ..t.clone() }).collect::<Vec<_>>();
+        self.round(&moving.flat_map(products).collect::<Vec<_>>());
+    }
+
     /// The places among the rows of those the candidate follows from.
     fn rows_for(&self, candidate: &Combination, samples: &[Sample]) -> Option<Vec<usize>> {
         let values = |at: &Sample| {
@@ -211,7 +228,7 @@ impl<'a> Search<'a> {
     /// Coordinates that are integrals by themselves.
     fn constant_coordinates(&self) -> Vec<usize> {
         let single = |c: &Combination| match c.parts.as_slice() {
-            [(_, term)] if term.factor.is_none() => Some(term.coordinate),
+            [(_, term)] if term.factor.is_none() => term.coordinate,
             _ => None,
         };
         self.found.iter().filter_map(|(_, c)| single(c)).collect()

@@ -79,3 +79,48 @@ pub(super) fn written(value: &Exact) -> Option<Expr> {
     let half = Exact::rational(sin).div(&Exact::rational(BigRational::one() + cos));
     Some(&Expr::int(2) * &Expr::call(Fun::Atan, &Expr::number(half.as_rational()?)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Point, samples::Samples};
+    use super::*;
+
+    /// x' = cos(phi)·v', y' = sin(phi)·v' and a fixed phi.
+    fn straight() -> (Vec<Row>, Vec<Symbol>, Sample) {
+        let row = |terms: &[(&str, &str)]| {
+            let mut row = Row::default();
+            terms.iter().for_each(|(rate, c)| row.add(*rate, &Expr::parse(c).unwrap()));
+            row
+        };
+        let along = row(&[("x'", "cos(phi)"), ("y'", "sin(phi)"), ("v'", "-1")]);
+        let rows = vec![along, row(&[("x'", "-sin(phi)"), ("y'", "cos(phi)")]), row(&[("phi'", "1")])];
+        let coordinates: Vec<Symbol> = ["x", "y", "v", "phi"].map(Symbol::from).to_vec();
+        let mut samples = Samples::of(rows.iter().flat_map(|r| r.terms()).map(|(_, c)| c));
+        let point = samples.point(&coordinates, &Point::default());
+        let sample = Sample::at(point, &coordinates, Vec::new(), &mut samples);
+        (rows, coordinates, sample)
+    }
+
+    #[test]
+    fn a_function_follows_from_the_rows_or_it_does_not() {
+        let (rows, coordinates, sample) = straight();
+        let samples = [sample];
+        let follows = |h: &str, rows: &[Row]| follows(&Expr::parse(h).unwrap(), rows, &coordinates, &samples);
+        for h in ["x - v*cos(phi)", "x*sin(phi) - y*cos(phi)", "x*cos(phi) + y*sin(phi) - v", "phi"] {
+            assert!(follows(h, &rows), "{h}");
+        }
+        for h in ["x", "v", "x + v*cos(phi)", "x*sin(phi) + y*cos(phi)"] {
+            assert!(!follows(h, &rows), "{h}");
+        }
+        assert!(!follows("x*sin(phi) - y*cos(phi)", &rows[..2]));
+    }
+
+    #[test]
+    fn an_angle_is_written_by_its_half() {
+        let text = |value: &Exact| written(value).map(|e| e.to_string());
+        assert_eq!(text(&Exact::ratio(3, 4)).as_deref(), Some("0.75"));
+        assert_eq!(text(&Exact::direction(3.into(), 4.into())).as_deref(), Some("2*atan(0.5)"));
+        assert_eq!(text(&Exact::half_tangent(1, 0)), None);
+        assert_eq!(text(&Exact::direction(1.into(), 2.into())), None);
+    }
+}

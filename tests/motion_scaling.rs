@@ -17,7 +17,8 @@ fn vehicle(kind: usize, creeps: &[f64], size: f64) -> Model {
         _ => &[("wheel_radius", 0.3), ("wheelbase", 1.6)],
     };
     let scaled: Vec<(&str, f64)> = lengths.iter().map(|(name, v)| (*name, size * v)).collect();
-    let trailers = [(1.2, 0.3), (0.8, -0.1)].map(|(length, hitch)| Trailer { length: size * length, hitch: size * hitch });
+    let trailers =
+        [(1.2, 0.3), (0.8, -0.1)].map(|(length, hitch)| Trailer { length: size * length, hitch: size * hitch });
     let model = Model::new(["unicycle", "differential-drive", "car"][kind], &scaled).unwrap().with_trailers(&trailers);
     let with = |m: Model, id: &str, trailer, e: f64| {
         m.with_effect(Applied::new(effects::named(id).unwrap(), trailer, vec![e]))

@@ -1,5 +1,7 @@
 //! The claims of the paper, section by section.
 
+mod blade;
+mod direction;
 mod domain;
 mod finite;
 mod ideal_limit;
@@ -29,6 +31,7 @@ pub fn all() -> Vec<Claim> {
         introduction::claims(),
         rotation::claims(),
         traverse::claims(),
+        direction::claims(),
         regimes::claims(),
         wheel::claims(),
         simulation::claims(),

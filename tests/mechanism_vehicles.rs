@@ -131,6 +131,8 @@ fn a_synchro_drive_goes_where_its_wheels_point_sideways_too() {
         Ok(())
     });
     let model = vehicle("synchro-drive", &[0.1, 0.5, 0.6]);
+    let d = model.definitions().unwrap();
+    assert!(["v_l", "v_t", "v_d", "v_n"].iter().all(|v| d.get(&Symbol::new(v)).unwrap().is_total()));
     let found: Vec<&str> = model.applicable(effects::all()).into_iter().map(|(e, _)| e.id.as_str()).collect();
     let wheels = ["rotation-creep", "wheel-radius", "traverse-creep", "steering-gain", "steering-offset"];
     let rest = ["input-delay", "heading-misalignment", "lever-arm", "drift"];
@@ -144,7 +146,11 @@ fn a_castor_follows_and_does_not_steer() {
         let parameters = [("wheel_radius", 0.1), ("track_width", 0.4)];
         let castor = [("castor_offset", -0.3), ("castor_trail", 0.05), ("castor_wheel_radius", 0.03)];
         let inputs = [("wheel_rate_left", left), ("wheel_rate_right", right), ("phi", phi), ("gamma", gamma)];
-        let creeps = [effect("unequal-rotation-creep", None, &[e, 0.1]), effect("traverse-creep", None, &[-e])];
+        let creeps = [
+            effect("unequal-rotation-creep", None, &[e, 0.1]),
+            effect("traverse-creep", None, &[-e]),
+            effect("side-slope", None, &[1.0, 0.2]),
+        ];
         let [bare, with] = [
             ("differential-drive", parameters.to_vec()),
             ("differential-drive-castor", [&parameters[..], &castor].concat()),
@@ -229,7 +235,13 @@ fn rows_that_are_left_over_must_follow_from_the_others() {
         model.definitions()
     };
     assert!(with_rate("theta' - h*phi'/(r*(1 - e_rc))").is_ok());
-    for wrong in ["theta' + h*phi'/(r*(1 - e_rc))", "theta' - h*phi'/r", "theta'", "wheel_rate_2"] {
+    for wrong in [
+        "theta' + h*phi'/(r*(1 - e_rc))",
+        "theta' - 1.000001*h*phi'/(r*(1 - e_rc))",
+        "theta' - h*phi'/r",
+        "theta'",
+        "wheel_rate_2",
+    ] {
         let error = with_rate(wrong).unwrap_err();
         assert!(error.to_string().contains("the constraints of unicycle contradict each other"), "{wrong}: {error}");
     }

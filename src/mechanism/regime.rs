@@ -20,9 +20,10 @@ pub use traverse::{Side, TraverseMotion, TraverseRegime};
 ///
 /// A quotient too small for its type keeps its sign: only a numerator of zero is ideal.
 fn coefficient(numerator: f64, denominator: f64) -> Option<f64> {
-    if denominator == 0.0 || !numerator.is_finite() || !denominator.is_finite() {
+    if !numerator.is_finite() || !denominator.is_finite() {
         return None;
     }
+    // A denominator of zero makes this infinite or no number at all.
     let e = numerator / denominator;
     let lost = e == 0.0 && numerator != 0.0;
     Some(if lost { f64::from_bits(1).copysign(e) } else { e }).filter(|e| e.is_finite())

@@ -2,7 +2,7 @@
 
 use super::blade::{formula, on_row, on_sleigh, row};
 use super::domain::defined_everywhere;
-use crate::claims::{Claim, Machine, Outcome, Sampling, Statement, Status, prove};
+use crate::claims::{Claim, Machine, Status, prove};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Row, solve};
 

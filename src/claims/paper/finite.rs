@@ -1,9 +1,69 @@
 //! Finite motions and their limits, (5)–(7) and (15)–(16), on simulated runs of the single wheel.
 
+use super::domain::undefined_exactly_where;
 use crate::claims::driven::{Creep, driven, model, undefined};
-use crate::claims::{Fault, Outcome, Sampling, Statement, Verdict, near, value_said};
+use crate::claims::{Claim, Fault, Machine, Outcome, Sampling, Statement, Status, Verdict, near, proving, value_said};
 use crate::error::Result;
 use proptest::prelude::*;
+
+const CHAPTER: &str = "02-rotation-creep";
+
+pub(super) fn claims() -> Vec<Claim> {
+    vec![
+        Claim::new("eq-5", Status::Sampled, "the angle of rotation creep θ_rc = θ − θ₁ with d = r·θ₁")
+            .at("section 2, (5)–(6), the rotational pair (d, θ)")
+            .about(&[5, 6])
+            .under("constant e_rc; any wheel rate")
+            .chapter(CHAPTER)
+            .code(&["src/motion/trajectory.rs"])
+            .tests(&["tests/motion_kinematics.rs"])
+            .sample(
+                "displacements of simulated disks: (d, θ) is proportional, a rotational pair",
+                &[("d", "r*theta*(1 - e_rc)"), ("theta_rc", "theta*e_rc")],
+                rotational_pair,
+            ),
+        Claim::new("eq-7", Status::Sampled, "e_rc is the limit of θ_rc/θ for θ → 0, also when it changes on the way")
+            .at("section 2, (7)")
+            .about(&[7])
+            .under("the disk turns: ω ≠ 0")
+            .chapter(CHAPTER)
+            .code(&["src/motion/trajectory.rs"])
+            .tests(&["tests/motion_sensitivity.rs"])
+            .sample(
+                "finite motions of disks driven through a viscous contact, in ever shorter times: the quotient tends \
+                 to the coefficient with the first power of the time",
+                &[("limit", "1 - v_l/(r*omega)"), ("order", "1")],
+                rotation_limit,
+            ),
+        from_rest(),
+    ]
+}
+
+/// Constant accelerations from rest: v_l = a·t and ω = g·t.
+fn from_rest() -> Claim {
+    let rest = Machine::default().with_text("d", "a*t^2/2").with_text("theta", "g*t^2/2");
+    Claim::new("start-from-rest", Status::Corrected, "the definitions (7) and (8) are equivalent")
+        .at("section 2, (7)–(8); also (16)–(17)")
+        .about(&[7, 8, 16, 17])
+        .under("ω ≠ 0, resp. v_l ≠ 0; then they are")
+        .remark(
+            "At a start from rest the limits exist, 1 − a/(r·g) for accelerations a of the disk and g of its rolling, \
+             while the quotients of velocities are 0/0. This is not among the errata of THEORY.md.",
+        )
+        .chapter(CHAPTER)
+        .code(&["src/mechanism/regime/rotation.rs"])
+        .refutation(
+            "the quotient is there whenever the limit is, that is for r·g ≠ 0",
+            &[("1 - a*t/(r*g*t)", "r*g")],
+            &[("1 - a*t/(r*g*t)", "r*g*t")],
+            |s, _| undefined_exactly_where(s),
+        )
+        .proof(
+            "θ_rc/θ is the same for all t, and so is its limit",
+            &[("(theta - d/r)/theta", "1 - a/(r*g)")],
+            proving(rest),
+        )
+}
 
 /// A case: radius, creep, constants of the drive, duration.
 type Case = (f64, f64, Vec<f64>, f64);

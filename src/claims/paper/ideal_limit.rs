@@ -34,7 +34,7 @@ fn base(id: &str, status: Status, says: &str) -> Claim {
 }
 
 fn one_wheel() -> Claim {
-    base("ideal-limit-wheel", Status::Proved, "the wheel is off by exactly |κ − 1| of the way: e_rc² + (1 − e_rc)²·e_tc² squared, −e_rc + i·e_tc to first order")
+    base("ideal-limit-wheel", Status::Proved, "the wheel is off by exactly |κ − 1| of its ideal distance from the start: e_rc² + (1 − e_rc)²·e_tc² squared, −e_rc + i·e_tc to first order")
         .under("constant coefficients; any inputs, any time")
         .proof(
             "size and first order of κ − 1",

@@ -26,7 +26,7 @@ fn on_disk(s: &Statement, _: &Sampling) -> Outcome {
 }
 
 pub(super) fn claims() -> Vec<Claim> {
-    [kinematics(), finite_displacements(), other_coefficients(), friction(), generic_form()].concat()
+    [kinematics(), finite::claims(), other_coefficients(), friction(), generic_form()].concat()
 }
 
 fn kinematics() -> Vec<Claim> {
@@ -102,36 +102,6 @@ fn kinematics() -> Vec<Claim> {
                 &[("1 - v_l/(r*omega)", "omega")],
                 &[("1 - v_l/(r*omega)", "v_l*omega*r")],
             ]),
-    ]
-}
-
-fn finite_displacements() -> Vec<Claim> {
-    vec![
-        Claim::new("eq-5", Status::Sampled, "the angle of rotation creep θ_rc = θ − θ₁ with d = r·θ₁")
-            .at("section 2, (5)–(6), the rotational pair (d, θ)")
-            .about(&[5, 6])
-            .under("constant e_rc; any wheel rate")
-            .chapter(CHAPTER)
-            .code(&["src/motion/trajectory.rs"])
-            .tests(&["tests/motion_kinematics.rs"])
-            .sample(
-                "displacements of simulated disks: (d, θ) is proportional, a rotational pair",
-                &[("d", "r*theta*(1 - e_rc)"), ("theta_rc", "theta*e_rc")],
-                finite::rotational_pair,
-            ),
-        Claim::new("eq-7", Status::Sampled, "e_rc is the limit of θ_rc/θ for θ → 0, also when it changes on the way")
-            .at("section 2, (7)")
-            .about(&[7])
-            .under("the disk turns: ω ≠ 0")
-            .chapter(CHAPTER)
-            .code(&["src/motion/trajectory.rs"])
-            .tests(&["tests/motion_sensitivity.rs"])
-            .sample(
-                "finite motions of disks driven through a viscous contact, in ever shorter times: the quotient tends \
-                 to the coefficient with the first power of the time",
-                &[("limit", "1 - v_l/(r*omega)"), ("order", "1")],
-                finite::rotation_limit,
-            ),
     ]
 }
 

@@ -12,7 +12,7 @@ const CHAPTER: &str = "08-simulation";
 const CONSERVATIVE: &str = "src/motion/conservative.rs";
 
 pub(super) fn claims() -> Vec<Claim> {
-    vec![figure(), energy_rule(), constant_energy(), traverse_first()]
+    vec![figure(), data(), energy_rule(), constant_energy(), traverse_first()]
 }
 
 fn figure() -> Claim {
@@ -47,6 +47,27 @@ fn figure() -> Claim {
             })
         },
     )
+}
+
+/// No rigid wheel has a larger moment about its axis than one with all its mass on the rim.
+fn data() -> Claim {
+    let wheel = [("m", "1"), ("r", "1/2"), ("J", "1")];
+    let margin = wheel.iter().fold(Machine::default(), |m, (name, v)| m.with_text(name, v));
+    let check = move |s: &Statement, sampling: &Sampling| at_points(&margin, s, &[("any", Domain::Any)], sampling);
+    Claim::new(
+        "fig-7-data",
+        Status::Refuted,
+        "the data of Fig. 7 are those of a wheel of mass 1 kg and radius 0.5 m with J = 1 kg·m²",
+    )
+    .at("section 4, simulation")
+    .under("all mass within the radius: J ≤ m·r²")
+    .remark(
+        "J would be four times that of a ring of this mass and radius. The kinematics is not affected, the energy \
+             rule takes J as a number. This is not among the errata of THEORY.md.",
+    )
+    .chapter(CHAPTER)
+    .code(&[CONSERVATIVE])
+    .refutation("J ≤ m·r²", &[("sign(m*r^2 - J)", "1")], &[("sign(m*r^2 - J)", "-1")], check)
 }
 
 fn creeps((e_rc, e_tc): &(f64, f64)) -> Vec<(String, String)> {

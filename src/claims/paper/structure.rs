@@ -236,6 +236,15 @@ fn skid_steer(found: &Found) -> Claim {
             ],
             check(found),
         )
+        .proof(
+            "steered wheels kept parallel allow no motion at all but steering",
+            &[
+                ("parallel_steering.coordinates", "4"),
+                ("parallel_steering.rank", "3"),
+                ("parallel_steering.holonomic", "3"),
+            ],
+            check(found),
+        )
 }
 
 fn table(found: &Found) -> Claim {

@@ -84,8 +84,9 @@ fn recursion() -> Vec<Claim> {
                 ],
                 proving(on_axle(2)),
             ),
-        base("trailers-in-courses", "in courses χ_i = θ_i + arctan e_i a creeping train is an ideal one with lengths d_i·cos α_i", PLACE)
+        base("trailers-in-courses", "in courses χ_i = θ_i + arctan e_i a creeping trailer turns as an ideal one of length d_i·cos α_i", PLACE)
             .under("c_i = 0, e_i = tan α_i")
+            .remark("The speed passed on is V_(i−1)·cos(χ_(i−1) − θ_i)/cos α_i and not that of an ideal train: for several trailers the hitches move sideways by d_i·sin α_i as well.")
             .proof(
                 "turning of the course, speed along it",
                 &[

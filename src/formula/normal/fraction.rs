@@ -131,7 +131,7 @@ impl Fraction {
         for (atom, l) in shared.powers() {
             self.absorb(&Arc::new(Poly::monomial(Monomial::of(atom.clone()))), k.checked_mul(l.to_i32()?)?)?;
         }
-        if rest == Poly::whole(BigInt::one()) { Some(()) } else { self.absorb(&Arc::new(rest), k) }
+        if rest == Poly::one() { Some(()) } else { self.absorb(&Arc::new(rest), k) }
     }
 
     /// Multiplies by a power of a polynomial of the kind that is kept, and cancels what is seen to cancel.
@@ -209,7 +209,7 @@ fn shared(a: &Factors, b: &Factors) -> Factors {
 
 /// The product of what is left when the shared powers are taken out.
 fn expanded(factors: &Factors, shared: &Factors) -> Option<Poly> {
-    let mut product = Poly::whole(BigInt::one());
+    let mut product = Poly::one();
     for p in factors.keys().chain(shared.keys().filter(|p| !factors.contains_key(*p))) {
         let power = |of: &Factors| of.get(p).copied().unwrap_or(0);
         let left = power(factors).checked_sub(power(shared))?.to_u32()?;

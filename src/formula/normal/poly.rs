@@ -26,11 +26,9 @@ pub(in crate::formula) struct Poly {
 }
 
 impl Poly {
-    /// A whole number.
-    pub fn whole(v: BigInt) -> Self {
-        let mut p = Self::default();
-        p.add_term(Monomial::default(), v);
-        p
+    /// The number one.
+    pub fn one() -> Self {
+        Self::monomial(Monomial::default())
     }
 
     /// A single monomial.
@@ -67,10 +65,10 @@ impl Poly {
         self.lead().map_or(0, |(m, _)| m.degree())
     }
 
+    /// Adds v·m with a v that is not zero.
     fn add_term(&mut self, m: Monomial, v: BigInt) {
         match self.terms.entry(m) {
-            Entry::Vacant(place) if !v.is_zero() => drop(place.insert(v)),
-            Entry::Vacant(_) => {}
+            Entry::Vacant(place) => drop(place.insert(v)),
             Entry::Occupied(mut place) => {
                 *place.get_mut() += v;
                 if place.get().is_zero() {
@@ -105,7 +103,7 @@ impl Poly {
         small.then_some(self)
     }
 
-    /// v·self + w·other
+    /// v·self + w·other with v and w that are not zero.
     pub fn combined(&self, v: &BigInt, w: &BigInt, other: &Self) -> Option<Self> {
         let mut sum = self.clone();
         sum.terms.values_mut().for_each(|x| *x *= v);
@@ -127,7 +125,7 @@ impl Poly {
     /// selfⁿ by repeated squaring.
     pub fn power(&self, n: u32) -> Option<Self> {
         match n {
-            0 => Some(Self::whole(BigInt::one())),
+            0 => Some(Self::one()),
             1 => Some(self.clone()),
             _ => {
                 let half = self.power(n / 2)?;

@@ -133,8 +133,7 @@ mod tests {
 
     #[test]
     fn many_pieces_and_many_points_stay_within_the_bound() {
-        let noisy: Vec<_> =
-            (0..200_000u32).map(|i| [f64::from(i * 7919 % 500), f64::from(i * 104_729 % 400)]).collect();
+        let noisy: Vec<_> = (0..200_000u64).map(|i| [(i * 7919 % 500) as f64, (i * 104_729 % 400) as f64]).collect();
         assert!(paths(&[noisy], 1000)[0].len() <= 1000);
         let pieces = vec![vec![[0.0, 0.0], [5.0, 5.0]]; 50_000];
         assert!(paths(&pieces, 1000).len() <= 1000);

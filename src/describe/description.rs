@@ -1,6 +1,6 @@
 //! Everything that follows from a model.
 
-use super::{ConstraintEntry, CreepLimits, Signature, Symbols};
+use super::{ConstraintEntry, CreepLimits, Signature, Structure, Symbols};
 use crate::effects::Applied;
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
@@ -25,8 +25,10 @@ pub struct Description {
     pub constraints: Vec<ConstraintEntry>,
     /// A(q) with A(q)·q̇ = 0: a row for each constraint, a column for each coordinate.
     pub pfaffian: Vec<Vec<Expr>>,
-    /// Number of coefficients by form.
+    /// Number of constraints by form; the signature by ranks is part of the structure.
     pub signature: Signature,
+    /// The holonomic and nonholonomic part, and the signature by ranks.
+    pub structure: Structure,
     /// Why there are no equations of motion, where the constraints do not determine it.
     pub undetermined: Option<Error>,
     /// The equations of motion, each using only earlier ones, states and inputs; where the constraints do not
@@ -84,6 +86,7 @@ impl Description {
             trailers: model.trailers.len(),
             pfaffian: constraints.iter().map(entry).collect(),
             signature: Signature::of(&found),
+            structure: Structure::of(model)?,
             undetermined,
             definitions: sorted.map(|(name, f)| Equation { name: name.clone(), formula: f.clone() }).collect(),
             states: model
@@ -145,7 +148,7 @@ impl Description {
     pub fn formulas(&self) -> Vec<Expr> {
         let constraints = self.constraints.iter().flat_map(ConstraintEntry::formulas);
         let equations = self.definitions.iter().chain(&self.states).map(|e| e.formula.clone());
-        constraints.chain(equations).collect()
+        constraints.chain(equations).chain(self.structure.formulas()).collect()
     }
 
     /// Every symbol of the description.

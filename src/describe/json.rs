@@ -1,7 +1,10 @@
 //! A description as JSON: each formula in text and in LaTeX.
 
 use super::constraint::form;
-use super::{ConstraintEntry, Description, EffectInModel, Equation, Signature, SymbolEntry, Symbols};
+use super::{
+    ConstraintEntry, Description, EffectInModel, Equation, Holonomy, Realised, Signature, Structure, SymbolEntry,
+    Symbols,
+};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::Row;
 use serde_json::{Map, Value, json as object};
@@ -22,10 +25,11 @@ pub fn json(d: &Description) -> Value {
             "columns": names(&d.coordinates.iter().map(Symbol::rate).collect::<Vec<_>>()),
             "rows": d.pfaffian.iter().map(|r| r.iter().map(|e| formula(s, e)).collect()).collect::<Vec<Vec<Value>>>(),
         },
-        "signature": {
+        "constraints_by_form": {
             "r": d.signature.r, "t": d.signature.t,
             "text": d.signature.to_string(), "latex": d.signature.latex(), "counts": Signature::COUNTS,
         },
+        "structure": structure(s, &d.structure),
         "undetermined": d.undetermined.as_ref().map(ToString::to_string),
         "definitions": d.definitions.iter().map(|e| equation(s, e, &e.name)).collect::<Vec<_>>(),
         "states": d.states.iter().map(|e| equation(s, e, &e.name.rate())).collect::<Vec<_>>(),
@@ -89,6 +93,41 @@ fn coefficient(c: &ConstraintEntry) -> Option<Value> {
             "value": e.value, "regime": e.regime(), "landmark": e.landmark(), "limits": limits,
             "row_holds": e.row_holds, "words": e.words(),
         })
+    })
+}
+
+fn structure(s: &Symbols, found: &Structure) -> Value {
+    object!({
+        "coordinates": names(&found.coordinates),
+        "open_parameters": names(&found.open),
+        "holonomy": found.holonomy.as_ref().map_or_else(|why| not_computed(why), |h| holonomy(s, h)),
+        "realisation": found.realisation.as_ref().map_or_else(|why| not_computed(why), |r| realised(s, r)),
+    })
+}
+
+fn not_computed(why: &str) -> Value {
+    object!({ "not_computed": why })
+}
+
+fn holonomy(s: &Symbols, h: &Holonomy) -> Value {
+    object!({
+        "rank": h.rank, "holonomic": h.holonomic, "nonholonomic": h.nonholonomic,
+        "growth_vector": h.growth, "degree_of_nonholonomy": h.degree,
+        "integrals": h.integrals.iter().map(|i| formula(s, i)).collect::<Vec<_>>(),
+    })
+}
+
+fn realised(s: &Symbols, r: &Realised) -> Value {
+    let passive = |(e, f): &(Symbol, Option<Expr>)| object!({ "creep": e.as_str(), "formula": f.as_ref().map(|f| formula(s, f)) });
+    object!({
+        "measured": names(&r.measured), "unknown": names(&r.unknown),
+        "signature": {
+            "r": r.signature.r, "t": r.signature.t, "text": r.signature.to_string(), "latex": r.signature.latex(),
+        },
+        "canonical": names(&r.canonical),
+        "other_sets": r.others.iter().map(|set| names(set)).collect::<Vec<_>>(),
+        "other_sets_found": r.other_count, "all_sets_found": r.is_complete,
+        "passive": r.passive.iter().map(passive).collect::<Vec<_>>(),
     })
 }
 

@@ -1,8 +1,9 @@
 //! A description as a LaTeX document.
 
 use super::constraint::form;
+use super::structure::Line;
 use super::{ConstraintEntry, Description, EffectInModel, Signature, Symbols, terms};
-use crate::formula::Expr;
+use crate::formula::{Expr, Symbol};
 use std::fmt::Write;
 
 const HEAD: &str = r"\documentclass[a4paper,10pt]{article}
@@ -24,6 +25,7 @@ pub fn latex(d: &Description) -> String {
     let _ = writeln!(out, "\\section{{Constraints}}\nEvery row times the rates of the coordinates is zero.");
     d.constraints.iter().for_each(|c| constraint(&mut out, &d.symbols, c));
     pfaffian(&mut out, d);
+    structure(&mut out, d);
     motion(&mut out, d);
     if !d.effects.is_empty() {
         let _ = writeln!(out, "\\section{{Effects in the model}}\nIn a change, ``it'' is the definition as it was.");
@@ -37,7 +39,7 @@ fn overview(out: &mut String, d: &Description) {
     let _ = writeln!(out, "\\title{{{}}}\n\\date{{}}\n\\maketitle", plain(&super::text::title(d)));
     let _ = writeln!(out, "{}.\n", plain(&d.title));
     let _ = writeln!(out, "Coordinates: ${}$.\n", names.join(",\\, "));
-    let _ = writeln!(out, "Signature: ${}$ ({}).", d.signature.latex(), plain(Signature::COUNTS));
+    let _ = writeln!(out, "Constraints by form: ${}$ ({}).", d.signature.latex(), plain(Signature::COUNTS));
 }
 
 fn symbols(out: &mut String, d: &Description) {
@@ -89,6 +91,40 @@ fn pfaffian(out: &mut String, d: &Description) {
         for (q, entry) in d.coordinates.iter().zip(row).filter(|(_, e)| !e.is_zero()) {
             display.equation(&format!("A_{{{},{}}}", i + 1, d.symbols.latex_symbol(q)), entry);
         }
+    }
+    display.write(out);
+}
+
+fn structure(out: &mut String, d: &Description) {
+    let _ = writeln!(out, "\\section{{Holonomic and nonholonomic part}}\n{}\n", plain(&d.structure.reading()));
+    lines(out, &d.symbols, &d.structure.holonomy_lines());
+    let _ = writeln!(out, "\\subsection{{RT signature by ranks}}");
+    lines(out, &d.symbols, &d.structure.realisation_lines());
+}
+
+/// Paragraphs, with neighbouring formulas in one display.
+fn lines(out: &mut String, s: &Symbols, lines: &[Line]) {
+    let list = |names: &[Symbol]| names.iter().map(|n| s.latex_symbol(n)).collect::<Vec<_>>().join(",\\, ");
+    let mut display = Display::new(s);
+    for line in lines {
+        if !matches!(line, Line::Formula(..)) {
+            display.write(out);
+            display.lines.clear();
+        }
+        let _ = match line {
+            Line::Words(words) => writeln!(out, "{}\n", plain(words)),
+            Line::Names(label, names) if names.is_empty() => writeln!(out, "{}: none\n", plain(label)),
+            Line::Names(label, names) => writeln!(out, "{}: ${}$\n", plain(label), list(names)),
+            Line::Sets(label, sets) => {
+                let sets: Vec<String> = sets.iter().map(|set| format!(r"$\{{{}\}}$", list(set))).collect();
+                writeln!(out, "{}: {}\n", plain(label), sets.join(", "))
+            }
+            Line::Signature(label, signature) => writeln!(out, "{}: ${}$\n", plain(label), signature.latex()),
+            Line::Formula(name, formula) => {
+                display.equation(&s.latex_symbol(name), formula);
+                Ok(())
+            }
+        };
     }
     display.write(out);
 }

@@ -3,10 +3,10 @@
 use crate::mechanism::{Constraint, Form};
 use std::fmt;
 
-/// Number of creep coefficients by form: R^k T^m.
+/// Numbers of creep coefficients, R^k T^m: of all constraints by form, or of those that realise the motion.
 ///
-/// A count of the constraints in each form, one coefficient each; it says nothing about which of them
-/// could be integrated.
+/// [`Signature::of`] counts the constraints in each form, one coefficient each; it says nothing about which of them
+/// could be integrated. The signature by ranks is that of [`Realised`](super::Realised).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Signature {
     /// k: constraints of type R.
@@ -17,8 +17,8 @@ pub struct Signature {
 
 impl Signature {
     /// What is counted, in words.
-    pub const COUNTS: &str = "constraints by form, one creep coefficient each; which of them could be integrated is \
-                              not part of the count";
+    pub const COUNTS: &str = "a count, one creep coefficient each; the holonomic and nonholonomic part and the RT \
+                              signature by ranks stand below";
 
     /// The count of a list of constraints.
     pub fn of(constraints: &[Constraint]) -> Self {

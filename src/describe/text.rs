@@ -2,7 +2,9 @@
 
 use super::constraint::form;
 use super::page::Page;
+use super::structure::Line;
 use super::{ConstraintEntry, Description, Equation, Signature};
+use crate::formula::Symbol;
 
 /// The description as text that is Markdown too; every formula in it reads back with `Expr::parse`.
 pub fn text(d: &Description) -> String {
@@ -16,6 +18,7 @@ pub fn text(d: &Description) -> String {
     );
     d.constraints.iter().enumerate().for_each(|(i, c)| constraint(&mut page, i + 1, c));
     pfaffian(&mut page, d);
+    structure(&mut page, d);
     motion(&mut page, d);
     effects(&mut page, d);
     page.finished()
@@ -26,7 +29,7 @@ fn overview(page: &mut Page, d: &Description) {
     page.paragraph(&d.title);
     let names: Vec<String> = d.coordinates.iter().map(ToString::to_string).collect();
     page.entry(&format!("coordinates: {}", names.join(", ")));
-    page.entry(&format!("signature: {} ({})", d.signature, Signature::COUNTS));
+    page.entry(&format!("constraints by form: {} ({})", d.signature, Signature::COUNTS));
     let effects: Vec<String> = d.effects.iter().map(|e| e.applied.label()).collect();
     page.entry(&format!("effects: {}", if effects.is_empty() { "none".into() } else { effects.join(", ") }));
 }
@@ -94,6 +97,32 @@ fn pfaffian(page: &mut Page, d: &Description) {
         page.formula(&format!("[{}]", entries.join(", ")));
     }
     page.gap();
+}
+
+fn structure(page: &mut Page, d: &Description) {
+    page.heading(2, "Holonomic and nonholonomic part");
+    page.paragraph(&d.structure.reading());
+    d.structure.holonomy_lines().iter().for_each(|l| line(page, l));
+    page.heading(3, "RT signature by ranks");
+    d.structure.realisation_lines().iter().for_each(|l| line(page, l));
+    page.gap();
+}
+
+fn line(page: &mut Page, line: &Line) {
+    let list = |names: &[Symbol]| match names {
+        [] => "none".to_string(),
+        _ => names.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "),
+    };
+    match line {
+        Line::Words(words) => page.entry(words),
+        Line::Names(label, names) => page.entry(&format!("{label}: {}", list(names))),
+        Line::Sets(label, sets) => {
+            let sets: Vec<String> = sets.iter().map(|s| format!("{{{}}}", list(s))).collect();
+            page.entry(&format!("{label}: {}", sets.join(", ")));
+        }
+        Line::Signature(label, signature) => page.entry(&format!("{label}: {signature}")),
+        Line::Formula(name, formula) => page.formula(&format!("{name} = {formula}")),
+    }
 }
 
 fn motion(page: &mut Page, d: &Description) {

@@ -170,6 +170,10 @@ fn slips_are_one_step_away_and_none_is_the_same_function() {
     // What changes nothing is no sabotage: swapping the parts of a sum of squares, a sign under a square.
     let even = claims::Statement::parse(&[("y", "(-x)^2")]).unwrap();
     assert!(mutants(&even).iter().all(|m| m.statement.to_string() != "y = x^2"), "{:?}", mutants(&even));
+    // Also where no normal form decides: then by values.
+    let beyond = claims::Statement::parse(&[("y", "a*abs(-x)")]).unwrap();
+    let found: Vec<String> = mutants(&beyond).iter().map(|m| m.statement.to_string()).collect();
+    assert!(!found.contains(&"y = a*abs(x)".to_string()) && found.contains(&"y = -a*abs(-x)".to_string()), "{found:?}");
 }
 
 #[test]

@@ -87,6 +87,21 @@ impl Machine {
         self.definitions.get(&name.into())
     }
 
+    /// The formula of a name with everything it rests on written out, so that derivatives of it are total; zero for a
+    /// name without one.
+    pub fn written_out(&self, name: &str) -> Expr {
+        let mut e = self.formula(name).cloned().unwrap_or_default();
+        // Definitions are a few deep; a chain ends when nothing is left to put in.
+        for _ in 0..24 {
+            let next = e.substitute(&|s| self.formula(s.as_str()).cloned());
+            if next == e {
+                break;
+            }
+            e = next;
+        }
+        e
+    }
+
     /// Every value in normal form.
     pub(super) fn normal(&self) -> &BTreeMap<Symbol, Normal> {
         self.normal.get_or_init(|| self.values(&|s| Normal::symbol(s.clone())))

@@ -1,7 +1,7 @@
 //! Exact values for the symbols of a statement: generated, or searched from the simplest on.
 
 use super::Counterexample;
-use crate::formula::{Exact, Expr, Fun, Node, Symbol};
+use crate::formula::{Exact, Expr, Symbol};
 use proptest::prelude::*;
 use proptest::strategy::SBoxedStrategy;
 use std::collections::{BTreeMap, BTreeSet};
@@ -159,7 +159,7 @@ pub fn domains<'a>(formulas: impl IntoIterator<Item = &'a Expr>) -> BTreeMap<Sym
     let (mut all, mut angles) = (BTreeSet::new(), BTreeSet::new());
     for e in formulas {
         all.extend(e.symbols());
-        collect_angles(e, &mut angles);
+        angles.extend(e.angles());
     }
     let domain = |s: &Symbol| if angles.contains(s) { Domain::Angle } else { by_name(s.as_str()) };
     all.into_iter().map(|s| (s.clone(), domain(&s))).collect()
@@ -172,21 +172,5 @@ fn by_name(name: &str) -> Domain {
         "e" => Domain::Creep,
         "r" | "a" | "L" | "d" | "m" | "I" | "J" | "b" => Domain::Positive,
         _ => Domain::Any,
-    }
-}
-
-fn collect_angles(e: &Expr, found: &mut BTreeSet<Symbol>) {
-    match e.node() {
-        Node::Call(Fun::Sin | Fun::Cos | Fun::Tan | Fun::Cot, x) => found.extend(bare(x)),
-        _ => e.children().iter().for_each(|c| collect_angles(c, found)),
-    }
-}
-
-/// The symbols of an argument outside further functions: phi and delta, but not e, in phi + delta + atan(e).
-fn bare(e: &Expr) -> BTreeSet<Symbol> {
-    match e.node() {
-        Node::Sym(s) => [s.clone()].into(),
-        Node::Call(..) => BTreeSet::new(),
-        _ => e.children().iter().flat_map(|c| bare(c)).collect(),
     }
 }

@@ -14,6 +14,7 @@
 //! carrier that equals nothing, itself included ([`Scalar::equals`]). For speed an expression compiles
 //! once to a flat [`Program`] with shared sub-expressions; derivatives are taken on its [`Graph`].
 
+mod angles;
 mod derive;
 mod dual;
 mod exact;

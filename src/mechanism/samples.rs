@@ -1,7 +1,7 @@
 //! Random rational points at which formulas are looked at.
 
 use super::Point;
-use crate::formula::{Exact, Expr, Fun, Node, Symbol};
+use crate::formula::{Exact, Expr, Symbol};
 use num_rational::BigRational;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -16,8 +16,7 @@ pub(super) struct Samples {
 impl Samples {
     /// Values for the symbols of formulas.
     pub(super) fn of<'a>(formulas: impl Iterator<Item = &'a Expr>) -> Self {
-        let mut angles = BTreeSet::new();
-        formulas.for_each(|e| find_angles(e, false, &mut angles));
+        let angles = formulas.flat_map(Expr::angles).collect();
         Self { source: ChaCha8Rng::seed_from_u64(0x6372_6565_7061_6765), angles }
     }
 
@@ -52,24 +51,5 @@ impl Samples {
         let mut point = others.clone();
         symbols.iter().for_each(|s| point.set(s.clone(), self.value(s)));
         point
-    }
-}
-
-/// Collects the symbols of which a formula takes a sine, cosine or tangent, alone or in a sum with whole factors.
-fn find_angles(e: &Expr, in_angle: bool, found: &mut BTreeSet<Symbol>) {
-    match e.node() {
-        Node::Sym(s) if in_angle => {
-            found.insert(s.clone());
-        }
-        Node::Call(f, x) => find_angles(x, matches!(f, Fun::Sin | Fun::Cos | Fun::Tan | Fun::Cot), found),
-        Node::Neg(_) | Node::Add(..) | Node::Sub(..) => {
-            e.children().iter().for_each(|c| find_angles(c, in_angle, found));
-        }
-        Node::Mul(a, b) => {
-            let times = |n: &Expr| in_angle && n.as_number().is_some();
-            find_angles(a, times(b), found);
-            find_angles(b, times(a), found);
-        }
-        _ => e.children().iter().for_each(|c| find_angles(c, false, found)),
     }
 }

@@ -1,6 +1,7 @@
 //! Lists of the claims that need no run: what is claimed, and where each equation of the paper is dealt with.
 
 use super::super::Claim;
+use super::json::claim;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -19,19 +20,7 @@ pub fn claims_text(claims: &[Claim]) -> String {
 
 /// Every claim with its stated status, for scripts.
 pub fn claims_json(claims: &[Claim]) -> Value {
-    let evidence = |c: &Claim| -> Vec<Value> {
-        let statement = |e: &[(String, String)]| e.iter().map(|(l, r)| format!("{l} = {r}")).collect::<Vec<_>>();
-        let one = |e: &super::super::Evidence| json!({ "gives": e.gives.name(), "shows": e.shows, "statement": statement(&e.equations) });
-        c.evidence.iter().map(one).collect()
-    };
-    let entry = |c: &Claim| {
-        json!({
-            "id": c.id, "says": c.says, "place": c.place, "equations": c.equations, "hypotheses": c.hypotheses,
-            "remark": c.remark, "stated": c.stated.name(), "evidence": evidence(c), "code": c.code, "tests": c.tests,
-            "chapter": c.chapter,
-        })
-    };
-    json!({ "schema": 1, "claims": claims.iter().map(entry).collect::<Vec<_>>() })
+    json!({ "schema": 1, "claims": claims.iter().map(claim).collect::<Vec<_>>() })
 }
 
 /// The table of contents: from equation number to claim to test to code.

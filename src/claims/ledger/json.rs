@@ -1,6 +1,6 @@
 //! The ledger for scripts.
 
-use super::super::{Entry, Evidence, Ledger, Outcome, Shown, Status};
+use super::super::{Claim, Entry, Evidence, Ledger, Outcome, Status};
 use serde_json::{Map, Value, json};
 
 /// Every claim with the status it earned, its evidence and the counts.
@@ -19,23 +19,32 @@ pub fn json(ledger: &Ledger) -> Value {
     })
 }
 
-fn entry(e: &Entry) -> Value {
-    let c = &e.claim;
+/// What a claim says, without what it earned.
+pub(super) fn claim(c: &Claim) -> Value {
     json!({
         "id": c.id, "says": c.says, "place": c.place, "equations": c.equations, "hypotheses": c.hypotheses,
-        "remark": c.remark, "stated": c.stated.name(), "earned": e.earned.name(), "is_earned": e.is_earned(),
-        "evidence": c.evidence.iter().zip(&e.shown).map(|(e, s)| evidence(e, s)).collect::<Vec<_>>(),
+        "remark": c.remark, "stated": c.stated.name(), "evidence": c.evidence.iter().map(evidence).collect::<Vec<_>>(),
         "code": c.code, "tests": c.tests, "chapter": c.chapter,
     })
 }
 
-fn evidence(e: &Evidence, s: &Shown) -> Value {
+fn evidence(e: &Evidence) -> Value {
     let statement: Vec<String> = e.equations.iter().map(|(l, r)| format!("{l} = {r}")).collect();
-    json!({
-        "gives": e.gives.name(), "shows": e.shows, "statement": statement, "as_stated": s.as_stated,
-        "outcome": outcome(&s.outcome),
-        "sabotages": { "noticed": s.sabotages - s.survivors.len(), "all": s.sabotages, "survivors": s.survivors },
-    })
+    json!({ "gives": e.gives.name(), "shows": e.shows, "statement": statement })
+}
+
+fn entry(e: &Entry) -> Value {
+    let mut value = claim(&e.claim);
+    value["earned"] = e.earned.name().into();
+    value["is_earned"] = e.is_earned().into();
+    for (i, s) in e.shown.iter().enumerate() {
+        let evidence = &mut value["evidence"][i];
+        evidence["as_stated"] = s.as_stated.into();
+        evidence["outcome"] = outcome(&s.outcome);
+        let noticed = s.sabotages - s.survivors.len();
+        evidence["sabotages"] = json!({ "noticed": noticed, "all": s.sabotages, "survivors": s.survivors });
+    }
+    value
 }
 
 fn outcome(o: &Outcome) -> Value {

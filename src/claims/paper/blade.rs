@@ -5,6 +5,7 @@ use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Direction, Form};
 use crate::model::mechanism;
 use crate::vehicles;
+use std::sync::LazyLock;
 
 /// The sleigh's one constraint, type T.
 fn direction() -> Option<Direction> {
@@ -57,9 +58,11 @@ pub(super) fn row() -> Machine {
 }
 
 pub(super) fn on_row(s: &Statement, _: &Sampling) -> Outcome {
-    prove(&row(), s)
+    static MACHINE: LazyLock<Machine> = LazyLock::new(row);
+    prove(&MACHINE, s)
 }
 
 pub(super) fn on_sleigh(s: &Statement, _: &Sampling) -> Outcome {
-    prove(&sleigh(), s)
+    static MACHINE: LazyLock<Machine> = LazyLock::new(sleigh);
+    prove(&MACHINE, s)
 }

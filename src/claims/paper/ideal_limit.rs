@@ -13,7 +13,7 @@ const CHAPTER: &str = "07-ideal-limit";
 fn kappa() -> Machine {
     let machine = Machine::default().with_text("re", "1 - e_rc").with_text("im", "(1 - e_rc)*e_tc");
     ["re", "im"].into_iter().fold(machine.clone(), |m, part| {
-        let whole = super::single_body::written_out(&machine, part);
+        let whole = machine.written_out(part);
         ["e_rc", "e_tc"].into_iter().fold(m, |m, e| {
             let ideal = |s: &crate::formula::Symbol| s.as_str().starts_with("e_").then(|| crate::formula::Expr::int(0));
             m.with(&format!("{part}_by_{e}"), whole.derivative(&e.into()).substitute(&ideal))

@@ -7,6 +7,7 @@ use crate::formula::Expr;
 use crate::mechanism::Form;
 use crate::model::mechanism;
 use crate::vehicles;
+use std::sync::LazyLock;
 
 const CHAPTER: &str = "02-rotation-creep";
 const FORMS: &str = "src/mechanism/constraint.rs";
@@ -22,7 +23,8 @@ fn disk() -> Machine {
 }
 
 fn on_disk(s: &Statement, _: &Sampling) -> Outcome {
-    prove(&disk(), s)
+    static MACHINE: LazyLock<Machine> = LazyLock::new(disk);
+    prove(&MACHINE, s)
 }
 
 pub(super) fn claims() -> Vec<Claim> {
@@ -112,7 +114,8 @@ fn others() -> Machine {
 }
 
 fn on_others(s: &Statement, _: &Sampling) -> Outcome {
-    prove(&others(), s)
+    static MACHINE: LazyLock<Machine> = LazyLock::new(others);
+    prove(&MACHINE, s)
 }
 
 fn other_coefficients() -> Vec<Claim> {

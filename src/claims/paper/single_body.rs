@@ -5,33 +5,16 @@ use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Heading, Velocity};
 use crate::model::mechanism;
 use crate::vehicles;
+use std::sync::LazyLock;
 
 const CHAPTER: &str = "05-single-body";
 const BUILD: &str = "src/model/build.rs";
 const CONSTRAINTS: &str = "src/model/constraints.rs";
 
-fn zero() -> Expr {
-    Expr::int(0)
-}
-
-/// A machine's formula with everything it rests on written out, so that derivatives by coefficients are total.
-pub(super) fn written_out(machine: &Machine, name: &str) -> Expr {
-    let mut e = machine.formula(name).cloned().unwrap_or_else(zero);
-    // Definitions are a few deep; a chain ends when nothing is left to put in.
-    for _ in 0..24 {
-        let next = e.substitute(&|s| machine.formula(s.as_str()).cloned());
-        if next == e {
-            break;
-        }
-        e = next;
-    }
-    e
-}
-
 /// The determinant of three velocities by three coefficients.
 fn determinant(machine: &Machine, velocities: [&str; 3], coefficients: [&str; 3]) -> Expr {
     let rows = velocities.map(|v| {
-        let v = written_out(machine, v);
+        let v = machine.written_out(v);
         coefficients.map(|e| v.derivative(&Symbol::from(e)))
     });
     let minor = |a: usize, b: usize| &(&rows[1][a] * &rows[2][b]) - &(&rows[1][b] * &rows[2][a]);
@@ -52,7 +35,8 @@ pub(super) fn two_wheels() -> Machine {
 }
 
 fn on_two_wheels(s: &Statement, _: &Sampling) -> Outcome {
-    prove(&two_wheels(), s)
+    static MACHINE: LazyLock<Machine> = LazyLock::new(two_wheels);
+    prove(&MACHINE, s)
 }
 
 /// Half the sum and the difference of the two rolling rows, and the direction row, without creep.
@@ -69,15 +53,16 @@ fn two_wheel_rows() -> Machine {
 }
 
 fn on_rows(s: &Statement, _: &Sampling) -> Outcome {
-    prove(&two_wheel_rows(), s)
+    static MACHINE: LazyLock<Machine> = LazyLock::new(two_wheel_rows);
+    prove(&MACHINE, s)
 }
 
 /// Rear driven and front steered.
 fn car() -> Machine {
     let machine = Machine::of("car");
     let det = determinant(&machine, ["v_l", "v_t", "phi'"], ["e_rc", "e_tc", "e_f"]);
-    let yaw = written_out(&machine, "phi'");
-    let ideal = |e: Expr| e.substitute(&|s| matches!(s.as_str(), "e_rc" | "e_tc" | "e_f").then(zero));
+    let yaw = machine.written_out("phi'");
+    let ideal = |e: Expr| e.substitute(&|s| matches!(s.as_str(), "e_rc" | "e_tc" | "e_f").then(Expr::default));
     let by = |e: &str| ideal(yaw.derivative(&e.into()));
     machine.with("det", det).with("yaw_by_f", by("e_f")).with("yaw_by_r", by("e_tc"))
 }
@@ -278,7 +263,7 @@ fn reference_point() -> Vec<Claim> {
             .proof("the numbers of the remark", &[("right", "3/80"), ("left_wheel", "3/40")], move |s, _| {
                 let at = |b: &str| {
                     let numbers = [("e", "1/20"), ("v_l", "1"), ("phi'", "1/3"), ("h", "0"), ("b", b)];
-                    written_out(&numbers.iter().fold(point(), |m, (name, v)| m.with_text(name, v)), "e_there")
+                    numbers.iter().fold(point(), |m, (name, v)| m.with_text(name, v)).written_out("e_there")
                 };
                 prove(&Machine::default().with("right", at("-1")).with("left_wheel", at("1")), s)
             }),

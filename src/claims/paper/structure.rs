@@ -1,6 +1,6 @@
 //! What is holonomic and what is not: growth vectors, integrals, degrees of nonholonomy, in exact arithmetic.
 
-use crate::claims::{Claim, Machine, Outcome, Statement, Status, proving};
+use crate::claims::{Claim, Machine, Outcome, Sampling, Statement, Status, proving};
 use crate::formula::{Exact, Expr, Node, Scalar, Symbol};
 use crate::mechanism::{Mechanism, Nonholonomy, Point};
 use crate::model::mechanism;
@@ -127,6 +127,12 @@ impl Found {
         })
     }
 
+    /// The check of statements about numbers of examples.
+    fn checking(&self) -> impl Fn(&Statement, &Sampling) -> Outcome + Send + Sync + 'static {
+        let found = self.clone();
+        move |statement, _| found.check(statement)
+    }
+
     /// Compares the numbers of examples with what is said of them.
     fn check(&self, statement: &Statement) -> Outcome {
         Outcome::all(statement.in_question().iter().map(|equation| {
@@ -155,10 +161,6 @@ fn base(id: &str, status: Status, says: &str) -> Claim {
 }
 
 fn counts(found: &Found) -> Claim {
-    let check = |found: &Found| {
-        let found = found.clone();
-        move |s: &Statement, _: &crate::claims::Sampling| found.check(s)
-    };
     base("E19", Status::Corrected, "three-wheeled cars have three holonomic constraints, four-wheeled ones four")
         .at("section 4, first theorem; errata E19")
         .under("ideal constraints; 7 and 8 coordinates as the paper has them; one general configuration each")
@@ -170,7 +172,7 @@ fn counts(found: &Found) -> Claim {
             "the paper's counts",
             &[("differential_drive_castor.holonomic", "3")],
             &[("differential_drive_castor.holonomic", "1")],
-            check(found),
+            found.checking(),
         )
         .proof(
             "brackets bound the count from above, integrals from below",
@@ -187,7 +189,7 @@ fn counts(found: &Found) -> Claim {
                 ("synchro_drive.holonomic", "3"),
                 ("synchro_drive_4.holonomic", "4"),
             ],
-            check(found),
+            found.checking(),
         )
 }
 
@@ -208,10 +210,6 @@ fn integral(found: &Found) -> Claim {
 }
 
 fn skid_steer(found: &Found) -> Claim {
-    let check = |found: &Found| {
-        let found = found.clone();
-        move |s: &Statement, _: &crate::claims::Sampling| found.check(s)
-    };
     base("E20", Status::Corrected, "all wheeled cars have two nonholonomic constraints")
         .at("section 4, first theorem, \"all wheeled cars\"; errata E20")
         .under("four fixed wheels, each with its rolling and its direction")
@@ -223,7 +221,7 @@ fn skid_steer(found: &Found) -> Claim {
             "two nonholonomic constraints",
             &[("skid_steer.nonholonomic", "2")],
             &[("skid_steer.nonholonomic", "0")],
-            check(found),
+            found.checking(),
         )
         .proof(
             "no freedom is left but straight driving",
@@ -234,7 +232,7 @@ fn skid_steer(found: &Found) -> Claim {
                 ("skid_steer.holonomic", "6"),
                 ("skid_steer.nonholonomic", "0"),
             ],
-            check(found),
+            found.checking(),
         )
         .proof(
             "steered wheels kept parallel allow no motion at all but steering",
@@ -243,12 +241,11 @@ fn skid_steer(found: &Found) -> Claim {
                 ("parallel_steering.rank", "3"),
                 ("parallel_steering.holonomic", "3"),
             ],
-            check(found),
+            found.checking(),
         )
 }
 
 fn table(found: &Found) -> Claim {
-    let found = found.clone();
     base("growth-table", Status::Proved, "growth vectors of the vehicles of the paper")
         .at("corrected theorem (b), table")
         .about(&[26, 27, 28])
@@ -272,12 +269,11 @@ fn table(found: &Found) -> Claim {
                 ("car.growth", "2345"),
                 ("car.nonholonomic", "3"),
             ],
-            move |s, _| found.check(s),
+            found.checking(),
         )
 }
 
 fn trains(found: &Found) -> Claim {
-    let found = found.clone();
     base("growth-trailers", Status::Proved, "growth vectors of trains, with and without the angle of a wheel")
         .at("corrected theorem (c), growth")
         .under("hitches on the axles")
@@ -300,12 +296,11 @@ fn trains(found: &Found) -> Claim {
                 ("steered_1.growth", "23456"),
                 ("steered_2.growth", "23457"),
             ],
-            move |s, _| found.check(s),
+            found.checking(),
         )
 }
 
 fn degrees(found: &Found) -> Claim {
-    let found = found.clone();
     base("jean-degree", Status::Proved, "the degree of nonholonomy of a train is N + 2 where no hitch is perpendicular, and Fibonacci's F(N + 3) where all are")
         .at("corrected theorem (c); Jean 1996")
         .under("hitches on the axles; N ≤ 5, and N ≤ 3 with all hitches perpendicular")
@@ -323,6 +318,6 @@ fn degrees(found: &Found) -> Claim {
                 ("perpendicular_2.degree", "5"),
                 ("perpendicular_3.degree", "8"),
             ],
-            move |s, _| found.check(s),
+            found.checking(),
         )
 }

@@ -3,29 +3,20 @@
 use super::domain::defined_everywhere;
 use crate::claims::driven::{TURN, WHEEL, driven, model, undefined};
 use crate::claims::{Claim, Machine, Outcome, Sampling, Statement, Status, near, prove, value_said};
-use crate::formula::Expr;
 use crate::model::mechanism;
 use crate::vehicles;
 use proptest::prelude::*;
+use std::sync::LazyLock;
 
 const CHAPTER: &str = "04-single-wheel";
 const BUILD: &str = "src/model/build.rs";
 
-fn zero() -> Expr {
-    Expr::int(0)
-}
-
 /// The wheel: its motion, its two rows without creep, the determinant of (v_l, v_t) by (e_rc, e_tc).
 pub(super) fn wheel() -> Machine {
     let machine = Machine::of("unicycle");
-    let velocity = |name: &str| -> Expr {
-        // v_l and v_t in terms of the coefficients alone.
-        let written_out = |e: &Expr| e.substitute(&|s| machine.formula(s.as_str()).cloned());
-        machine.formula(name).map_or_else(zero, |e| written_out(&written_out(&written_out(e))))
-    };
-    let by = |name: &str, e: &str| velocity(name).derivative(&e.into());
+    let by = |name: &str, e: &str| machine.written_out(name).derivative(&e.into());
     let det = &(&by("v_l", "e_rc") * &by("v_t", "e_tc")) - &(&by("v_l", "e_tc") * &by("v_t", "e_rc"));
-    let x_rate = machine.formula("x'").map_or_else(zero, |e| e.derivative(&"phi".into()));
+    let x_rate = machine.formula("x'").map(|e| e.derivative(&"phi".into())).unwrap_or_default();
     machine.with("det", det).with("x_by_phi", x_rate)
 }
 
@@ -37,11 +28,13 @@ fn ideal_rows() -> Machine {
 }
 
 fn on_wheel(s: &Statement, _: &Sampling) -> Outcome {
-    prove(&wheel(), s)
+    static MACHINE: LazyLock<Machine> = LazyLock::new(wheel);
+    prove(&MACHINE, s)
 }
 
 fn on_rows(s: &Statement, _: &Sampling) -> Outcome {
-    prove(&ideal_rows(), s)
+    static MACHINE: LazyLock<Machine> = LazyLock::new(ideal_rows);
+    prove(&MACHINE, s)
 }
 
 pub(super) fn claims() -> Vec<Claim> {

@@ -1,35 +1,16 @@
 //! Which effects are missing: candidates ranked by evidence on the fitting data alone.
 
-use super::chain::Variances;
-use super::fit::{Effort, Fit, Problem};
-use super::screen::{self, Promise};
+use super::evidence::tail;
+use super::fit::{Fit, Problem};
+use super::selection::{FINALISTS, FULL, Selection, bic, find, free_effects};
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::Model;
-use rayon::prelude::*;
-use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
+
+pub use super::selection::Scored;
 
 /// A rival whose evidence is this close to the chosen effect's is not told from it.
 const CLOSE: f64 = 6.0;
-/// How many of the best candidates are fitted with their own noise and jumps.
-const FINALISTS: usize = 3;
-/// How many of the most promising candidates are fitted at all.
-const SHORTLIST: usize = 8;
-/// A candidate that promises less than this share of the best one's gain is not fitted.
-const FAINT: f64 = 0.1;
-/// Most effects that are added.
-const MOST: usize = 6;
-
-/// A candidate effect and its evidence beside the effects already chosen.
-#[derive(Clone, Debug)]
-pub struct Scored {
-    /// The effect at its fitted values.
-    pub applied: Applied,
-    /// Standard deviations its values have, to first order.
-    pub std: Vec<f64>,
-    /// BIC without minus BIC with the effect.
-    pub delta_bic: f64,
-}
 
 /// An effect that was chosen.
 #[derive(Clone, Debug)]
@@ -61,10 +42,7 @@ pub struct Choice {
     pub candidates: Vec<Scored>,
 }
 
-const SCREEN: Effort = Effort { passes: 5, enough: 0.05, variances: false };
-const FULL: Effort = Effort { passes: 6, enough: 1e-4, variances: true };
-
-/// Adds effects of the library one at a time until nothing is left above the noise.
+/// Adds effects of the library until nothing is left above the noise.
 ///
 /// A candidate must beat BIC = deviance + k·ln n by a margin of 2·ln M for a library of M candidates: with
 /// nothing hidden the best of M would otherwise pass by chance. After each addition earlier ones are asked
@@ -75,183 +53,12 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &d
     let Some(before) = problem.fit(model, &starts, &problem.variances, FULL)? else { return Ok(None) };
     let selection =
         Selection { problem, library, size: model.applicable(library).len().max(1) as f64, given: before.variances };
-    let mut current = before.clone();
-    let mut steps = Vec::new();
-    let mut candidates = Vec::new();
-    while steps.len() < MOST {
-        progress(&format!("weighing {} candidates, {} chosen", selection.size, steps.len()));
-        let ranked = selection.ranked(&current)?;
-        if steps.is_empty() {
-            candidates = ranked.iter().map(|(s, _)| s.clone()).collect();
-        }
-        let fitted = ranked.into_iter().filter_map(|(s, fit)| Some((s, fit?)));
-        let mut good = fitted.filter(|(s, fit)| s.delta_bic > selection.margin() && repeats(fit, &s.applied));
-        let Some((best, fit)) = good.next() else { break };
-        steps.push((best.applied.label(), fit.model.clone()));
-        current = selection.pruned(fit)?;
-        current = selection.exchanged(current)?;
-    }
-    let chosen = selection.examined(&current)?;
-    Ok(Some(Choice { before, after: current, chosen, steps, candidates }))
-}
-
-struct Selection<'a> {
-    problem: &'a Problem,
-    library: &'a [Effect],
-    size: f64,
-    given: Variances,
-}
-
-fn free_effects(model: &Model) -> Vec<Applied> {
-    model.effects.iter().filter(|e| e.free).cloned().collect()
-}
-
-fn without(model: &Model, effect: &Applied) -> Model {
-    let mut smaller = model.clone();
-    smaller.effects.retain(|e| !e.same_as(effect));
-    smaller
-}
-
-fn bic(fit: &Fit, sample_size: f64) -> f64 {
-    fit.deviance + fit.p.len() as f64 * sample_size.ln()
+    let grown = selection.grown(&before, progress)?;
+    let chosen = selection.examined(&grown.fit)?;
+    Ok(Some(Choice { before, after: grown.fit, chosen, steps: grown.steps, candidates: grown.candidates }))
 }
 
 impl Selection<'_> {
-    /// What a candidate must gain beyond BIC because the library is large.
-    fn margin(&self) -> f64 {
-        2.0 * self.size.ln()
-    }
-
-    /// Effects that could be added to a model.
-    fn open(&self, model: &Model) -> Vec<(&Effect, Option<usize>)> {
-        let taken = free_effects(model);
-        let is_taken = |e: &Effect, t: Option<usize>| taken.iter().any(|a| a.effect.id == e.id && a.trailer == t);
-        model.applicable(self.library).into_iter().filter(|(e, t)| !is_taken(e, *t)).collect()
-    }
-
-    /// The candidates for a model by what they promise; the most promising with a fit.
-    ///
-    /// `from` is the deviance without the candidate, `floor` the least gain that is of interest.
-    fn screen(&self, base: &Fit, model: &Model, from: f64, floor: f64) -> Result<Vec<(Promise, Option<Fit>)>> {
-        let mut promises = screen::promises(self.problem, base, model, &self.open(model))?;
-        let n = base.sample_size;
-        let worth = |p: &Promise| rounded(p.deviance + p.applied.values.len() as f64 * n.ln());
-        promises.sort_by(|a, b| worth(a).total_cmp(&worth(b)));
-        // What promises next to nothing beside the best is listed, not fitted.
-        let gain = |p: &Promise| from - p.deviance;
-        let wanted = promises.iter().map(gain).fold(floor, |m, g| m.max(FAINT * g));
-        let settled = |(i, p): (usize, Promise)| -> Result<_> {
-            let worthwhile = i < SHORTLIST && gain(&p) >= wanted;
-            let fit = if worthwhile { screen::settled(self.problem, base, model, &p, SCREEN)? } else { None };
-            Ok((p, fit))
-        };
-        let mut found: Vec<(Promise, Option<Fit>)> =
-            promises.into_par_iter().enumerate().map(settled).collect::<Result<_>>()?;
-        // A stable sort: of identical effects the first of the library is named.
-        let rank = |(p, fit): &(Promise, Option<Fit>)| match fit {
-            Some(fit) => (false, rounded(bic(fit, n)), place(&p.applied)),
-            None => (true, worth(p), place(&p.applied)),
-        };
-        found.sort_by(|a, b| {
-            let ((a0, a1, a2), (b0, b1, b2)) = (rank(a), rank(b));
-            a0.cmp(&b0).then(a1.total_cmp(&b1)).then(a2.cmp(&b2))
-        });
-        Ok(found)
-    }
-
-    /// The candidates by ΔBIC against a fit, the finalists with noise and jumps of their own; the others are listed
-    /// by what they promise, and have no fit.
-    fn ranked(&self, base: &Fit) -> Result<Vec<(Scored, Option<Fit>)>> {
-        let finish = |(i, (promise, fit)): (usize, (Promise, Option<Fit>))| -> Result<_> {
-            let full = match &fit {
-                Some(fit) if i < FINALISTS => self.refined(fit)?,
-                _ => None,
-            };
-            let n = base.sample_size.max(full.as_ref().map_or(0.0, |f| f.sample_size));
-            let deviance = full.as_ref().or(fit.as_ref()).map_or(promise.deviance, |f| f.deviance);
-            let k = promise.applied.values.len() as f64;
-            let delta_bic = base.deviance - deviance - k * n.ln();
-            let fitted = full.as_ref().or(fit.as_ref()).and_then(|f| find(&f.model, &promise.applied));
-            let applied = fitted.unwrap_or(promise.applied);
-            Ok((Scored { applied, std: promise.std, delta_bic }, full))
-        };
-        let screened = self.screen(base, &base.model, base.deviance, 0.5 * self.margin())?;
-        let mut scored: Vec<(Scored, Option<Fit>)> =
-            screened.into_par_iter().enumerate().map(finish).collect::<Result<_>>()?;
-        scored.sort_by(|a, b| {
-            let rank = |s: &(Scored, Option<Fit>)| rounded(-s.0.delta_bic);
-            rank(a).total_cmp(&rank(b)).then(place(&a.0.applied).cmp(&place(&b.0.applied)))
-        });
-        Ok(scored)
-    }
-
-    fn refined(&self, fit: &Fit) -> Result<Option<Fit>> {
-        self.problem.fit(&fit.model, &fit.starts, &fit.variances, FULL)
-    }
-
-    /// The fit without an effect.
-    fn reduced(&self, fit: &Fit, effect: &Applied) -> Result<Option<Fit>> {
-        // From the jumps of the model as given: what an effect leaves unexplained is not found from zero jumps,
-        // where the likelihood is flat.
-        self.problem.fit(&without(&fit.model, effect), &fit.starts, &self.given, FULL)
-    }
-
-    /// Drops what is no longer needed.
-    fn pruned(&self, mut fit: Fit) -> Result<Fit> {
-        loop {
-            let mut best: Option<(f64, Fit)> = None;
-            let effects = free_effects(&fit.model);
-            if effects.len() < 2 {
-                return Ok(fit);
-            }
-            for effect in effects {
-                // Far from its neutral value by its own deviation, an effect is needed beyond doubt.
-                if wald(&fit, &effect) > 4.0 * self.margin() {
-                    continue;
-                }
-                let Some(smaller) = self.reduced(&fit, &effect)? else { continue };
-                let n = fit.sample_size.max(smaller.sample_size);
-                let worth = bic(&smaller, n) - bic(&fit, n);
-                if worth <= self.margin() && best.as_ref().is_none_or(|(w, _)| worth < *w) {
-                    best = Some((worth, smaller));
-                }
-            }
-            match best {
-                Some((_, smaller)) => fit = smaller,
-                None => return Ok(fit),
-            }
-        }
-    }
-
-    /// Puts another effect in the place of a chosen one where that explains the data better.
-    fn exchanged(&self, mut fit: Fit) -> Result<Fit> {
-        for effect in free_effects(&fit.model) {
-            if free_effects(&fit.model).len() < 2 {
-                break;
-            }
-            let rivals = self.in_place_of(&fit, &effect)?;
-            let Some((_, rival)) = rivals.into_iter().next() else { continue };
-            let Some(rival) = self.refined(&rival)? else { continue };
-            let n = fit.sample_size.max(rival.sample_size);
-            if bic(&rival, n) < bic(&fit, n) - 0.5 {
-                fit = rival;
-            }
-        }
-        Ok(fit)
-    }
-
-    /// Fits with another effect in the place of a chosen one, best first, at the noise and jumps of the fit: those
-    /// that promise a good part of what the chosen one gives.
-    fn in_place_of(&self, fit: &Fit, effect: &Applied) -> Result<Vec<(Applied, Fit)>> {
-        let smaller = without(&fit.model, effect);
-        let Some(bare) = self.problem.fit(&smaller, &fit.starts, &fit.variances, SCREEN)? else { return Ok(vec![]) };
-        let lost = bare.deviance - fit.deviance;
-        let found =
-            self.screen(&Fit { variances: fit.variances, ..bare.clone() }, &smaller, bare.deviance, 0.3 * lost)?;
-        let fitted = found.into_iter().filter_map(|(p, fit)| Some((p.applied, fit?)));
-        Ok(fitted.filter(|(a, _)| !a.same_as(effect)).collect())
-    }
-
     /// Evidence, deviations and rivals of every chosen effect.
     fn examined(&self, fit: &Fit) -> Result<Vec<Chosen>> {
         let mut at = 0;
@@ -287,68 +94,4 @@ impl Selection<'_> {
         }
         Ok(found)
     }
-}
-
-/// Where an effect's values stand among the free ones, those that vanish where it is neutral.
-fn neutral_at_zero(fit: &Fit, effect: &Applied) -> Vec<(usize, f64)> {
-    let mut at = 0;
-    for e in fit.model.effects.iter().filter(|e| e.free) {
-        if e.same_as(effect) {
-            let all = e.effect.parameters.values().zip(&e.values).enumerate();
-            let kept = all.filter(|(_, (p, _))| !p.periodic).map(|(i, (p, v))| (p.positive, (at + i, *v)));
-            let (positive, signed): (Vec<_>, Vec<_>) = kept.partition(|(positive, _)| *positive);
-            return if signed.is_empty() { positive } else { signed }.into_iter().map(|(_, v)| v).collect();
-        }
-        at += e.values.len();
-    }
-    vec![]
-}
-
-/// Squared distance of an effect from neutral in units of a covariance; zero when that is not known.
-fn distance(fit: &Fit, covariance: Option<&nalgebra::DMatrix<f64>>, effect: &Applied) -> f64 {
-    let own = neutral_at_zero(fit, effect);
-    let Some(c) = covariance else { return 0.0 };
-    let block = nalgebra::DMatrix::from_fn(own.len(), own.len(), |i, j| c[(own[i].0, own[j].0)]);
-    let v = nalgebra::DVector::from_iterator(own.len(), own.iter().map(|(_, v)| *v));
-    block.cholesky().map_or(0.0, |c| v.dot(&c.solve(&v)))
-}
-
-/// As [`distance`] by the noise alone.
-fn wald(fit: &Fit, effect: &Applied) -> f64 {
-    distance(fit, fit.covariance.as_ref(), effect)
-}
-
-/// Largest probability that runs which scatter as these do show such an effect by chance.
-const BY_CHANCE: f64 = 1e-3;
-
-/// Whether an effect shows in the runs alike, and not in a few of them or in different directions.
-fn repeats(fit: &Fit, effect: &Applied) -> bool {
-    let Some(between) = &fit.between_runs else { return true };
-    let k = neutral_at_zero(fit, effect).len() as f64;
-    let free = fit.runs as f64 - k;
-    if free < 1.0 {
-        return true;
-    }
-    let f = distance(fit, Some(between), effect) / k * free / (fit.runs as f64 - 1.0);
-    FisherSnedecor::new(k, free).is_ok_and(|d| d.sf(f) < BY_CHANCE)
-}
-
-/// An effect of a model.
-fn find(model: &Model, like: &Applied) -> Option<Applied> {
-    model.effects.iter().find(|e| e.same_as(like)).cloned()
-}
-
-/// The place of an effect in the library.
-fn place(a: &Applied) -> (usize, Option<usize>) {
-    (a.effect.order, a.trailer)
-}
-
-/// Deviances of identical effects differ by rounding alone.
-fn rounded(x: f64) -> f64 {
-    (x * 20.0).round() / 20.0
-}
-
-/// Probability that χ² with k degrees of freedom exceeds x.
-fn tail(x: f64, k: usize) -> f64 {
-    ChiSquared::new(k as f64).map_or(f64::NAN, |d| d.sf(x))
 }

@@ -1,0 +1,54 @@
+//! What a fit says of its effects: how far from neutral, how alike in all runs, how likely by chance.
+
+use super::fit::Fit;
+use crate::effects::Applied;
+use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
+
+/// Where an effect's values stand among the free ones, those that vanish where it is neutral.
+fn neutral_at_zero(fit: &Fit, effect: &Applied) -> Vec<(usize, f64)> {
+    let mut at = 0;
+    for e in fit.model.effects.iter().filter(|e| e.free) {
+        if e.same_as(effect) {
+            let all = e.effect.parameters.values().zip(&e.values).enumerate();
+            let kept = all.filter(|(_, (p, _))| !p.periodic).map(|(i, (p, v))| (p.positive, (at + i, *v)));
+            let (positive, signed): (Vec<_>, Vec<_>) = kept.partition(|(positive, _)| *positive);
+            return if signed.is_empty() { positive } else { signed }.into_iter().map(|(_, v)| v).collect();
+        }
+        at += e.values.len();
+    }
+    vec![]
+}
+
+/// Squared distance of an effect from neutral in units of a covariance; zero when that is not known.
+fn distance(fit: &Fit, covariance: Option<&nalgebra::DMatrix<f64>>, effect: &Applied) -> f64 {
+    let own = neutral_at_zero(fit, effect);
+    let Some(c) = covariance else { return 0.0 };
+    let block = nalgebra::DMatrix::from_fn(own.len(), own.len(), |i, j| c[(own[i].0, own[j].0)]);
+    let v = nalgebra::DVector::from_iterator(own.len(), own.iter().map(|(_, v)| *v));
+    block.cholesky().map_or(0.0, |c| v.dot(&c.solve(&v)))
+}
+
+/// As [`distance`] by the noise alone.
+pub(super) fn wald(fit: &Fit, effect: &Applied) -> f64 {
+    distance(fit, fit.covariance.as_ref(), effect)
+}
+
+/// Largest probability that runs which scatter as these do show such an effect by chance.
+const BY_CHANCE: f64 = 1e-3;
+
+/// Whether an effect shows in the runs alike, and not in a few of them or in different directions.
+pub(super) fn repeats(fit: &Fit, effect: &Applied) -> bool {
+    let Some(between) = &fit.between_runs else { return true };
+    let k = neutral_at_zero(fit, effect).len() as f64;
+    let free = fit.runs as f64 - k;
+    if free < 1.0 {
+        return true;
+    }
+    let f = distance(fit, Some(between), effect) / k * free / (fit.runs as f64 - 1.0);
+    FisherSnedecor::new(k, free).is_ok_and(|d| d.sf(f) < BY_CHANCE)
+}
+
+/// Probability that χ² with k degrees of freedom exceeds x.
+pub(super) fn tail(x: f64, k: usize) -> f64 {
+    ChiSquared::new(k as f64).map_or(f64::NAN, |d| d.sf(x))
+}

@@ -1,0 +1,237 @@
+//! Effects added to a model one or two at a time, asked again, exchanged and dropped.
+
+use super::chain::Variances;
+use super::evidence::{repeats, wald};
+use super::fit::{Effort, Fit, Problem};
+use super::screen::{self, Promise};
+use crate::effects::{Applied, Effect};
+use crate::error::Result;
+use crate::model::Model;
+use rayon::prelude::*;
+
+/// How many of the best candidates are fitted with their own noise and jumps.
+pub(super) const FINALISTS: usize = 3;
+/// How many of the most promising candidates are fitted at all.
+const SHORTLIST: usize = 8;
+/// A candidate that promises less than this share of the best one's gain is not fitted.
+const FAINT: f64 = 0.1;
+/// Most effects that are added.
+const MOST: usize = 6;
+
+/// A candidate effect and its evidence beside the effects already chosen.
+#[derive(Clone, Debug)]
+pub struct Scored {
+    /// The effect at its fitted values.
+    pub applied: Applied,
+    /// Standard deviations its values have, to first order.
+    pub std: Vec<f64>,
+    /// BIC without minus BIC with the effect.
+    pub delta_bic: f64,
+}
+
+pub(super) const SCREEN: Effort = Effort { passes: 5, enough: 0.05, variances: false };
+pub(super) const FULL: Effort = Effort { passes: 6, enough: 1e-4, variances: true };
+
+/// What a search ends with.
+pub(super) struct Grown {
+    /// The model with what was found.
+    pub fit: Fit,
+    /// The models on the way, after each addition.
+    pub steps: Vec<(String, Model)>,
+    /// All candidates as they stood against the model the search began with.
+    pub candidates: Vec<Scored>,
+}
+
+/// A search over a library.
+pub(super) struct Selection<'a> {
+    pub problem: &'a Problem,
+    pub library: &'a [Effect],
+    /// How many candidates the library has for the vehicle.
+    pub size: f64,
+    /// Noise and jumps of the model as given.
+    pub given: Variances,
+}
+
+pub(super) fn free_effects(model: &Model) -> Vec<Applied> {
+    model.effects.iter().filter(|e| e.free).cloned().collect()
+}
+
+pub(super) fn without(model: &Model, effect: &Applied) -> Model {
+    let mut smaller = model.clone();
+    smaller.effects.retain(|e| !e.same_as(effect));
+    smaller
+}
+
+pub(super) fn bic(fit: &Fit, sample_size: f64) -> f64 {
+    fit.deviance + fit.p.len() as f64 * sample_size.ln()
+}
+
+impl Selection<'_> {
+    /// Adds effects until nothing is left above the noise.
+    pub fn grown(&self, before: &Fit, progress: &dyn Fn(&str)) -> Result<Grown> {
+        let mut found = Grown { fit: before.clone(), steps: vec![], candidates: vec![] };
+        while found.steps.len() < MOST {
+            progress(&format!("weighing {} candidates, {} chosen", self.size, found.steps.len()));
+            let ranked = self.ranked(&found.fit)?;
+            if found.steps.is_empty() {
+                found.candidates = ranked.iter().map(|(s, _)| s.clone()).collect();
+            }
+            let fitted = ranked.into_iter().filter_map(|(s, fit)| Some((s, fit?)));
+            let mut good = fitted.filter(|(s, fit)| s.delta_bic > self.margin() && repeats(fit, &s.applied));
+            let Some((best, fit)) = good.next() else { break };
+            found.steps.push((best.applied.label(), fit.model.clone()));
+            found.fit = self.exchanged(self.pruned(fit)?)?;
+        }
+        Ok(found)
+    }
+
+    /// What a candidate must gain beyond BIC because the library is large.
+    pub fn margin(&self) -> f64 {
+        2.0 * self.size.ln()
+    }
+
+    /// Effects that could be added to a model.
+    fn open(&self, model: &Model) -> Vec<(&Effect, Option<usize>)> {
+        let taken = free_effects(model);
+        let is_taken = |e: &Effect, t: Option<usize>| taken.iter().any(|a| a.effect.id == e.id && a.trailer == t);
+        model.applicable(self.library).into_iter().filter(|(e, t)| !is_taken(e, *t)).collect()
+    }
+
+    /// The candidates for a model by what they promise; the most promising with a fit.
+    ///
+    /// `from` is the deviance without the candidate, `floor` the least gain that is of interest.
+    fn screen(&self, base: &Fit, model: &Model, from: f64, floor: f64) -> Result<Vec<(Promise, Option<Fit>)>> {
+        let mut promises = screen::promises(self.problem, base, model, &self.open(model))?;
+        let n = base.sample_size;
+        let worth = |p: &Promise| rounded(p.deviance + p.applied.values.len() as f64 * n.ln());
+        promises.sort_by(|a, b| worth(a).total_cmp(&worth(b)));
+        // What promises next to nothing beside the best is listed, not fitted.
+        let gain = |p: &Promise| from - p.deviance;
+        let wanted = promises.iter().map(gain).fold(floor, |m, g| m.max(FAINT * g));
+        let settled = |(i, p): (usize, Promise)| -> Result<_> {
+            let worthwhile = i < SHORTLIST && gain(&p) >= wanted;
+            let fit = if worthwhile { screen::settled(self.problem, base, model, &p, SCREEN)? } else { None };
+            Ok((p, fit))
+        };
+        let mut found: Vec<(Promise, Option<Fit>)> =
+            promises.into_par_iter().enumerate().map(settled).collect::<Result<_>>()?;
+        // A stable sort: of identical effects the first of the library is named.
+        let rank = |(p, fit): &(Promise, Option<Fit>)| match fit {
+            Some(fit) => (false, rounded(bic(fit, n)), place(&p.applied)),
+            None => (true, worth(p), place(&p.applied)),
+        };
+        found.sort_by(|a, b| {
+            let ((a0, a1, a2), (b0, b1, b2)) = (rank(a), rank(b));
+            a0.cmp(&b0).then(a1.total_cmp(&b1)).then(a2.cmp(&b2))
+        });
+        Ok(found)
+    }
+
+    /// The candidates by ΔBIC against a fit, the finalists with noise and jumps of their own; the others are listed
+    /// by what they promise, and have no fit.
+    fn ranked(&self, base: &Fit) -> Result<Vec<(Scored, Option<Fit>)>> {
+        let finish = |(i, (promise, fit)): (usize, (Promise, Option<Fit>))| -> Result<_> {
+            let full = match &fit {
+                Some(fit) if i < FINALISTS => self.refined(fit)?,
+                _ => None,
+            };
+            let n = base.sample_size.max(full.as_ref().map_or(0.0, |f| f.sample_size));
+            let deviance = full.as_ref().or(fit.as_ref()).map_or(promise.deviance, |f| f.deviance);
+            let k = promise.applied.values.len() as f64;
+            let delta_bic = base.deviance - deviance - k * n.ln();
+            let fitted = full.as_ref().or(fit.as_ref()).and_then(|f| find(&f.model, &promise.applied));
+            let applied = fitted.unwrap_or(promise.applied);
+            Ok((Scored { applied, std: promise.std, delta_bic }, full))
+        };
+        let screened = self.screen(base, &base.model, base.deviance, 0.5 * self.margin())?;
+        let mut scored: Vec<(Scored, Option<Fit>)> =
+            screened.into_par_iter().enumerate().map(finish).collect::<Result<_>>()?;
+        scored.sort_by(|a, b| {
+            let rank = |s: &(Scored, Option<Fit>)| rounded(-s.0.delta_bic);
+            rank(a).total_cmp(&rank(b)).then(place(&a.0.applied).cmp(&place(&b.0.applied)))
+        });
+        Ok(scored)
+    }
+
+    pub fn refined(&self, fit: &Fit) -> Result<Option<Fit>> {
+        self.problem.fit(&fit.model, &fit.starts, &fit.variances, FULL)
+    }
+
+    /// The fit without an effect.
+    pub fn reduced(&self, fit: &Fit, effect: &Applied) -> Result<Option<Fit>> {
+        // From the jumps of the model as given: what an effect leaves unexplained is not found from zero jumps,
+        // where the likelihood is flat.
+        self.problem.fit(&without(&fit.model, effect), &fit.starts, &self.given, FULL)
+    }
+
+    /// Drops what is no longer needed.
+    fn pruned(&self, mut fit: Fit) -> Result<Fit> {
+        loop {
+            let mut best: Option<(f64, Fit)> = None;
+            let effects = free_effects(&fit.model);
+            if effects.len() < 2 {
+                return Ok(fit);
+            }
+            for effect in effects {
+                // Far from its neutral value by its own deviation, an effect is needed beyond doubt.
+                if wald(&fit, &effect) > 4.0 * self.margin() {
+                    continue;
+                }
+                let Some(smaller) = self.reduced(&fit, &effect)? else { continue };
+                let n = fit.sample_size.max(smaller.sample_size);
+                let worth = bic(&smaller, n) - bic(&fit, n);
+                if worth <= self.margin() && best.as_ref().is_none_or(|(w, _)| worth < *w) {
+                    best = Some((worth, smaller));
+                }
+            }
+            match best {
+                Some((_, smaller)) => fit = smaller,
+                None => return Ok(fit),
+            }
+        }
+    }
+
+    /// Puts another effect in the place of a chosen one where that explains the data better.
+    fn exchanged(&self, mut fit: Fit) -> Result<Fit> {
+        for effect in free_effects(&fit.model) {
+            if free_effects(&fit.model).len() < 2 {
+                break;
+            }
+            let rivals = self.in_place_of(&fit, &effect)?;
+            let Some((_, rival)) = rivals.into_iter().next() else { continue };
+            let Some(rival) = self.refined(&rival)? else { continue };
+            let n = fit.sample_size.max(rival.sample_size);
+            if bic(&rival, n) < bic(&fit, n) - 0.5 {
+                fit = rival;
+            }
+        }
+        Ok(fit)
+    }
+
+    /// Fits with another effect in the place of a chosen one, best first, at the noise and jumps of the fit: those
+    /// that promise a good part of what the chosen one gives.
+    pub fn in_place_of(&self, fit: &Fit, effect: &Applied) -> Result<Vec<(Applied, Fit)>> {
+        let smaller = without(&fit.model, effect);
+        let Some(bare) = self.problem.fit(&smaller, &fit.starts, &fit.variances, SCREEN)? else { return Ok(vec![]) };
+        let lost = bare.deviance - fit.deviance;
+        let found =
+            self.screen(&Fit { variances: fit.variances, ..bare.clone() }, &smaller, bare.deviance, 0.3 * lost)?;
+        let fitted = found.into_iter().filter_map(|(p, fit)| Some((p.applied, fit?)));
+        Ok(fitted.filter(|(a, _)| !a.same_as(effect)).collect())
+    }
+}
+
+/// An effect of a model.
+pub(super) fn find(model: &Model, like: &Applied) -> Option<Applied> {
+    model.effects.iter().find(|e| e.same_as(like)).cloned()
+}
+
+/// The place of an effect in the library.
+fn place(a: &Applied) -> (usize, Option<usize>) {
+    (a.effect.order, a.trailer)
+}
+
+/// Deviances of identical effects differ by rounding alone.
+fn rounded(x: f64) -> f64 {
+    (x * 20.0).round() / 20.0
+}

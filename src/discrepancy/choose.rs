@@ -3,6 +3,7 @@
 use super::evidence::tail;
 use super::fit::{Fit, Problem};
 use super::selection::{FINALISTS, FULL, Selection, bic, find, free_effects};
+use super::unnamed;
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::Model;
@@ -53,7 +54,8 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &d
     let Some(before) = problem.fit(model, &starts, &problem.variances, FULL)? else { return Ok(None) };
     let selection =
         Selection { problem, library, size: model.applicable(library).len().max(1) as f64, given: before.variances };
-    let grown = selection.grown(&before, progress)?;
+    let named = selection.grown(&before, progress)?;
+    let grown = unnamed::search(&selection, model, &before, &named, progress)?.unwrap_or(named);
     let chosen = selection.examined(&grown.fit)?;
     Ok(Some(Choice { before, after: grown.fit, chosen, steps: grown.steps, candidates: grown.candidates }))
 }

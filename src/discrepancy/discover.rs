@@ -1,12 +1,12 @@
 //! The main job in one line: runs → choice → gap → report.
 
 use super::choose::{Choice, Chosen, choose};
-use super::fit::Problem;
+use super::fit::{Fit, Problem};
 use super::gap::{Errors, Predictor};
 use super::locate;
 use super::record::Record;
 use super::report::*;
-use super::{picture, summary, verdict};
+use super::{picture, summary, unnamed, verdict};
 use crate::effects::{Applied, Effect};
 use crate::error::{Error, Result};
 use crate::files::{EffectEntry, ModelFile, Run};
@@ -95,7 +95,10 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
     report.verdict = found.verdict;
     report.next_experiment = found.next_experiment;
     if report.verdict != Verdict::UnusableData {
-        report.effects = choice.chosen.iter().map(|c| named(c, &model)).collect();
+        let (terms, effects): (Vec<&Chosen>, Vec<&Chosen>) =
+            choice.chosen.iter().partition(|c| unnamed::is_term(&c.applied));
+        report.effects = effects.into_iter().map(|c| named(c, &model)).collect();
+        report.unnamed = without_name(&terms, &data, &choice.after, &model)?;
     }
     report.disagreement = locate::disagreements(&before);
     let horizons = horizons(request);
@@ -201,6 +204,27 @@ fn named(chosen: &Chosen, model: &Model) -> Named {
         indistinguishable_from: chosen.rivals.iter().map(rival).collect(),
         equation: picture::equation(a, model),
     }
+}
+
+/// Chosen terms as the report lists them, judged on the held-out data.
+fn without_name(terms: &[&Chosen], data: &Data, after: &Fit, model: &Model) -> Result<Vec<Unnamed>> {
+    if terms.is_empty() {
+        return Ok(vec![]);
+    }
+    let judged = if data.held_out.is_empty() { &data.fitted } else { &data.held_out };
+    let mut bare = after.model.clone();
+    bare.effects.retain(|e| !unnamed::is_term(e));
+    let violations = |m: &Model| -> Result<Vec<_>> {
+        judged.iter().map(|r| locate::Violation::of(m, r, &after.variances.noise)).collect()
+    };
+    let (without, with) = (violations(&bare)?, violations(&after.model)?);
+    let one = |c: &&Chosen| Unnamed {
+        place: c.applied.effect.place.clone(),
+        equation: unnamed::equation(&c.applied, model),
+        held_out_reduction: unnamed::reduction(&c.applied.effect.place, &without, &with),
+        parameters: named(c, model).parameters,
+    };
+    Ok(terms.iter().map(one).collect())
 }
 
 fn horizons(request: &Request) -> Vec<f64> {

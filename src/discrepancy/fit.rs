@@ -46,6 +46,9 @@ pub struct Fit {
     pub starts: Starts,
     /// Effective number of measured values.
     pub sample_size: f64,
+    /// By how much the deviance would grow without the jumps along, across, in yaw and of trailers: what remains
+    /// unexplained; zero where the variances were not estimated.
+    pub unexplained: [f64; 4],
 }
 
 impl Problem {
@@ -145,7 +148,8 @@ impl Problem {
                 }
             }
         }
-        Ok(Some(self.finished(model, point, v)))
+        let unexplained = if effort.variances { self.unexplained(&point, &v) } else { [0.0; 4] };
+        Ok(Some(Fit { unexplained, ..self.finished(model, point, v) }))
     }
 
     fn point(&self, equations: &Equations, p: DVector<f64>, starts: Starts, v: &Variances) -> Option<Point> {
@@ -217,7 +221,19 @@ impl Problem {
             information,
             variances,
             starts: point.starts,
+            unexplained: [0.0; 4],
         }
+    }
+
+    /// What each kind of jump is needed for.
+    fn unexplained(&self, point: &Point, v: &Variances) -> [f64; 4] {
+        let k = point.p.len();
+        let here = variances::deviance(&point.linear, v, &point.eliminated);
+        std::array::from_fn(|c| {
+            let calm = variances::without_jump(*v, c);
+            let e = eliminate(&point.linear, &calm, k).filter(|_| self.free.jump[c] && calm != *v);
+            e.map_or(0.0, |e| variances::deviance(&point.linear, &calm, &e) - here)
+        })
     }
 }
 

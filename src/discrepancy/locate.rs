@@ -104,6 +104,15 @@ impl Violation {
         (0..self.constraints()).map(picture).collect()
     }
 
+    /// Sum of squared violations of a constraint beyond what noise makes of them.
+    pub fn excess(&self, place: &str) -> f64 {
+        let Some(c) = CONSTRAINTS.iter().position(|(name, _)| *name == place) else { return 0.0 };
+        if c >= self.constraints() {
+            return 0.0;
+        }
+        self.windows.iter().map(|w| w.rates[c].powi(2) - self.noise[c].powi(2)).sum()
+    }
+
     /// Sum of squared violations of each constraint in units of their noise.
     fn energy(&self, c: usize) -> f64 {
         self.windows.iter().map(|w| (w.rates[c] / self.noise[c]).powi(2)).sum()

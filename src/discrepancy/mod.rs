@@ -15,6 +15,7 @@
 pub mod carry;
 pub mod chain;
 pub mod choose;
+pub mod crossval;
 pub mod discover;
 mod evidence;
 pub mod fit;
@@ -28,6 +29,7 @@ pub mod screen;
 mod selection;
 pub mod smooth;
 pub mod summary;
+pub mod unnamed;
 pub mod variances;
 pub mod verdict;
 pub mod windows;

@@ -103,6 +103,9 @@ pub struct Unnamed {
     pub equation: String,
     /// Share of the held-out disagreement it removes.
     pub held_out_reduction: f64,
+    /// Its coefficient by name.
+    #[serde(default)]
+    pub parameters: BTreeMap<String, Estimate>,
 }
 
 /// A stretch of a run in which a constraint is violated.

@@ -20,6 +20,18 @@ pub struct Promise {
     pub deviance: f64,
 }
 
+/// What a model's candidates promise, one at a time and two together.
+#[derive(Clone, Debug, Default)]
+pub struct Promises {
+    /// Each candidate alone, in the order of the library.
+    pub single: Vec<Promise>,
+    /// Two candidates together, the most promising first; of those that are weighed by one linearisation.
+    pub pairs: Vec<[Promise; 2]>,
+}
+
+/// How many pairs are looked at further.
+const PAIRS: usize = 2;
+
 /// Whether an effect vanishes at zero and can be linearised there together with all others of its kind.
 fn is_regular(effect: &Effect, model: &Model, trailer: Option<usize>) -> bool {
     let known = model.effects.iter().any(|e| e.effect.id == effect.id && e.trailer == trailer);
@@ -30,12 +42,7 @@ fn is_regular(effect: &Effect, model: &Model, trailer: Option<usize>) -> bool {
 ///
 /// Effects that vanish at zero are weighed together by one pass over the data; effects with states, and those a
 /// local search reaches from several starts only, by one pass a start.
-pub fn promises(
-    problem: &Problem,
-    base: &Fit,
-    model: &Model,
-    open: &[(&Effect, Option<usize>)],
-) -> Result<Vec<Promise>> {
+pub fn promises(problem: &Problem, base: &Fit, model: &Model, open: &[(&Effect, Option<usize>)]) -> Result<Promises> {
     let (regular, others): (Vec<_>, Vec<_>) = open.iter().partition(|(e, t)| is_regular(e, model, *t));
     let applied = |(e, t): &(&Effect, Option<usize>)| {
         e.starts().into_iter().map(|s| Applied::new(e, *t, s).freed()).collect::<Vec<_>>()
@@ -51,11 +58,14 @@ pub fn promises(
         .map(|a| vec![a])
         .collect();
     let groups: Vec<Vec<Applied>> = std::iter::once(together).filter(|g| !g.is_empty()).chain(alone).collect();
-    let found: Vec<Vec<Promise>> =
-        groups.par_iter().map(|g| promise(problem, base, model, g)).collect::<Result<_>>()?;
-    let mut found: Vec<Promise> = found.into_iter().flatten().collect();
-    keep_best_start(&mut found);
-    Ok(found)
+    let found: Vec<Promises> = groups.par_iter().map(|g| promise(problem, base, model, g)).collect::<Result<_>>()?;
+    let mut all = Promises::default();
+    for group in found {
+        all.single.extend(group.single);
+        all.pairs.extend(group.pairs);
+    }
+    keep_best_start(&mut all.single);
+    Ok(all)
 }
 
 /// Of several starts of one effect the most promising stays.
@@ -71,31 +81,47 @@ fn keep_best_start(found: &mut Vec<Promise>) {
     *found = kept;
 }
 
-fn promise(problem: &Problem, base: &Fit, model: &Model, group: &[Applied]) -> Result<Vec<Promise>> {
+fn promise(problem: &Problem, base: &Fit, model: &Model, group: &[Applied]) -> Result<Promises> {
     let joint = group.iter().fold(model.clone(), |m, a| m.with_effect(a.clone()));
     let free: Vec<_> = joint.effects.iter().filter(|e| e.free).flat_map(|e| e.parameters()).collect();
     let values: Vec<f64> = joint.effects.iter().filter(|e| e.free).flat_map(|e| e.values.iter().copied()).collect();
     let equations = joint.equations(&free)?;
     let Some(linear) = linearise(&equations, &values, &problem.records, &problem.plan, &base.starts) else {
-        return Ok(vec![]);
+        return Ok(Promises::default());
     };
-    let Some(e) = eliminate(&linear, &base.variances, free.len()) else { return Ok(vec![]) };
+    let Some(e) = eliminate(&linear, &base.variances, free.len()) else { return Ok(Promises::default()) };
     let constant = e.log_determinant + super::variances::noise_determinant(&linear, &base.variances);
     let position = |s: &crate::formula::Symbol| free.iter().position(|f| f == s);
     let indices = |a: &Applied| a.parameters().iter().filter_map(position).collect::<Vec<usize>>();
     let kept: Vec<usize> =
         model.effects.iter().filter(|e| e.free && !group.iter().any(|g| g.same_as(e))).flat_map(indices).collect();
-    let weigh = |a: &Applied| {
-        let own = indices(a);
-        let all: Vec<usize> = kept.iter().chain(&own).copied().collect();
+    let weigh = |together: &[&Applied]| -> Option<Vec<Promise>> {
+        let own: Vec<Vec<usize>> = together.iter().map(|a| indices(a)).collect();
+        let all: Vec<usize> = kept.iter().chain(own.iter().flatten()).copied().collect();
         let (gain, step, spread) = restricted_step(&e, &all)?;
-        let std = spread.as_slice()[kept.len()..].to_vec();
-        let mut applied = a.clone();
-        applied.values.iter_mut().zip(&step.as_slice()[kept.len()..]).for_each(|(v, s)| *v = moved(*v, *s, a));
-        Some(Promise { applied, std, deviance: e.cost() - gain + constant })
+        let mut at = kept.len();
+        let each = together.iter().zip(&own).map(|(a, own)| {
+            let mut applied = (*a).clone();
+            let part = at..at + own.len();
+            at += own.len();
+            applied.values.iter_mut().zip(&step.as_slice()[part.clone()]).for_each(|(v, s)| *v = moved(*v, *s, a));
+            Promise { applied, std: spread.as_slice()[part].to_vec(), deviance: e.cost() - gain + constant }
+        });
+        Some(each.collect())
     };
-    Ok(group.iter().filter_map(weigh).collect())
+    let single: Vec<Promise> = group.iter().filter_map(|a| weigh(&[a])).flatten().collect();
+    let two = |i: usize| group[i + 1..].iter().map(move |b| [&group[i], b]);
+    let mut pairs: Vec<[Promise; 2]> = match group.len() <= MOST_PAIRED {
+        true => (0..group.len()).flat_map(two).filter_map(|ab| weigh(&ab)?.try_into().ok()).collect(),
+        false => vec![],
+    };
+    pairs.sort_by(|a, b| a[0].deviance.total_cmp(&b[0].deviance));
+    pairs.truncate(PAIRS);
+    Ok(Promises { single, pairs })
 }
+
+/// Of more candidates than these, pairs are not looked for: a library of terms.
+const MOST_PAIRED: usize = 40;
 
 /// A first-order step that stays where the effect has a meaning.
 fn moved(value: f64, step: f64, a: &Applied) -> f64 {
@@ -117,14 +143,24 @@ fn restricted_step(e: &Eliminated, indices: &[usize]) -> Option<(f64, DVector<f6
     gain.is_finite().then_some((gain, -step, spread))
 }
 
-/// Fits a candidate at the noise and jumps of the model without it; a wild first step is taken back.
-pub fn settled(problem: &Problem, base: &Fit, model: &Model, promise: &Promise, effort: Effort) -> Result<Option<Fit>> {
-    let begin =
-        |applied: Applied| problem.fit(&model.clone().with_effect(applied), &base.starts, &base.variances, effort);
-    let inside = promise.applied.values.iter().zip(promise.applied.effect.parameters.values());
+/// Fits candidates at the noise and jumps of the model without them; a wild first step is taken back.
+pub fn settled(
+    problem: &Problem,
+    base: &Fit,
+    model: &Model,
+    promises: &[&Promise],
+    effort: Effort,
+) -> Result<Option<Fit>> {
+    let begin = promises.iter().fold(model.clone(), |m, p| m.with_effect(tamed(p)));
+    problem.fit(&begin, &base.starts, &base.variances, effort)
+}
+
+/// The effect as promised, or where its fit would begin when that lies outside its range.
+fn tamed(promise: &Promise) -> Applied {
+    let mut inside = promise.applied.values.iter().zip(promise.applied.effect.parameters.values());
     let mut applied = promise.applied.clone();
-    if !inside.into_iter().all(|(v, p)| (p.range[0]..=p.range[1]).contains(v)) {
+    if !inside.all(|(v, p)| (p.range[0]..=p.range[1]).contains(v)) {
         applied.values = promise.applied.effect.starts().swap_remove(0);
     }
-    begin(applied)
+    applied
 }

@@ -3,7 +3,7 @@
 use super::chain::Variances;
 use super::evidence::{repeats, wald};
 use super::fit::{Effort, Fit, Problem};
-use super::screen::{self, Promise};
+use super::screen::{self, Promise, Promises};
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::Model;
@@ -42,6 +42,18 @@ pub(super) struct Grown {
     pub candidates: Vec<Scored>,
 }
 
+/// Candidates by what they promise, the most promising with a fit; and pairs of them.
+struct Screened {
+    single: Vec<(Promise, Option<Fit>)>,
+    pairs: Vec<[Promise; 2]>,
+}
+
+/// Candidates by their evidence, the finalists with a fit; and pairs of them.
+struct Ranked {
+    single: Vec<(Scored, Option<Fit>)>,
+    pairs: Vec<[Promise; 2]>,
+}
+
 /// A search over a library.
 pub(super) struct Selection<'a> {
     pub problem: &'a Problem,
@@ -74,15 +86,26 @@ impl Selection<'_> {
             progress(&format!("weighing {} candidates, {} chosen", self.size, found.steps.len()));
             let ranked = self.ranked(&found.fit)?;
             if found.steps.is_empty() {
-                found.candidates = ranked.iter().map(|(s, _)| s.clone()).collect();
+                found.candidates = ranked.single.iter().map(|(s, _)| s.clone()).collect();
             }
-            let fitted = ranked.into_iter().filter_map(|(s, fit)| Some((s, fit?)));
-            let mut good = fitted.filter(|(s, fit)| s.delta_bic > self.margin() && repeats(fit, &s.applied));
-            let Some((best, fit)) = good.next() else { break };
-            found.steps.push((best.applied.label(), fit.model.clone()));
+            let Some((added, fit)) = self.next(&found.fit, ranked)? else { break };
+            found.steps.push((added, fit.model.clone()));
             found.fit = self.exchanged(self.pruned(fit)?)?;
         }
         Ok(found)
+    }
+
+    /// The next effect to add, or two of them that are needed together.
+    fn next(&self, base: &Fit, ranked: Ranked) -> Result<Option<(String, Fit)>> {
+        let fitted = ranked.single.into_iter().filter_map(|(s, fit)| Some((s, fit?)));
+        let mut good = fitted.filter(|(s, fit)| s.delta_bic > self.margin() && repeats(fit, &s.applied));
+        let single = good.next().map(|(s, fit)| (s.applied.label(), fit));
+        let pair = self.pair(base, &ranked.pairs, single.as_ref().map(|(_, f)| f))?;
+        let Some((added, fit)) = pair.or(single) else { return Ok(None) };
+        // What does not predict the windows it was not fitted to is no finding.
+        let (without, with) = (self.problem.left_out(base)?, self.problem.left_out(&fit)?);
+        let predicts = without.zip(with).is_none_or(|(without, with)| with < without);
+        Ok(predicts.then_some((added, fit)))
     }
 
     /// What a candidate must gain beyond BIC because the library is large.
@@ -100,8 +123,8 @@ impl Selection<'_> {
     /// The candidates for a model by what they promise; the most promising with a fit.
     ///
     /// `from` is the deviance without the candidate, `floor` the least gain that is of interest.
-    fn screen(&self, base: &Fit, model: &Model, from: f64, floor: f64) -> Result<Vec<(Promise, Option<Fit>)>> {
-        let mut promises = screen::promises(self.problem, base, model, &self.open(model))?;
+    fn screen(&self, base: &Fit, model: &Model, from: f64, floor: f64) -> Result<Screened> {
+        let Promises { single: mut promises, pairs } = screen::promises(self.problem, base, model, &self.open(model))?;
         let n = base.sample_size;
         let worth = |p: &Promise| rounded(p.deviance + p.applied.values.len() as f64 * n.ln());
         promises.sort_by(|a, b| worth(a).total_cmp(&worth(b)));
@@ -110,7 +133,7 @@ impl Selection<'_> {
         let wanted = promises.iter().map(gain).fold(floor, |m, g| m.max(FAINT * g));
         let settled = |(i, p): (usize, Promise)| -> Result<_> {
             let worthwhile = i < SHORTLIST && gain(&p) >= wanted;
-            let fit = if worthwhile { screen::settled(self.problem, base, model, &p, SCREEN)? } else { None };
+            let fit = if worthwhile { screen::settled(self.problem, base, model, &[&p], SCREEN)? } else { None };
             Ok((p, fit))
         };
         let mut found: Vec<(Promise, Option<Fit>)> =
@@ -124,12 +147,12 @@ impl Selection<'_> {
             let ((a0, a1, a2), (b0, b1, b2)) = (rank(a), rank(b));
             a0.cmp(&b0).then(a1.total_cmp(&b1)).then(a2.cmp(&b2))
         });
-        Ok(found)
+        Ok(Screened { single: found, pairs })
     }
 
     /// The candidates by ΔBIC against a fit, the finalists with noise and jumps of their own; the others are listed
     /// by what they promise, and have no fit.
-    fn ranked(&self, base: &Fit) -> Result<Vec<(Scored, Option<Fit>)>> {
+    fn ranked(&self, base: &Fit) -> Result<Ranked> {
         let finish = |(i, (promise, fit)): (usize, (Promise, Option<Fit>))| -> Result<_> {
             let full = match &fit {
                 Some(fit) if i < FINALISTS => self.refined(fit)?,
@@ -145,12 +168,34 @@ impl Selection<'_> {
         };
         let screened = self.screen(base, &base.model, base.deviance, 0.5 * self.margin())?;
         let mut scored: Vec<(Scored, Option<Fit>)> =
-            screened.into_par_iter().enumerate().map(finish).collect::<Result<_>>()?;
+            screened.single.into_par_iter().enumerate().map(finish).collect::<Result<_>>()?;
         scored.sort_by(|a, b| {
             let rank = |s: &(Scored, Option<Fit>)| rounded(-s.0.delta_bic);
             rank(a).total_cmp(&rank(b)).then(place(&a.0.applied).cmp(&place(&b.0.applied)))
         });
-        Ok(scored)
+        Ok(Ranked { single: scored, pairs: screened.pairs })
+    }
+
+    /// The best two effects together, where they promise and keep more than the best one by what a second one costs.
+    fn pair(&self, base: &Fit, pairs: &[[Promise; 2]], single: Option<&Fit>) -> Result<Option<(String, Fit)>> {
+        let reached = single.unwrap_or(base);
+        let mut best: Option<(String, Fit)> = None;
+        for [a, b] in pairs {
+            let n = base.sample_size.max(reached.sample_size);
+            let k = base.p.len() + a.applied.values.len() + b.applied.values.len();
+            let bar = bic(reached, n) - self.margin() * if single.is_some() { 1.0 } else { 2.0 };
+            if a.deviance + k as f64 * n.ln() > bar {
+                continue;
+            }
+            let Some(rough) = screen::settled(self.problem, base, &base.model, &[a, b], SCREEN)? else { continue };
+            let Some(fit) = self.refined(&rough)? else { continue };
+            let n = n.max(fit.sample_size);
+            let bar = bic(reached, n) - self.margin() * if single.is_some() { 1.0 } else { 2.0 };
+            if bic(&fit, n) < bar && best.as_ref().is_none_or(|(_, f)| bic(&fit, n) < bic(f, n)) {
+                best = Some((format!("{} and {}", a.applied.label(), b.applied.label()), fit));
+            }
+        }
+        Ok(best)
     }
 
     pub fn refined(&self, fit: &Fit) -> Result<Option<Fit>> {
@@ -216,7 +261,7 @@ impl Selection<'_> {
         let lost = bare.deviance - fit.deviance;
         let found =
             self.screen(&Fit { variances: fit.variances, ..bare.clone() }, &smaller, bare.deviance, 0.3 * lost)?;
-        let fitted = found.into_iter().filter_map(|(p, fit)| Some((p.applied, fit?)));
+        let fitted = found.single.into_iter().filter_map(|(p, fit)| Some((p.applied, fit?)));
         Ok(fitted.filter(|(a, _)| !a.same_as(effect)).collect())
     }
 }

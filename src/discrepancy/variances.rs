@@ -30,6 +30,16 @@ fn restricted(segments: &[Vec<Linear>], v: &Variances, parameters: usize) -> f64
     if d.is_finite() { d } else { f64::INFINITY }
 }
 
+/// The variances without a jump, as far as that is told from none.
+pub fn without_jump(mut v: Variances, c: usize) -> Variances {
+    v.jump[c] = least_jump(&v, c);
+    v
+}
+
+fn least_jump(v: &Variances, c: usize) -> f64 {
+    v.noise[[0, 0, 1, 2][c]] * LEAST_JUMP * LEAST_JUMP
+}
+
 /// Which variances are free.
 #[derive(Clone, Copy, Debug)]
 pub struct Free {
@@ -109,8 +119,7 @@ fn moved_by(mut v: Variances, k: usize, step: f64) -> Variances {
     match k {
         0..=2 => v.noise[k] *= step.exp(),
         _ => {
-            let noise = v.noise[[0, 0, 1, 2][k - 3]];
-            v.jump[k - 3] = (v.jump[k - 3] * step.exp()).max(noise * LEAST_JUMP * LEAST_JUMP);
+            v.jump[k - 3] = (v.jump[k - 3] * step.exp()).max(least_jump(&v, k - 3));
         }
     }
     v

@@ -4,6 +4,7 @@ use super::choose::{Choice, Scored};
 use super::fit::Problem;
 use super::locate::Violation;
 use super::report::{NextExperiment, Verdict};
+use super::unnamed;
 
 /// A verdict with what there is to say about it.
 pub struct Outcome {
@@ -72,13 +73,15 @@ pub fn after_fitting(choice: &Choice, after: &[Violation]) -> Outcome {
     if let Some(sentence) = hopeless(after) {
         return outcome(Verdict::UnusableData, &sentence, None);
     }
+    let without_name = choice.chosen.iter().any(|c| unnamed::is_term(&c.applied));
     if !choice.chosen.is_empty() {
         let rivals = choice.chosen.iter().find(|c| !c.rivals.is_empty());
         let next_experiment = rivals.map(|c| NextExperiment {
             why: format!("these runs do not tell {} from {}", c.applied.label(), c.rivals[0].label()),
             manoeuvre: "repeat the runs at clearly different speeds and with turns to both sides".into(),
         });
-        return Outcome { verdict: Verdict::MissingEffect, sentence: None, next_experiment };
+        let verdict = if without_name { Verdict::UnnamedEffect } else { Verdict::MissingEffect };
+        return Outcome { verdict, sentence: None, next_experiment };
     }
     match missed(&choice.candidates) {
         Some(candidate) => {

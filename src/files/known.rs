@@ -7,6 +7,8 @@ pub struct Known {
     pub vehicles: Vec<KnownVehicle>,
     /// Every effect a model file may include.
     pub effects: Vec<KnownEffect>,
+    /// Terms without a name, as `discover` writes them into a patched model.
+    pub terms: Vec<KnownEffect>,
 }
 
 /// A vehicle as a model file sees it.
@@ -68,6 +70,6 @@ impl Known {
 
     /// The effect with this id.
     pub fn effect(&self, id: &str) -> Option<&KnownEffect> {
-        self.effects.iter().find(|e| e.id == id)
+        self.effects.iter().chain(&self.terms).find(|e| e.id == id)
     }
 }

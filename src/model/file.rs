@@ -15,7 +15,14 @@ pub fn known(library: &[Effect]) -> Known {
     Known {
         vehicles: vehicles::all().iter().map(known_vehicle).chain([train]).collect(),
         effects: library.iter().map(known_effect).collect(),
+        terms: super::terms::ids().into_iter().map(known_term).collect(),
     }
+}
+
+fn known_term(id: String) -> KnownEffect {
+    let [min, max] = super::terms::RANGE;
+    let k = KnownParameter { name: super::COEFFICIENT.into(), min, max };
+    KnownEffect { id, parameters: vec![k], per_trailer: false }
 }
 
 fn known_vehicle(v: &Vehicle) -> KnownVehicle {
@@ -79,7 +86,9 @@ impl Model {
             model.inputs = vehicle.inputs.keys().cloned().collect();
         }
         for entry in &file.effects {
-            model.effects.push(applied(entry, library).ok_or_else(|| {
+            let term = if entry.id.starts_with(super::PREFIX) { model.term(&entry.id)? } else { None };
+            let known = applied(entry, library).or_else(|| applied(entry, term.as_slice()));
+            model.effects.push(known.ok_or_else(|| {
                 Error::input(format!("unknown effect {:?}", entry.id)).at_file(&file.path).at(entry.line, 1)
             })?);
             model.row_definitions().map_err(|e| {

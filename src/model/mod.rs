@@ -8,10 +8,12 @@ mod build;
 mod constraints;
 mod equations;
 mod file;
+mod terms;
 
 pub use constraints::mechanism;
 pub use equations::{Equations, Workspace};
 pub use file::{WITH_TRAILERS, known};
+pub use terms::{COEFFICIENT, PREFIX};
 
 use crate::effects::{Applied, Effect};
 use crate::error::{Error, Result};

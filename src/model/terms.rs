@@ -1,0 +1,239 @@
+//! Terms without a name: what a constraint might miss when no effect of the library explains it.
+
+use super::Model;
+use crate::effects::{Effect, Parameter};
+use crate::error::Result;
+use crate::formula::{Expr, Symbol};
+use crate::mechanism::Definitions;
+use std::collections::BTreeMap;
+
+/// How every term's id begins.
+pub const PREFIX: &str = "unnamed-";
+/// The coefficient of a term.
+pub const COEFFICIENT: &str = "k";
+
+/// Terms are applied after whatever the library holds.
+const LAST: usize = 1 << 20;
+
+/// A factor of a term: its name, its formula, and its powers of length and time.
+struct Factor {
+    name: &'static str,
+    formula: &'static str,
+    metres: i32,
+    seconds: i32,
+}
+
+const fn factor(name: &'static str, formula: &'static str, metres: i32, seconds: i32) -> Factor {
+    Factor { name, formula, metres, seconds }
+}
+
+/// Powers of the forward speed.
+const SPEED: [Factor; 4] =
+    [factor("", "1", 0, 0), factor("v", "v", 1, -1), factor("v2", "v^2", 2, -2), factor("v3", "v^3", 3, -3)];
+
+/// Powers of the yaw rate, each in both parities: turning left and right alike, or opposite.
+const YAW: [Factor; 7] = [
+    factor("", "1", 0, 0),
+    factor("yaw", "w", 0, -1),
+    factor("abs-yaw", "abs(w)", 0, -1),
+    factor("yaw-abs-yaw", "w*abs(w)", 0, -2),
+    factor("yaw2", "w^2", 0, -2),
+    factor("yaw3", "w^3", 0, -3),
+    factor("abs-yaw3", "abs(w)*w^2", 0, -3),
+];
+
+/// Where the vehicle points: ground that is not level, a compass near iron.
+const HEADING: [Factor; 4] = [
+    factor("sin-heading", "sin(phi)", 0, 0),
+    factor("cos-heading", "cos(phi)", 0, 0),
+    factor("sin-2-heading", "sin(2*phi)", 0, 0),
+    factor("cos-2-heading", "cos(2*phi)", 0, 0),
+];
+
+/// A definition that terms are added to.
+struct Target {
+    definition: &'static str,
+    name: &'static str,
+    place: &'static str,
+    metres: i32,
+}
+
+const TARGETS: [Target; 3] = [
+    Target { definition: "v_l", name: "rotation", place: "rotation constraint", metres: 1 },
+    Target { definition: "v_t", name: "traverse", place: "traverse constraint", metres: 1 },
+    Target { definition: "phi'", name: "yaw", place: "yaw rate", metres: 0 },
+];
+
+impl Model {
+    /// Every term of the library without names for this vehicle: `target = it + k·vⁱ·ωʲ`, in both parities of ω, and
+    /// terms of the heading.
+    ///
+    /// | symbol | unit | meaning |
+    /// |---|---|---|
+    /// | v | m/s | forward speed v_l; in a term of v_l itself the speed v_d that the wheels ask for |
+    /// | ω | rad/s | yaw rate phi'; in a term of v_l or phi' the one without terms |
+    /// | k | so that the units agree | coefficient, zero where nothing is missing |
+    ///
+    /// The factors are what every vehicle has; an effect with a name of its own is always asked first.
+    ///
+    /// # Errors
+    /// When the constraints do not determine the motion.
+    ///
+    /// ```
+    /// use creepage::model::Model;
+    /// let wheel = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+    /// let terms = wheel.terms().unwrap();
+    /// let term = terms.iter().find(|t| t.id == "unnamed-traverse-yaw-abs-yaw").unwrap();
+    /// assert_eq!(term.parameters["k"].unit, "m*s");
+    /// assert_eq!(term.changes["v_t"].to_string(), "it + k*phi'*abs(phi')");
+    /// ```
+    pub fn terms(&self) -> Result<Vec<Effect>> {
+        let bare = Model { effects: vec![], ..self.clone() };
+        let definitions = bare.definitions()?;
+        let mut found = Vec::new();
+        for target in TARGETS.iter().filter(|t| !self.vehicle.held.contains(&t.definition.into())) {
+            let symbols = Symbols::of(target, &definitions);
+            for speed in &SPEED {
+                found.extend(YAW.iter().map(|yaw| term(target, &[speed, yaw], &symbols, &bare)));
+            }
+            for heading in &HEADING {
+                found.extend(SPEED[..2].iter().map(|speed| term(target, &[speed, heading], &symbols, &bare)));
+            }
+        }
+        let mut found: Vec<Effect> = found.into_iter().flatten().collect();
+        // After every effect that has a name.
+        found.iter_mut().enumerate().for_each(|(i, e)| e.order = LAST + i);
+        Ok(found)
+    }
+
+    /// The term of that id.
+    ///
+    /// # Errors
+    /// As [`Model::terms`].
+    pub fn term(&self, id: &str) -> Result<Option<Effect>> {
+        Ok(self.terms()?.into_iter().find(|t| t.id == id))
+    }
+}
+
+/// The id of every term that some vehicle has.
+pub fn ids() -> Vec<String> {
+    let products = |target: &Target| -> Vec<String> {
+        let yaw = SPEED.iter().flat_map(|v| YAW.iter().map(move |w| [v, w]));
+        let heading = HEADING.iter().flat_map(|h| SPEED[..2].iter().map(move |v| [v, h]));
+        yaw.chain(heading).map(|f| id(target, &f)).collect()
+    };
+    TARGETS.iter().flat_map(products).collect()
+}
+
+/// Smallest and largest coefficient.
+pub const RANGE: [f64; 2] = [-1e6, 1e6];
+
+fn id(target: &Target, factors: &[&Factor]) -> String {
+    format!("{PREFIX}{}-{}", target.name, product_name(factors))
+}
+
+fn product_name(factors: &[&Factor]) -> String {
+    let names: Vec<&str> = factors.iter().map(|f| f.name).filter(|n| !n.is_empty()).collect();
+    if names.is_empty() { "constant".to_string() } else { names.join("-") }
+}
+
+/// What a term calls v and ω.
+struct Symbols {
+    v: Expr,
+    w: Expr,
+}
+
+impl Symbols {
+    /// What a term adds to must not stand in its factors: not for a circle, and not for formulas that double with
+    /// every term. So the speed in a term of v_l is what the wheels ask for, the yaw rate in one of phi' the logged one.
+    fn of(target: &Target, definitions: &Definitions) -> Self {
+        let speed = if target.definition == "v_l" { "v_d" } else { "v_l" };
+        let yaw = definitions.get(&"phi'".into()).cloned().unwrap_or_default();
+        match target.definition {
+            "v_t" => Self { v: Expr::sym(speed), w: Expr::sym("phi'") },
+            _ => Self { v: Expr::sym(speed), w: written_out(&yaw, speed, definitions) },
+        }
+    }
+}
+
+/// A formula in which whatever hangs on v_l is written out, with another speed for v_l.
+fn written_out(formula: &Expr, speed: &str, definitions: &Definitions) -> Expr {
+    formula.substitute(&|s| match s.as_str() {
+        "v_l" => Some(Expr::sym(speed)),
+        _ => {
+            let known = definitions.get(s).filter(|f| hangs_on_speed(f, definitions));
+            known.map(|f| written_out(f, speed, definitions))
+        }
+    })
+}
+
+fn hangs_on_speed(formula: &Expr, definitions: &Definitions) -> bool {
+    let of = |s: &Symbol| definitions.get(s).is_some_and(|f| hangs_on_speed(f, definitions));
+    formula.symbols().iter().any(|s| s.as_str() == "v_l" || of(s))
+}
+
+/// Terms that say what an effect of the library says, exactly or as long as they are small.
+const NAMED: [(&str, &str); 9] = [
+    ("v_l", "v"),
+    ("v_l", "yaw"),
+    ("v_t", "v"),
+    ("v_t", "yaw"),
+    ("v_t", "v-yaw"),
+    ("v_t", "v2-yaw"),
+    ("v_t", "sin-heading"),
+    ("v_t", "cos-heading"),
+    ("phi'", "yaw"),
+];
+
+fn term(target: &Target, factors: &[&Factor], symbols: &Symbols, model: &Model) -> Option<Effect> {
+    let name = product_name(factors);
+    let logged = model.vehicle.inputs.contains_key("yaw_rate");
+    let steered = model.vehicle.inputs.contains_key("steering_angle");
+    let taken = NAMED.contains(&(target.definition, name.as_str()))
+        || (target.definition == "phi'" && (logged && name == "constant" || steered && name == "v2-yaw"));
+    if taken {
+        return None;
+    }
+    let product = factors.iter().map(|f| formula(f.formula, symbols)).filter(|f| !f.is_one());
+    let product = product.fold(Expr::sym(COEFFICIENT), |p, f| &p * &f);
+    let metres = target.metres - factors.iter().map(|f| f.metres).sum::<i32>();
+    let seconds = -1 - factors.iter().map(|f| f.seconds).sum::<i32>();
+    let parameter = Parameter {
+        unit: unit(metres, seconds),
+        range: RANGE,
+        size: 0.03,
+        start: vec![0.0],
+        positive: false,
+        periodic: false,
+    };
+    Some(Effect {
+        id: id(target, factors),
+        place: target.place.into(),
+        says: format!("the {} gains a term of {name}", target.place),
+        source: "no name".into(),
+        per_trailer: false,
+        needs: vec![],
+        parameters: BTreeMap::from([(COEFFICIENT.to_string(), parameter)]),
+        states: BTreeMap::new(),
+        changes: BTreeMap::from([(target.definition.to_string(), &Expr::sym("it") + &product)]),
+        order: 0,
+    })
+}
+
+fn formula(text: &str, symbols: &Symbols) -> Expr {
+    let parsed = Expr::parse(text).unwrap_or_else(|e| unreachable!("{e}"));
+    parsed.substitute(&|s: &Symbol| match s.as_str() {
+        "v" => Some(symbols.v.clone()),
+        "w" => Some(symbols.w.clone()),
+        _ => None,
+    })
+}
+
+/// mᵃ·sᵇ as the catalogue spells it.
+fn unit(metres: i32, seconds: i32) -> String {
+    let power = |name: &str, n: i32| if n == 1 { name.to_string() } else { format!("{name}^{n}") };
+    let all = [("m", metres), ("s", seconds)];
+    let above: Vec<String> = all.iter().filter(|(_, n)| *n > 0).map(|(u, n)| power(u, *n)).collect();
+    let below: String = all.iter().filter(|(_, n)| *n < 0).map(|(u, n)| format!("/{}", power(u, -*n))).collect();
+    if above.is_empty() { format!("1{below}") } else { format!("{}{below}", above.join("*")) }
+}

@@ -152,7 +152,7 @@ fn every_verdict_reads_with_and_without_pictures() {
 fn an_unnamed_effect_shows_its_place_and_equation() {
     let mut report = bare(Verdict::UnnamedEffect);
     let [place, equation] = ["traverse constraint", "v_t = -0.03*v_l^2"].map(String::from);
-    report.unnamed.push(Unnamed { place, equation, held_out_reduction: 0.8 });
+    report.unnamed.push(Unnamed { place, equation, held_out_reduction: 0.8, parameters: Default::default() });
     let [page, _] = check(&report, &Pictures::default());
     assert!(
         page.contains("at the traverse constraint: <code>v_t = -0.03*v_l^2</code>")

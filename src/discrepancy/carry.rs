@@ -1,8 +1,38 @@
 //! States that no sensor sees: at rest at the start of a log, then carried along.
 
+use super::record::Record;
 use crate::model::Equations;
 use crate::motion::{Arc, Stepper, initial_hidden};
 use nalgebra::DMatrix;
+
+/// How long before the first window hidden states are carried from rest, s.
+const LEAD: f64 = 3.0;
+
+/// Hidden states and all sensitivities at a row, carried there from rest through what the log says before it.
+pub fn before(
+    equations: &Equations,
+    p: &[f64],
+    stepper: &mut Stepper,
+    record: &Record,
+    row: usize,
+    visible: &[f64],
+) -> Arc {
+    let time = &record.time;
+    let gap = (5.0 * record.step()).max(0.5);
+    let joined = |i: &usize| time[i + 1] - time[*i] <= gap && time[row] - time[*i] <= LEAD;
+    let first = (0..row).rev().take_while(joined).last().unwrap_or(row);
+    let mut hidden = at_rest(equations, p, stepper, time[first], visible);
+    if hidden.z.is_empty() {
+        return hidden;
+    }
+    for i in first..row {
+        // The pose a hidden state sees is the measured one; only the hidden states are carried.
+        let mut arc = stepper.start(&[visible, &hidden.z].concat(), Some(&hidden.s));
+        stepper.advance(&mut arc, time[i], time[i + 1]);
+        hidden = Arc { z: arc.z[equations.visible..].to_vec(), s: arc.s };
+    }
+    hidden
+}
 
 /// Hidden states and all sensitivities at a time, the hidden ones in their equilibrium under the inputs there.
 ///

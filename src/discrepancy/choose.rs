@@ -2,7 +2,7 @@
 
 use super::evidence::tail;
 use super::fit::{Fit, Problem};
-use super::selection::{FINALISTS, FULL, Selection, bic, find, free_effects};
+use super::selection::{FINALISTS, FULL, MOST, Selection, bic, find, free_effects};
 use super::unnamed;
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
@@ -52,10 +52,17 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &d
     progress("fitting the model as it is");
     let starts = problem.starts(model)?;
     let Some(before) = problem.fit(model, &starts, &problem.variances, FULL)? else { return Ok(None) };
-    let selection =
-        Selection { problem, library, size: model.applicable(library).len().max(1) as f64, given: before.variances };
+    let selection = Selection {
+        problem,
+        library,
+        size: model.applicable(library).len().max(1) as f64,
+        given: before.variances,
+        most: MOST,
+        exchanges: true,
+        drops: true,
+    };
     let named = selection.grown(&before, progress)?;
-    let grown = unnamed::search(&selection, model, &before, &named, progress)?.unwrap_or(named);
+    let grown = unnamed::search(&selection, model, &named, progress)?.unwrap_or(named);
     let chosen = selection.examined(&grown.fit)?;
     Ok(Some(Choice { before, after: grown.fit, chosen, steps: grown.steps, candidates: grown.candidates }))
 }

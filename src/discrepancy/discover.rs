@@ -90,7 +90,9 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
     let noise = choice.after.variances.noise;
     let before = problem.violations(&model, &noise)?;
     let after = problem.violations(&choice.after.model, &noise)?;
-    let found = verdict::after_fitting(&choice, &after);
+    // What is explained to its noise needs no other clock.
+    let clocks = if unnamed::remains(&choice.after) { problem.drifts(&choice.after)? } else { vec![] };
+    let found = verdict::after_fitting(&choice, &after, &clocks);
     let mut report = empty_report(request, &data);
     report.verdict = found.verdict;
     report.next_experiment = found.next_experiment;

@@ -5,6 +5,7 @@ use super::record::{Channel, Record};
 use super::smooth;
 use super::variances::{self, Free};
 use super::windows::{Linear, Segment, Starts, linearise};
+use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::{Equations, Model};
 use crate::motion::visible_state;
@@ -160,9 +161,10 @@ impl Problem {
 
     fn descend(&self, equations: &Equations, mut here: Point, v: &Variances, bounds: &Bounds, effort: Effort) -> Point {
         let mut damping = 1e-6;
+        let mut settled = false;
         for _ in 0..effort.passes {
             let Some(delta) = step(&here.eliminated, damping) else { return here };
-            if promised(&here.eliminated, &delta) < effort.enough {
+            if settled && promised(&here.eliminated, &delta) < effort.enough {
                 break;
             }
             let target = bounds.within(&here.p, &delta);
@@ -172,6 +174,7 @@ impl Problem {
             let gain = next.as_ref().map_or(f64::NEG_INFINITY, |n| here.eliminated.cost() - n.eliminated.cost());
             match next {
                 Some(next) if gain >= -1e-3 => {
+                    settled = gain < effort.enough.max(1e-2);
                     here = next;
                     damping = (damping / 10.0).max(1e-9);
                 }
@@ -290,6 +293,12 @@ fn moved(starts: &Starts, by: &[Vec<DVector<f64>>]) -> Starts {
 
 /// A positive value below this share of its plausible size is as good as neutral, and a stiff state to integrate.
 const LEAST_SHARE: f64 = 0.04;
+
+/// Whether an effect stands at the edge of its range where it vanishes.
+pub fn vanishes(effect: &Applied) -> bool {
+    let mut values = effect.effect.parameters.values().zip(&effect.values);
+    values.any(|(p, v)| p.positive && *v <= p.size * LEAST_SHARE * 1.001)
+}
 
 /// What values the parameters may take.
 struct Bounds {

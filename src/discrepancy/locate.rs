@@ -72,7 +72,14 @@ impl Violation {
         let duration = self.windows.iter().map(|w| w.span[1] - w.span[0]).sum::<f64>() / count;
         let speed = (self.windows.iter().map(|w| w.speed * w.speed).sum::<f64>() / count).sqrt();
         let [position, heading, trailer] = noise.map(|v| (2.0 * share * v).sqrt() / duration);
-        let across = position.hypot((share * noise[1]).sqrt() * speed);
+        let across = match record.has_heading {
+            true => position.hypot((share * noise[1]).sqrt() * speed),
+            // A direction taken from the velocity is off by the velocity's noise over the speed.
+            false => {
+                let share = record.course_weights(i).map_or(0.0, |w| w.iter().map(|(_, w)| w * w).sum());
+                position.hypot((share * noise[0]).sqrt())
+            }
+        };
         [position, across, heading, trailer.hypot(heading)]
     }
 
@@ -80,13 +87,16 @@ impl Violation {
         self.windows.first().map_or(0, |w| w.rates.len().min(4))
     }
 
-    /// Root mean square of the violated rates and of the measured motion: along and across in m/s, yaw in rad/s.
+    /// Root mean square of the violated rates beyond their noise and of the measured motion: along and across in m/s,
+    /// yaw in rad/s.
     pub fn against_motion(&self) -> [(f64, f64); 2] {
         let rms = |f: &dyn Fn(&Window) -> f64| {
             (self.windows.iter().map(f).sum::<f64>() / self.windows.len().max(1) as f64).sqrt()
         };
-        let miss = rms(&|w| w.rates[0].powi(2) + w.rates[1].powi(2));
-        [(miss, rms(&|w| w.speed.powi(2))), (rms(&|w| w.rates[2].powi(2)), rms(&|w| w.yaw.powi(2)))]
+        let beyond = |miss: f64, noise: f64| (miss * miss - noise * noise).max(0.0).sqrt();
+        let miss = beyond(rms(&|w| w.rates[0].powi(2) + w.rates[1].powi(2)), self.noise[0].hypot(self.noise[1]));
+        let yaw = beyond(rms(&|w| w.rates[2].powi(2)), self.noise[2]);
+        [(miss, rms(&|w| w.speed.powi(2))), (yaw, rms(&|w| w.yaw.powi(2)))]
     }
 
     /// The pictures of each constraint, before and after.

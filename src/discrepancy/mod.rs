@@ -15,6 +15,7 @@
 pub mod carry;
 pub mod chain;
 pub mod choose;
+pub mod clock;
 pub mod crossval;
 pub mod discover;
 mod evidence;

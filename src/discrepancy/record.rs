@@ -139,10 +139,14 @@ impl Record {
         smooth::weights(&self.time, 0..self.rows.end, i)
     }
 
-    /// Direction of travel around a row, rad; backward travel is not known and not corrected here.
+    /// Direction of travel at a row, rad; backward travel is not known and not corrected here.
     fn course(&self, i: usize) -> f64 {
-        let reach = 5usize;
-        let (a, b) = (i.saturating_sub(reach), (i + reach).min(self.rows.end - 1));
-        (self.columns[1][b] - self.columns[1][a]).atan2(self.columns[0][b] - self.columns[0][a])
+        let Some(weights) = self.course_weights(i) else { return 0.0 };
+        smooth::value(&self.columns[1], &weights).atan2(smooth::value(&self.columns[0], &weights))
+    }
+
+    /// The weights of the velocity that the direction of travel is taken from.
+    pub fn course_weights(&self, i: usize) -> Option<Vec<(usize, f64)>> {
+        smooth::slope_weights(&self.time, 0..self.rows.end, i)
     }
 }

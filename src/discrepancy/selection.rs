@@ -2,8 +2,9 @@
 
 use super::chain::Variances;
 use super::evidence::{repeats, wald};
-use super::fit::{Effort, Fit, Problem};
+use super::fit::{Effort, Fit, Problem, vanishes};
 use super::screen::{self, Promise, Promises};
+use super::unnamed::is_term;
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::Model;
@@ -16,7 +17,7 @@ const SHORTLIST: usize = 8;
 /// A candidate that promises less than this share of the best one's gain is not fitted.
 const FAINT: f64 = 0.1;
 /// Most effects that are added.
-const MOST: usize = 6;
+pub(super) const MOST: usize = 6;
 
 /// A candidate effect and its evidence beside the effects already chosen.
 #[derive(Clone, Debug)]
@@ -62,6 +63,12 @@ pub(super) struct Selection<'a> {
     pub size: f64,
     /// Noise and jumps of the model as given.
     pub given: Variances,
+    /// Most effects that are added.
+    pub most: usize,
+    /// Whether others are tried in the place of those chosen.
+    pub exchanges: bool,
+    /// Whether those the search begins with may be dropped.
+    pub drops: bool,
 }
 
 pub(super) fn free_effects(model: &Model) -> Vec<Applied> {
@@ -82,7 +89,7 @@ impl Selection<'_> {
     /// Adds effects until nothing is left above the noise.
     pub fn grown(&self, before: &Fit, progress: &dyn Fn(&str)) -> Result<Grown> {
         let mut found = Grown { fit: before.clone(), steps: vec![], candidates: vec![] };
-        while found.steps.len() < MOST {
+        while found.steps.len() < self.most {
             progress(&format!("weighing {} candidates, {} chosen", self.size, found.steps.len()));
             let ranked = self.ranked(&found.fit)?;
             if found.steps.is_empty() {
@@ -90,7 +97,10 @@ impl Selection<'_> {
             }
             let Some((added, fit)) = self.next(&found.fit, ranked)? else { break };
             found.steps.push((added, fit.model.clone()));
-            found.fit = self.exchanged(self.pruned(fit)?)?;
+            found.fit = if self.drops { self.pruned(fit)? } else { fit };
+            if self.exchanges {
+                found.fit = self.exchanged(found.fit)?;
+            }
         }
         Ok(found)
     }
@@ -98,13 +108,14 @@ impl Selection<'_> {
     /// The next effect to add, or two of them that are needed together.
     fn next(&self, base: &Fit, ranked: Ranked) -> Result<Option<(String, Fit)>> {
         let fitted = ranked.single.into_iter().filter_map(|(s, fit)| Some((s, fit?)));
-        let mut good = fitted.filter(|(s, fit)| s.delta_bic > self.margin() && repeats(fit, &s.applied));
+        let bar = |s: &Scored| if is_term(&s.applied) { 2.0 * self.margin() } else { self.margin() };
+        let mut good =
+            fitted.filter(|(s, fit)| s.delta_bic > bar(s) && !vanishes(&s.applied) && repeats(fit, &s.applied));
         let single = good.next().map(|(s, fit)| (s.applied.label(), fit));
         let pair = self.pair(base, &ranked.pairs, single.as_ref().map(|(_, f)| f))?;
         let Some((added, fit)) = pair.or(single) else { return Ok(None) };
         // What does not predict the windows it was not fitted to is no finding.
-        let (without, with) = (self.problem.left_out(base)?, self.problem.left_out(&fit)?);
-        let predicts = without.zip(with).is_none_or(|(without, with)| with < without);
+        let predicts = self.problem.predicts_better(&fit, base)?;
         Ok(predicts.then_some((added, fit)))
     }
 
@@ -189,6 +200,9 @@ impl Selection<'_> {
             }
             let Some(rough) = screen::settled(self.problem, base, &base.model, &[a, b], SCREEN)? else { continue };
             let Some(fit) = self.refined(&rough)? else { continue };
+            if ![a, b].iter().all(|p| repeats(&fit, &p.applied)) {
+                continue;
+            }
             let n = n.max(fit.sample_size);
             let bar = bic(reached, n) - self.margin() * if single.is_some() { 1.0 } else { 2.0 };
             if bic(&fit, n) < bar && best.as_ref().is_none_or(|(_, f)| bic(&fit, n) < bic(f, n)) {
@@ -214,8 +228,11 @@ impl Selection<'_> {
         loop {
             let mut best: Option<(f64, Fit)> = None;
             let effects = free_effects(&fit.model);
-            if effects.len() < 2 {
-                return Ok(fit);
+            // At the edge where it vanishes an effect explains nothing, whatever the numbers say of its neighbourhood.
+            if let Some(gone) = effects.iter().find(|e| vanishes(e)) {
+                let Some(smaller) = self.reduced(&fit, gone)? else { return Ok(fit) };
+                fit = smaller;
+                continue;
             }
             for effect in effects {
                 // Far from its neutral value by its own deviation, an effect is needed beyond doubt.

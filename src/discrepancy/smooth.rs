@@ -3,33 +3,50 @@
 /// Half width of the local fit, s.
 const HALF_WIDTH: f64 = 0.4;
 
+/// Half width of the local fit of a direction of travel, s: a slope needs more than a value.
+const SLOPE_HALF_WIDTH: f64 = 1.0;
+
 /// Weights of the rows around row `i` whose sum is the smoothed value at its time.
 ///
 /// A local polynomial of degree four (lower when rows are few) by least squares; the weights depend on the
 /// times alone. Rows are taken from `range` only.
 pub fn weights(time: &[f64], range: std::ops::Range<usize>, i: usize) -> Vec<(usize, f64)> {
-    let near = |j: &usize| (time[*j] - time[i]).abs() <= HALF_WIDTH;
+    local(time, range, i, HALF_WIDTH, 4, 0).unwrap_or_else(|| vec![(i, 1.0)])
+}
+
+/// Weights of the rows around row `i` whose sum is the rate at its time, by a local cubic.
+///
+/// `None` with fewer than three rows nearby.
+pub fn slope_weights(time: &[f64], range: std::ops::Range<usize>, i: usize) -> Option<Vec<(usize, f64)>> {
+    local(time, range, i, SLOPE_HALF_WIDTH, 3, 1)
+}
+
+/// Weights of a derivative (0: the value) at row `i` of a local polynomial.
+fn local(
+    time: &[f64],
+    range: std::ops::Range<usize>,
+    i: usize,
+    half_width: f64,
+    most: usize,
+    derivative: usize,
+) -> Option<Vec<(usize, f64)>> {
+    let near = |j: &usize| (time[*j] - time[i]).abs() <= half_width;
     let first = (range.start..i).rev().take_while(near).last().unwrap_or(i);
     let last = (i..range.end).take_while(near).last().unwrap_or(i);
     let rows = last + 1 - first;
     let degree = match rows {
-        0..=2 => return vec![(i, 1.0)],
+        0..=2 => return None,
         3..=6 => 1,
-        _ => 4,
+        _ => most,
     };
-    let design =
-        nalgebra::DMatrix::from_fn(rows, degree + 1, |r, c| ((time[first + r] - time[i]) / HALF_WIDTH).powi(c as i32));
-    let gram = design.tr_mul(&design);
-    match gram.cholesky() {
-        // The value at the centre is the constant coefficient: the first row of (XᵀX)⁻¹Xᵀ.
-        Some(c) => {
-            let mut unit = nalgebra::DVector::zeros(degree + 1);
-            unit[0] = 1.0;
-            let w = &design * c.solve(&unit);
-            w.iter().enumerate().map(|(r, w)| (first + r, *w)).collect()
-        }
-        None => vec![(i, 1.0)],
-    }
+    let at = |r: usize| (time[first + r] - time[i]) / half_width;
+    let design = nalgebra::DMatrix::from_fn(rows, degree + 1, |r, c| at(r).powi(c as i32));
+    let gram = design.tr_mul(&design).cholesky()?;
+    // A coefficient of the polynomial is a row of (XᵀX)⁻¹Xᵀ; the value is the first, the rate the second.
+    let mut unit = nalgebra::DVector::zeros(degree + 1);
+    unit[derivative] = half_width.powi(-(derivative as i32));
+    let w = &design * gram.solve(&unit);
+    Some(w.iter().enumerate().map(|(r, w)| (first + r, *w)).collect())
 }
 
 /// The smoothed value of a column.

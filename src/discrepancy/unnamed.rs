@@ -14,14 +14,25 @@ const NOTICEABLE: f64 = 25.0;
 /// Named effects from which on simpler terms are tried whatever remains: so many causes at once are rare.
 const MANY: usize = 3;
 
+/// Most terms that are added: an equation of more is no explanation.
+const MOST: usize = 2;
+
+/// Least share of the violation at its place that a term must remove.
+const MATERIAL: f64 = 0.3;
+
 /// Whether an effect is a term of the library without names.
 pub fn is_term(effect: &Applied) -> bool {
     effect.effect.id.starts_with(PREFIX)
 }
 
+/// Whether motion remains that a fit does not explain.
+pub fn remains(fit: &Fit) -> bool {
+    fit.unexplained.iter().any(|gain| *gain > NOTICEABLE)
+}
+
 /// Whether a term may be asked for: something remains, or suspiciously much was needed.
 fn is_wanted(named: &Fit) -> bool {
-    named.unexplained.iter().any(|gain| *gain > NOTICEABLE) || free_effects(&named.model).len() >= MANY
+    remains(named) || free_effects(&named.model).len() >= MANY
 }
 
 /// The search repeated with terms beside the named effects; `None` unless one of them earns its place.
@@ -31,7 +42,6 @@ fn is_wanted(named: &Fit) -> bool {
 pub(super) fn search(
     selection: &Selection,
     model: &Model,
-    before: &Fit,
     named: &Grown,
     progress: &dyn Fn(&str),
 ) -> Result<Option<Grown>> {
@@ -41,17 +51,45 @@ pub(super) fn search(
     progress("looking for an equation of what has no name");
     let terms = model.terms()?;
     let library: Vec<Effect> = selection.library.iter().cloned().chain(terms).collect();
-    let wider = Selection { library: &library, size: model.applicable(&library).len() as f64, ..*selection };
-    let found = wider.grown(before, progress)?;
+    let wider = Selection {
+        library: &library,
+        size: model.applicable(&library).len() as f64,
+        most: MOST,
+        exchanges: false,
+        ..*selection
+    };
+    // From what has a name on: what a term makes superfluous is dropped then.
+    let mut found = wider.grown(&named.fit, progress)?;
+    if remains(&found.fit) && named_effects(&found.fit) < named_effects(&named.fit) {
+        // A term that leaves the rest unexplained is no reason to give a name up.
+        found = Selection { drops: false, ..wider }.grown(&named.fit, progress)?;
+    }
+    found.fit = material(&wider, found.fit)?;
     if !free_effects(&found.fit.model).iter().any(is_term) {
         return Ok(None);
     }
     let n = named.fit.sample_size.max(found.fit.sample_size);
     let better = bic(&found.fit, n) + 2.0 * wider.margin() < bic(&named.fit, n);
-    let left_out = |fit: &Fit| selection.problem.left_out(fit);
-    let (with, without) = (left_out(&found.fit)?, left_out(&named.fit)?);
-    let predicts = with.zip(without).is_some_and(|(with, without)| with < without);
+    let predicts = selection.problem.predicts_better(&found.fit, &named.fit)?;
+    found.steps = [&named.steps[..], &found.steps].concat();
+    found.candidates.clone_from(&named.candidates);
     Ok((better && predicts).then_some(found))
+}
+
+fn named_effects(fit: &Fit) -> usize {
+    free_effects(&fit.model).iter().filter(|e| !is_term(e)).count()
+}
+
+/// The fit without the terms that remove too small a share of what is violated at their place.
+fn material(selection: &Selection, mut fit: Fit) -> Result<Fit> {
+    for term in free_effects(&fit.model).iter().filter(|e| is_term(e)) {
+        let Some(smaller) = selection.reduced(&fit, term)? else { continue };
+        let violations = |f: &Fit| selection.problem.violations(&f.model, &fit.variances.noise);
+        if reduction(&term.effect.place, &violations(&smaller)?, &violations(&fit)?) < MATERIAL {
+            fit = smaller;
+        }
+    }
+    Ok(fit)
 }
 
 /// A term with its number in place, such as `v_t = v_n - 0.1294*phi'*abs(phi')`.

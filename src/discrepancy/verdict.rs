@@ -1,6 +1,7 @@
 //! The verdict: the first of the contract's five that holds.
 
 use super::choose::{Choice, Scored};
+use super::clock::Drift;
 use super::fit::Problem;
 use super::locate::Violation;
 use super::report::{NextExperiment, Verdict};
@@ -69,8 +70,8 @@ fn moves(problem: &Problem) -> bool {
 }
 
 /// The verdict after the choice.
-pub fn after_fitting(choice: &Choice, after: &[Violation]) -> Outcome {
-    if let Some(sentence) = hopeless(after) {
+pub fn after_fitting(choice: &Choice, after: &[Violation], clocks: &[Drift]) -> Outcome {
+    if let Some(sentence) = hopeless(after).or_else(|| mismatched(clocks)) {
         return outcome(Verdict::UnusableData, &sentence, None);
     }
     let without_name = choice.chosen.iter().any(|c| unnamed::is_term(&c.applied));
@@ -113,6 +114,17 @@ fn hopeless(after: &[Violation]) -> Option<String> {
             100.0 * position.min(1.0)
         )
     })
+}
+
+/// Clocks that do not match.
+fn mismatched(clocks: &[Drift]) -> Option<String> {
+    let worst = clocks.iter().filter(|d| d.is_mismatch()).max_by(|a, b| a.total.abs().total_cmp(&b.total.abs()))?;
+    Some(format!(
+        "The clocks do not match: in {} the delay between inputs and measured pose drifts by {:.0} ms, so neither \
+         constraints nor effects can be judged; align the logs first.",
+        worst.run,
+        1000.0 * worst.total.abs()
+    ))
 }
 
 /// Effects every vehicle has in one form or another: if one of plausible size could hide, silence means nothing.

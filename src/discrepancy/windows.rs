@@ -95,8 +95,7 @@ fn segment_along(
     starts: &[Vec<f64>],
 ) -> Option<Vec<Linear>> {
     let mut stepper = Stepper::new(equations, &record.signals, p);
-    let mut hidden =
-        super::carry::at_rest(equations, p, &mut stepper, record.time[segment.windows[0].start], &starts[0]);
+    let mut hidden = super::carry::before(equations, p, &mut stepper, record, segment.windows[0].start, &starts[0]);
     let mut found = Vec::with_capacity(segment.windows.len());
     for (k, rows) in segment.windows.iter().enumerate() {
         let z = [&starts[k][..], &hidden.z].concat();

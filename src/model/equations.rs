@@ -30,6 +30,9 @@ pub struct Equations {
     delay: Program,
 }
 
+/// How far beside a kink derivatives are taken, as a share of one.
+const BESIDE: f64 = 1e-9;
+
 impl Model {
     /// Values of every fixed symbol of the model's formulas.
     pub fn values(&self) -> BTreeMap<Symbol, f64> {
@@ -149,10 +152,27 @@ impl Equations {
     }
 
     /// dz/dt followed by the rows of its derivatives with respect to (z, u, p).
+    ///
+    /// At a kink, where |u| has no derivative though the motion is defined, they are those on the side of larger
+    /// inputs: a vehicle that stands still is no reason to give a log up.
     pub fn rates_and_jacobian<'w>(&self, w: &'w mut Workspace, z: &[f64], u: &[f64]) -> &'w [f64] {
         self.load(w, z, u);
         self.jacobian.run(&w.slots, &mut w.registers, &mut w.results);
-        &w.results[..self.jacobian.outputs()]
+        let (n, outputs) = (self.n(), self.jacobian.outputs());
+        let defined = |values: &[f64]| values.iter().all(|v| v.is_finite());
+        if defined(&w.results[..n]) && !defined(&w.results[n..outputs]) {
+            self.beside(w, u);
+        }
+        &w.results[..outputs]
+    }
+
+    /// The derivatives a little beside the inputs; the rates stay those of the inputs.
+    fn beside(&self, w: &mut Workspace, u: &[f64]) {
+        let n = self.n();
+        let rates = w.results[..n].to_vec();
+        w.slots[n..n + u.len()].iter_mut().for_each(|u| *u += BESIDE * (1.0 + u.abs()));
+        self.jacobian.run(&w.slots, &mut w.registers, &mut w.results);
+        w.results[..n].copy_from_slice(&rates);
     }
 
     /// What [`Equations::rates_and_jacobian`] gave last.

@@ -58,6 +58,27 @@ impl Signals {
         Self { knots: time.to_vec(), channels: columns.len(), pieces }
     }
 
+    /// The signals as a clock would give them that runs faster by a rate, about the middle of the log.
+    ///
+    /// ```
+    /// use creepage::motion::{Signals, Timing};
+    /// let s = Signals::new(&[0.0, 1.0, 2.0], &[vec![0.0, 1.0, 2.0]], Timing::Sample).stretched(0.5);
+    /// assert_eq!(s.knots(), [-0.5, 1.0, 2.5]);
+    /// let (mut value, mut slope) = ([0.0], [0.0]);
+    /// s.at(1.75, &mut value, &mut slope);
+    /// assert!((value[0] - 1.5).abs() < 1e-12);
+    /// ```
+    pub fn stretched(&self, rate: f64) -> Self {
+        let (Some(first), Some(last)) = (self.knots.first(), self.knots.last()) else { return self.clone() };
+        let (middle, by) = (0.5 * (first + last), 1.0 + rate);
+        let piece = |[a, b, d, e]: &[f64; 4]| [*a, b / by, d / by.powi(2), e / by.powi(3)];
+        Self {
+            knots: self.knots.iter().map(|t| middle + (t - middle) * by).collect(),
+            channels: self.channels,
+            pieces: self.pieces.iter().map(piece).collect(),
+        }
+    }
+
     /// How many channels there are.
     pub fn channels(&self) -> usize {
         self.channels

@@ -50,5 +50,6 @@ pub fn known() -> Known {
             effect("lever-arm", &["a", "b"], false),
             effect("trailer-traverse-creep", &["e_tc"], true),
         ],
+        terms: vec![],
     }
 }

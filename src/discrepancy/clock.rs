@@ -1,0 +1,100 @@
+//! Whether the clocks of inputs and measurements match: a delay that drifts along a run says they do not.
+
+use super::fit::{Effort, Fit, Problem};
+use super::record::Record;
+use crate::effects::Applied;
+use crate::error::Result;
+use crate::model::Model;
+use rayon::prelude::*;
+
+/// The effect that shifts the inputs in time.
+const DELAY: &str = "input-delay";
+/// Shortest run whose clocks are compared, s.
+const SHORTEST: f64 = 30.0;
+/// The drift over a run that a search begins with, s.
+const TRIED: f64 = 0.05;
+/// The drift over a run that no sensor's changing lag explains, s; and in times between rows.
+const MUCH: [f64; 2] = [0.1, 1.5];
+/// Deviance that a drift must be worth: far beyond chance and beyond what another small misfit imitates.
+const WORTH: f64 = 40.0;
+/// Runs that are asked, the least explained first: each costs some fits.
+const MOST_RUNS: usize = 6;
+const EFFORT: Effort = Effort { passes: 6, enough: 0.1, variances: true };
+
+/// How the clock of the inputs runs against the clock of the measurements.
+#[derive(Clone, Debug)]
+pub struct Drift {
+    /// Name of the run.
+    pub run: String,
+    /// By how much the delay changes from the first row to the last, s.
+    pub total: f64,
+    /// The deviance that this is worth.
+    pub gain: f64,
+    /// Time between rows, s.
+    pub step: f64,
+}
+
+impl Drift {
+    /// Whether clocks that match could not do this.
+    pub fn is_mismatch(&self) -> bool {
+        self.total.abs() > MUCH[0].max(MUCH[1] * self.step) && self.gain > WORTH
+    }
+}
+
+impl Problem {
+    /// The drift of the clocks in every run that is long enough, beside a fit.
+    ///
+    /// Each run is fitted again with its inputs stretched in time by a small rate, the delay being free.
+    ///
+    /// # Errors
+    /// When the model's formulas are malformed.
+    pub fn drifts(&self, fit: &Fit) -> Result<Vec<Drift>> {
+        let long = |r: &&Record| duration(r) >= SHORTEST;
+        let runs: Vec<usize> = (0..self.records.len()).filter(|i| long(&&self.records[*i])).take(MOST_RUNS).collect();
+        let found: Vec<Option<Drift>> = runs.into_par_iter().map(|i| self.drift(fit, i)).collect::<Result<_>>()?;
+        Ok(found.into_iter().flatten().collect())
+    }
+
+    fn drift(&self, fit: &Fit, run: usize) -> Result<Option<Drift>> {
+        let record = &self.records[run];
+        let model = with_delay(&fit.model);
+        let own = || self.plan.iter().zip(&fit.starts).filter(|(s, _)| s.record == run);
+        let starts: super::windows::Starts = own().map(|(_, s)| s.clone()).collect();
+        let plan = own().map(|(s, _)| super::windows::Segment { record: 0, ..s.clone() }).collect();
+        let alone = Problem { records: vec![record.clone()], plan, ..self.clone() };
+        let deviance = |rate: f64| -> Result<f64> {
+            let mut stretched = alone.clone();
+            stretched.records[0].signals = record.signals.stretched(rate);
+            let fitted = stretched.fit(&model, &starts, &fit.variances, EFFORT)?;
+            Ok(fitted.map_or(f64::INFINITY, |f| f.deviance))
+        };
+        let tried = TRIED / duration(record);
+        let [below, here, above] = [deviance(-tried)?, deviance(0.0)?, deviance(tried)?];
+        let mut best =
+            [(-tried, below), (tried, above)].into_iter().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0.0, here));
+        let bend = above - 2.0 * here + below;
+        let vertex = 0.5 * tried * (below - above) / bend;
+        if bend > 0.0 && vertex.is_finite() {
+            let vertex = vertex.clamp(-8.0 * tried, 8.0 * tried);
+            let there = deviance(vertex)?;
+            if there < best.1 {
+                best = (vertex, there);
+            }
+        }
+        let (rate, reached) = best;
+        let gain = here - reached;
+        let total = rate * duration(record);
+        Ok(gain.is_finite().then(|| Drift { run: record.name.clone(), total, gain, step: record.step() }))
+    }
+}
+
+fn duration(record: &Record) -> f64 {
+    record.time[record.rows.end - 1] - record.time[record.rows.start]
+}
+
+/// The model with a delay that a fit may change.
+fn with_delay(model: &Model) -> Model {
+    let Some(effect) = crate::effects::named(DELAY) else { return model.clone() };
+    let known = model.effects.iter().find(|e| e.effect.id == DELAY).map_or(0.0, |e| e.values[0]);
+    model.clone().with_effect(Applied::new(effect, None, vec![known]).freed())
+}

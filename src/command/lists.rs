@@ -2,7 +2,7 @@
 
 use super::print;
 use clap::{Args, ValueEnum};
-use creepage::describe::{effects_json, effects_text, vehicles_json, vehicles_text};
+use creepage::describe::{effects_json, effects_text, vehicle_effects_text, vehicles_json, vehicles_text};
 use creepage::{Result, effects as library};
 
 /// List the vehicles a model file may name
@@ -16,8 +16,11 @@ pub struct Vehicles {
 
 /// List the effects that can be named, with their equations
 #[derive(Args)]
-#[command(after_help = "Example:\n  creepage effects")]
+#[command(after_help = "Examples:\n  creepage effects\n  creepage effects --vehicle car")]
 pub struct Effects {
+    /// Only those of one vehicle, with the equations they rewrite there and the effects that are the same
+    #[arg(long, value_name = "NAME", conflicts_with = "format")]
+    vehicle: Option<String>,
     /// How to print them
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -45,6 +48,10 @@ pub fn vehicles(arguments: &Vehicles) -> Result<()> {
 
 /// Carries out `creepage effects`.
 pub fn effects(arguments: &Effects) -> Result<()> {
+    if let Some(vehicle) = &arguments.vehicle {
+        print(&vehicle_effects_text(vehicle, library::all())?);
+        return Ok(());
+    }
     print(&match arguments.format {
         Format::Text => effects_text(library::all())?,
         Format::Json => pretty(&effects_json(library::all())?),

@@ -5,9 +5,10 @@ use super::fit::{Fit, Problem};
 use super::gap::{Errors, Predictor};
 use super::locate;
 use super::record::Record;
+use super::relatives::{self, Relative, relatives};
 use super::report::*;
-use super::{picture, summary, unnamed, verdict};
-use crate::effects::{Applied, Effect};
+use super::{experiment, picture, summary, unnamed, verdict};
+use crate::effects::Effect;
 use crate::error::{Error, Result};
 use crate::files::{EffectEntry, ModelFile, Run};
 use crate::model::Model;
@@ -95,11 +96,13 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
     let found = verdict::after_fitting(&choice, &after, &clocks);
     let mut report = empty_report(request, &data);
     report.verdict = found.verdict;
-    report.next_experiment = found.next_experiment;
+    let relatives = relatives(&choice, request.library, relatives::measured(&data.fitted[0]));
+    report.next_experiment = experiment::next(&problem, &choice, &relatives, &found)?;
     if report.verdict != Verdict::UnusableData {
-        let (terms, effects): (Vec<&Chosen>, Vec<&Chosen>) =
-            choice.chosen.iter().partition(|c| unnamed::is_term(&c.applied));
-        report.effects = effects.into_iter().map(|c| named(c, &model)).collect();
+        let each = choice.chosen.iter().zip(&relatives);
+        let (terms, effects): (Vec<_>, Vec<_>) = each.partition(|(c, _)| unnamed::is_term(&c.applied));
+        report.effects = effects.into_iter().map(|(c, relatives)| named(c, relatives, &model)).collect();
+        let terms: Vec<&Chosen> = terms.into_iter().map(|(c, _)| c).collect();
         report.unnamed = without_name(&terms, &data, &choice.after, &model)?;
     }
     report.disagreement = locate::disagreements(&before);
@@ -188,7 +191,7 @@ fn nothing_to_fit(request: &Request, data: &Data, outcome: verdict::Outcome) -> 
 }
 
 /// A chosen effect as the report lists it.
-fn named(chosen: &Chosen, model: &Model) -> Named {
+fn named(chosen: &Chosen, relatives: &[Relative], model: &Model) -> Named {
     let a = &chosen.applied;
     let values = a.effect.parameters.iter().zip(&a.values).zip(&chosen.std);
     let mut parameters: BTreeMap<String, Estimate> = values
@@ -197,13 +200,13 @@ fn named(chosen: &Chosen, model: &Model) -> Named {
     if let Some(i) = a.trailer {
         parameters.insert("trailer".into(), Estimate { value: i as f64, std: None, unit: "1".into() });
     }
-    let rival = |r: &Applied| Rival { id: r.effect.id.clone(), why: "data".into() };
+    let rival = |r: &Relative| Rival { id: r.applied.effect.id.clone(), why: r.why.into() };
     Named {
         id: a.effect.id.clone(),
         place: a.effect.place.clone(),
         parameters,
         evidence: Evidence { delta_bic: chosen.delta_bic, p_value: chosen.p_value },
-        indistinguishable_from: chosen.rivals.iter().map(rival).collect(),
+        indistinguishable_from: relatives.iter().map(rival).collect(),
         equation: picture::equation(a, model),
     }
 }
@@ -224,7 +227,7 @@ fn without_name(terms: &[&Chosen], data: &Data, after: &Fit, model: &Model) -> R
         place: c.applied.effect.place.clone(),
         equation: unnamed::equation(&c.applied, model),
         held_out_reduction: unnamed::reduction(&c.applied.effect.place, &without, &with),
-        parameters: named(c, model).parameters,
+        parameters: named(c, &[], model).parameters,
     };
     Ok(terms.iter().map(one).collect())
 }

@@ -78,7 +78,7 @@ fn path(record: &Record, held_out: bool, before: &Model, after: &Model) -> Resul
 }
 
 /// What an effect says, as equations: each definition it rewrites, and the rates of its states.
-pub(super) fn equation(applied: &Applied, model: &Model) -> String {
+pub fn equation(applied: &Applied, model: &Model) -> String {
     let Ok(definitions) = model.definitions() else { return String::new() };
     let names: Vec<_> = definitions.iter().map(|(n, _)| n.clone()).collect();
     let targets = applied.effect.targets(&names, applied.trailer).unwrap_or_default();

@@ -76,13 +76,8 @@ pub fn after_fitting(choice: &Choice, after: &[Violation], clocks: &[Drift]) -> 
     }
     let without_name = choice.chosen.iter().any(|c| unnamed::is_term(&c.applied));
     if !choice.chosen.is_empty() {
-        let rivals = choice.chosen.iter().find(|c| !c.rivals.is_empty());
-        let next_experiment = rivals.map(|c| NextExperiment {
-            why: format!("these runs do not tell {} from {}", c.applied.label(), c.rivals[0].label()),
-            manoeuvre: "repeat the runs at clearly different speeds and with turns to both sides".into(),
-        });
         let verdict = if without_name { Verdict::UnnamedEffect } else { Verdict::MissingEffect };
-        return Outcome { verdict, sentence: None, next_experiment };
+        return Outcome { verdict, sentence: None, next_experiment: None };
     }
     match missed(&choice.candidates) {
         Some(candidate) => {
@@ -132,7 +127,7 @@ const BASIC: [&str; 6] =
     ["rotation-creep", "traverse-creep", "yaw-rate-bias", "yaw-rate-scale", "track-width", "steering-offset"];
 
 /// A basic effect that would not have stood out at its plausible size.
-fn missed(candidates: &[Scored]) -> Option<&Scored> {
+pub(super) fn missed(candidates: &[Scored]) -> Option<&Scored> {
     candidates.iter().find(|c| {
         let sizes = c.applied.effect.parameters.values().map(|p| p.size);
         BASIC.contains(&c.applied.effect.id.as_str()) && sizes.zip(&c.std).any(|(size, std)| 4.0 * std > size)

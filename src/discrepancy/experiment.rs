@@ -1,0 +1,253 @@
+//! What to drive next: the manoeuvre that is expected to tell most.
+//!
+//! A manoeuvre is driven by the model as fitted, without noise, and the other model is fitted to that *and* to what
+//! the runs at hand say of it; what is left of the misfit is the deviance to expect.
+
+use super::chain::{Variances, eliminate};
+use super::choose::{Choice, Scored};
+use super::envelope::Envelope;
+use super::fit::{Fit, Problem, pose_of};
+use super::manoeuvre::{LENGTH, Manoeuvre, library};
+use super::record::Record;
+use super::relatives::Relative;
+use super::report::{NextExperiment, Verdict};
+use super::selection::{SCREEN, without};
+use super::verdict::{Outcome, missed};
+use super::windows::{Starts, linearise, plan};
+use crate::effects::Applied;
+use crate::error::Result;
+use crate::model::Model;
+use crate::motion::{Arc, Stepper, Timing};
+use crate::picture::number::significant;
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+/// Rows a second of a manoeuvre that is thought through; more rows are less noise.
+const RATE: f64 = 10.0;
+/// Steps of the fit to a manoeuvre.
+const PASSES: usize = 3;
+/// Evidence that separates two effects beyond doubt.
+const ENOUGH: f64 = 12.0;
+/// A manoeuvre within this share of the best one is as good.
+const ALIKE: f64 = 0.9;
+/// More rivals than these are not thought of at once.
+const MOST_RIVALS: usize = 4;
+
+/// A model, and what the runs at hand say of its free parameters.
+struct Known {
+    model: Model,
+    p: DVector<f64>,
+    information: DMatrix<f64>,
+}
+
+impl Known {
+    fn of(fit: &Fit) -> Self {
+        let p = DVector::from_column_slice(&fit.p);
+        Self { model: fit.model.clone(), p, information: fit.information.clone() }
+    }
+
+    /// A step that keeps a positive value positive: it is at most divided or multiplied by five.
+    fn held(&self, p: &DVector<f64>, step: &DVector<f64>) -> DVector<f64> {
+        let free = self.model.effects.iter().filter(|e| e.free);
+        let positive: Vec<bool> = free.flat_map(|e| e.effect.parameters.values()).map(|p| p.positive).collect();
+        DVector::from_fn(p.len(), |i, _| match positive[i] {
+            true => (p[i] + step[i]).max(p[i] / 5.0).min(p[i] * 5.0) - p[i],
+            false => step[i],
+        })
+    }
+
+    /// The BIC's charge for its parameters.
+    fn charge(&self, sample_size: f64) -> f64 {
+        self.p.len() as f64 * sample_size.ln()
+    }
+}
+
+/// What is needed to think a manoeuvre through.
+struct Thought<'a> {
+    envelope: Envelope,
+    like: &'a Record,
+    variances: Variances,
+    sample_size: f64,
+}
+
+/// What to drive next, after a verdict: for relatives that some run could tell apart, or for an effect that would have
+/// been missed; else what the verdict itself advises.
+///
+/// # Errors
+/// When a model's formulas are malformed.
+pub fn next(
+    problem: &Problem,
+    choice: &Choice,
+    relatives: &[Vec<Relative>],
+    outcome: &Outcome,
+) -> Result<Option<NextExperiment>> {
+    let own = match outcome.verdict {
+        Verdict::MissingEffect | Verdict::UnnamedEffect => between(problem, choice, relatives)?,
+        Verdict::NotIdentifiable => missed(&choice.candidates).and_then(|c| revealing(problem, choice, c)),
+        _ => None,
+    };
+    Ok(own.or_else(|| outcome.next_experiment.clone()))
+}
+
+/// Manoeuvres for what the runs at hand leave open: the first chosen effect with relatives that differ from it.
+///
+/// # Errors
+/// When a model's formulas are malformed.
+fn between(problem: &Problem, choice: &Choice, relatives: &[Vec<Relative>]) -> Result<Option<NextExperiment>> {
+    let open = choice.chosen.iter().zip(relatives);
+    let open = open.map(|(c, r)| (c, most_different(r)));
+    let Some((chosen, rivals)) = open.into_iter().find(|(_, r)| !r.is_empty()) else { return Ok(None) };
+    let after = &choice.after;
+    let fitted = |r: &&Relative| {
+        let model = without(&after.model, &chosen.applied).with_effect(r.applied.clone().freed());
+        problem.fit(&model, &after.starts, &after.variances, SCREEN)
+    };
+    let fits: Vec<Fit> =
+        rivals.iter().take(MOST_RIVALS).map(fitted).collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
+    let Some(thought) = Thought::of(problem, after) else { return Ok(None) };
+    let truth = Known::of(after);
+    let others: Vec<Known> = fits.iter().map(Known::of).collect();
+    if others.is_empty() {
+        return Ok(None);
+    }
+    // Whichever is true, the other must fall short.
+    let worth = |m: &Manoeuvre| {
+        let both = others.iter().flat_map(|o| [thought.misfit(m, &truth, o), thought.misfit(m, o, &truth)]);
+        both.collect::<Option<Vec<_>>>().map(|all| all.into_iter().fold(f64::INFINITY, f64::min))
+    };
+    let names: Vec<String> = rivals.iter().take(MOST_RIVALS).map(|r| r.applied.label()).collect();
+    let pair = format!("{} from {}", chosen.applied.label(), names.join(" or "));
+    Ok(thought.best(worth).map(|(m, worth)| thought.advice(m, worth, &pair)))
+}
+
+/// The manoeuvre that would show an effect of plausible size that the runs at hand would not have shown.
+///
+/// # Errors
+/// When a model's formulas are malformed.
+fn revealing(problem: &Problem, choice: &Choice, missed: &Scored) -> Option<NextExperiment> {
+    let before = &choice.after;
+    let thought = Thought::of(problem, before)?;
+    let of = Known::of(before);
+    let effect = &missed.applied.effect;
+    let sizes: Vec<f64> = effect.parameters.values().map(|p| p.size).collect();
+    let applied = Applied::new(effect, missed.applied.trailer, sizes);
+    let label = applied.label();
+    let truth = Known { model: before.model.clone().with_effect(applied.freed()), ..Known::of(before) };
+    let (m, worth) = thought.best(|m| thought.misfit(m, &truth, &of))?;
+    let why = format!(
+        "a plausible {label} would have been missed; this is expected to show it with a ΔBIC of about {}",
+        significant(worth, 2)
+    );
+    (worth > ENOUGH).then(|| NextExperiment { why, manoeuvre: m.sentence(&thought.envelope) })
+}
+
+/// The relatives that a run is to tell apart: those that agree to first order only where there are no others, for they
+/// would have a say in every choice and are told apart by precision more than by a manoeuvre.
+fn most_different(relatives: &[Relative]) -> Vec<&Relative> {
+    let by_data: Vec<&Relative> = relatives.iter().filter(|r| r.why == "data").collect();
+    if by_data.is_empty() { relatives.iter().filter(|r| r.differs()).collect() } else { by_data }
+}
+
+impl<'a> Thought<'a> {
+    fn of(problem: &'a Problem, fit: &Fit) -> Option<Self> {
+        let like = problem.records.first()?;
+        let envelope = Envelope::of(&fit.model, &problem.records)?;
+        let mut variances = fit.variances;
+        variances.noise.iter_mut().for_each(|v| *v *= (like.step() * RATE).min(1e3));
+        Some(Self { envelope, like, variances, sample_size: fit.sample_size })
+    }
+
+    /// The manoeuvre of the most worth, or the simplest of those that are nearly as good.
+    fn best(&self, worth: impl Fn(&Manoeuvre) -> Option<f64> + Sync) -> Option<(&'static Manoeuvre, f64)> {
+        let all: Vec<&Manoeuvre> = library(&self.envelope).collect();
+        let worths: Vec<Option<f64>> = all.par_iter().map(|m| worth(m)).collect();
+        let most = worths.iter().flatten().copied().fold(f64::NEG_INFINITY, f64::max);
+        all.into_iter().zip(worths).find_map(|(m, w)| w.filter(|w| *w >= ALIKE * most).map(|w| (m, w)))
+    }
+
+    fn advice(&self, m: &Manoeuvre, worth: f64, pair: &str) -> NextExperiment {
+        let sentence = m.sentence(&self.envelope);
+        let expected = significant(worth.max(0.0), 2);
+        let times = (ENOUGH / worth.max(1e-9)).ceil();
+        let (manoeuvre, why) = match times {
+            t if t <= 1.0 => (sentence, format!("the minute is expected to do so with a ΔBIC of {expected}")),
+            t if t <= 30.0 => (
+                format!("{sentence}; repeat it {t} times"),
+                format!("a minute is expected to give a ΔBIC of {expected} only"),
+            ),
+            _ => (
+                "no manoeuvre within these speeds and turns separates them in reasonable time; measure the parameter \
+                 itself instead"
+                    .to_string(),
+                format!("a minute is expected to give a ΔBIC of {expected} at best"),
+            ),
+        };
+        NextExperiment { why: format!("these runs do not tell {pair}; {why}"), manoeuvre }
+    }
+
+    /// By how much the BIC of `other` is expected to exceed that of `truth` after a manoeuvre.
+    fn misfit(&self, m: &Manoeuvre, truth: &Known, other: &Known) -> Option<f64> {
+        let record = self.driven(m, truth)?;
+        let free: Vec<_> = other.model.effects.iter().filter(|e| e.free).flat_map(Applied::parameters).collect();
+        let equations = other.model.equations(&free).ok()?;
+        let records = [record];
+        let plan = plan(&records);
+        let start = |w: &std::ops::Range<usize>| pose_of(&equations, &records[0].smoothed(w.start));
+        let mut starts: Starts = plan.iter().map(|s| s.windows.iter().map(start).collect()).collect();
+        let mut p = other.p.clone();
+        let mut left = f64::NAN;
+        for _ in 0..PASSES {
+            let linear = linearise(&equations, p.as_slice(), &records, &plan, &starts)?;
+            let e = eliminate(&linear, &self.variances, p.len())?;
+            let away = &p - &other.p;
+            let (information, gradient) = e.normal();
+            let held = &other.information * &away;
+            let (information, gradient) = (information + &other.information, gradient + &held);
+            let scale = information.diagonal().iter().copied().fold(0.0, f64::max);
+            let step = match p.len() {
+                0 => DVector::zeros(0),
+                k => -(information + DMatrix::identity(k, k) * (1e-12 * scale)).cholesky()?.solve(&gradient),
+            };
+            // What is left after this step, were the model as linear as it looks.
+            left = e.cost() + away.dot(&held) + gradient.dot(&step);
+            let delta = other.held(&p, &step);
+            for (s, by) in starts.iter_mut().zip(e.corrections(&linear, &delta)) {
+                s.iter_mut().zip(by).for_each(|(z, d)| z.iter_mut().zip(d.iter()).for_each(|(z, d)| *z += d));
+            }
+            p += delta;
+        }
+        Some(left + other.charge(self.sample_size) - truth.charge(self.sample_size)).filter(|w| w.is_finite())
+    }
+
+    /// What the sensors would log of a manoeuvre, without noise.
+    fn driven(&self, m: &Manoeuvre, truth: &Known) -> Option<Record> {
+        let times: Vec<f64> = (0..=(LENGTH * RATE) as usize).map(|i| i as f64 / RATE).collect();
+        let inputs = m.inputs(&self.envelope, &times);
+        let equations = truth.model.equations(&[]).ok()?;
+        let mut record = Record::new(
+            "manoeuvre",
+            times,
+            vec![vec![]; self.like.columns.len()],
+            self.like.has_heading,
+            &inputs,
+            Timing::Sample,
+        );
+        record.trailers = self.like.trailers;
+        let signals = record.signals.clone();
+        let mut stepper = Stepper::new(&equations, &signals, &[]);
+        let mut z = vec![0.0; equations.visible];
+        z.extend(super::carry::at_rest(&equations, &[], &mut stepper, record.time[0], &z).z);
+        let mut arc = Arc { z, s: vec![] };
+        for i in 0..record.time.len() {
+            let y = stepper.outputs(&arc.z);
+            for c in 0..record.columns.len() {
+                let value = y[record.output_of(c)];
+                record.columns[c].push(value);
+            }
+            if i + 1 < record.time.len() {
+                stepper.advance(&mut arc, record.time[i], record.time[i + 1]);
+            }
+        }
+        record.columns.iter().flatten().all(|x| x.is_finite()).then_some(record)
+    }
+}

@@ -1,0 +1,89 @@
+//! A value with its derivative as a carrier, both in normal form.
+
+use crate::formula::{Fun, Normal, Scalar};
+use num_rational::BigRational;
+use num_traits::Zero;
+
+/// f + f′·ε with ε² = 0: exact derivatives of formulas as formulas.
+#[derive(Clone, Debug)]
+pub struct Tangent {
+    /// f
+    pub value: Normal,
+    /// f′
+    pub slope: Normal,
+}
+
+fn int(n: i64) -> Normal {
+    Normal::number(&BigRational::from_integer(n.into()))
+}
+
+impl Tangent {
+    /// What does not depend on the parameter.
+    pub fn constant(value: Normal) -> Self {
+        Self { value, slope: int(0) }
+    }
+
+    /// The parameter itself, at zero.
+    pub fn parameter() -> Self {
+        Self { value: int(0), slope: int(1) }
+    }
+
+    fn times(&self, factor: &Normal) -> Normal {
+        self.slope.mul(factor)
+    }
+}
+
+impl Scalar for Tangent {
+    fn number(value: &BigRational) -> Self {
+        Self::constant(Normal::number(value))
+    }
+
+    fn add(&self, other: &Self) -> Self {
+        Self { value: self.value.add(&other.value), slope: self.slope.add(&other.slope) }
+    }
+
+    fn neg(&self) -> Self {
+        Self { value: self.value.neg(), slope: self.slope.neg() }
+    }
+
+    fn mul(&self, other: &Self) -> Self {
+        let slope = self.times(&other.value).add(&other.times(&self.value));
+        Self { value: self.value.mul(&other.value), slope }
+    }
+
+    fn recip(&self) -> Self {
+        self.powi(-1)
+    }
+
+    fn powi(&self, n: i32) -> Self {
+        let slope = match n {
+            0 => int(0),
+            n => self.times(&self.value.powi(n - 1)).mul(&int(i64::from(n))),
+        };
+        Self { value: self.value.powi(n), slope }
+    }
+
+    fn call(f: Fun, x: &Self) -> Self {
+        let value = Normal::call(f, &x.value);
+        let square = |v: &Normal| int(1).add(&v.mul(v));
+        let outer = match f {
+            // What does not vary needs no derivative.
+            _ if x.slope.is_zero() => int(0),
+            Fun::Sin => Normal::call(Fun::Cos, &x.value),
+            Fun::Cos => Normal::call(Fun::Sin, &x.value).neg(),
+            Fun::Tan => square(&value),
+            Fun::Cot => square(&value).neg(),
+            Fun::Atan => square(&x.value).recip(),
+            _ => Normal::number(&BigRational::zero()).recip(),
+        };
+        Self { value, slope: x.times(&outer) }
+    }
+
+    fn is_defined(&self) -> bool {
+        self.value.is_defined() && self.slope.is_defined()
+    }
+
+    fn equals(&self, other: &Self) -> bool {
+        self.value.equals(&other.value) && self.slope.equals(&other.slope)
+    }
+}

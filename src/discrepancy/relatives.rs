@@ -1,0 +1,69 @@
+//! Effects that are listed beside a chosen one, and why.
+
+use super::choose::{Choice, Chosen};
+use super::identity::{Measured, relation};
+use super::record::Record;
+use super::unnamed;
+use crate::effects::{Applied, Effect};
+use crate::model::Model;
+use rayon::prelude::*;
+
+/// Another effect that explains what a chosen one explains.
+#[derive(Clone, Debug)]
+pub struct Relative {
+    /// The effect; at its fitted values where the data were asked, else where a fit would begin.
+    pub applied: Applied,
+    /// `identical`, `first order` or `data`.
+    pub why: &'static str,
+}
+
+impl Relative {
+    /// Whether some run could tell it from the chosen effect.
+    pub fn differs(&self) -> bool {
+        self.why != "identical"
+    }
+}
+
+/// What a record measures.
+pub fn measured(record: &Record) -> Measured {
+    let poses = 2 + usize::from(record.has_heading);
+    Measured { heading: record.has_heading, trailers: record.columns.len() > poses }
+}
+
+/// The relatives of every chosen effect.
+///
+/// Those that are identical by their formulas are always listed, in the order of the library, whatever the data say;
+/// then those that the data do not separate, `first order` where the formulas agree that far.
+pub fn relatives(choice: &Choice, library: &[Effect], measured: Measured) -> Vec<Vec<Relative>> {
+    choice.chosen.iter().map(|c| of_one(c, &choice.after.model, library, measured)).collect()
+}
+
+fn of_one(chosen: &Chosen, after: &Model, library: &[Effect], measured: Measured) -> Vec<Relative> {
+    if unnamed::is_term(&chosen.applied) {
+        return vec![];
+    }
+    let mut rest = after.clone();
+    rest.effects.retain(|e| !e.same_as(&chosen.applied));
+    let related = |other: &Applied| {
+        let of = |a: &Applied| [a.clone().freed()];
+        relation(&rest, &of(&chosen.applied), &of(other), measured)
+    };
+    let known = |other: &Applied| chosen.rivals.iter().find(|r| r.same_as(other)).cloned();
+    let identical: Vec<Relative> = candidates(after, library)
+        .into_par_iter()
+        .filter(|other| related(other).replaces())
+        .map(|other| Relative { applied: known(&other).unwrap_or(other), why: "identical" })
+        .collect();
+    let listed = |r: &&Applied| !identical.iter().any(|i| i.applied.same_as(r));
+    let by_data = chosen.rivals.iter().filter(listed);
+    let by_data: Vec<Relative> =
+        by_data.map(|r| Relative { applied: r.clone(), why: related(r).word().unwrap_or("data") }).collect();
+    identical.into_iter().chain(by_data).collect()
+}
+
+/// The effects of a library that a model has not.
+fn candidates(model: &Model, library: &[Effect]) -> Vec<Applied> {
+    let open = model.applicable(library).into_iter();
+    let open = open.map(|(e, t)| Applied::new(e, t, e.starts().swap_remove(0)));
+    open.filter(|a| !model.effects.iter().any(|e| e.same_as(a))).collect()
+}

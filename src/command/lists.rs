@@ -1,9 +1,10 @@
 //! `creepage vehicles` and `creepage effects`
 
+use super::own_effects::OwnEffects;
 use super::print;
 use clap::{Args, ValueEnum};
 use creepage::describe::{effects_json, effects_text, vehicles_json, vehicles_text};
-use creepage::{Result, effects as library};
+use creepage::Result;
 
 /// List the vehicles a model file may name
 #[derive(Args)]
@@ -16,11 +17,16 @@ pub struct Vehicles {
 
 /// List the effects that can be named, with their equations
 #[derive(Args)]
-#[command(after_help = "Example:\n  creepage effects")]
+#[command(after_help = "\
+Example:
+  creepage effects
+  creepage effects --effects examples/effects/my_effects.toml")]
 pub struct Effects {
     /// How to print them
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    #[command(flatten)]
+    own: OwnEffects,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -45,9 +51,10 @@ pub fn vehicles(arguments: &Vehicles) -> Result<()> {
 
 /// Carries out `creepage effects`.
 pub fn effects(arguments: &Effects) -> Result<()> {
+    let library = arguments.own.library()?;
     print(&match arguments.format {
-        Format::Text => effects_text(library::all())?,
-        Format::Json => pretty(&effects_json(library::all())?),
+        Format::Text => effects_text(&library)?,
+        Format::Json => pretty(&effects_json(&library)?),
     });
     Ok(())
 }

@@ -4,7 +4,7 @@ mod applied;
 mod effect;
 
 pub use applied::Applied;
-pub use effect::{Effect, Parameter, State};
+pub use effect::{Effect, Origin, Parameter, State};
 
 use std::sync::LazyLock;
 

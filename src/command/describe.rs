@@ -4,11 +4,11 @@ use super::lists::pretty;
 use super::own_effects::OwnEffects;
 use super::print;
 use clap::{Args, ValueEnum};
+use creepage::Result;
 use creepage::describe::{CreepLimits, Description, json, latex, text};
 use creepage::files::ModelFile;
 use creepage::mechanism::Limits;
 use creepage::model::{self, Model};
-use creepage::Result;
 use std::path::PathBuf;
 
 /// Print a model's constraints, matrix, derivatives and motion, with every symbol and unit

@@ -3,8 +3,8 @@
 use super::own_effects::OwnEffects;
 use super::print;
 use clap::{Args, ValueEnum};
-use creepage::describe::{effects_json, effects_text, vehicles_json, vehicles_text};
 use creepage::Result;
+use creepage::describe::{effects_json, effects_text, vehicles_json, vehicles_text};
 
 /// List the vehicles a model file may name
 #[derive(Args)]

@@ -1,4 +1,5 @@
-//! The effects that may be missing from a model: data. To add one, add it to `catalogue.toml`.
+//! The effects that may be missing from a model: data. To add one, add it to `catalogue.toml`;
+//! a user adds one without recompiling, see [`library`](crate::library).
 
 mod applied;
 mod effect;

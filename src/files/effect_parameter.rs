@@ -51,14 +51,17 @@ fn range(section: &Section, positive: bool) -> Result<[f64; 2]> {
     let example = "range = [-1.0, 1.0], what may stand in a model file";
     let value = section.need("range", example)?;
     let found = numbers(&value, example)?;
-    let range: [f64; 2] = found.try_into().map_err(|_| value.error("range needs 2 numbers").help(example))?;
+    let range: [f64; 2] =
+        found.try_into().map_err(|_| value.error("range needs 2 numbers").help(format!("write {example}")))?;
     let [low, high] = range;
     let refuse = |why: String, advice: &str| Err(value.error(why).help(advice.to_string()));
     if low >= high {
         return refuse(format!("range from {low:?} to {high:?} is empty"), "write the smaller number first");
     }
     match positive {
-        true if low < 0.0 => refuse(format!("range of a positive parameter begins at {low:?}"), "begin it at 0 or above"),
+        true if low < 0.0 => {
+            refuse(format!("range of a positive parameter begins at {low:?}"), "begin it at 0 or above")
+        }
         false if low > 0.0 || high < 0.0 => refuse(
             format!("range from {low:?} to {high:?} lacks 0, where the effect vanishes"),
             "widen it, or write positive = true if 0 has no meaning",

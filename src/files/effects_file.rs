@@ -193,11 +193,12 @@ impl OwnEffect {
         let identifier = name.starts_with(|c: char| c.is_ascii_alphabetic())
             && name.len() <= 60
             && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+            && !format!("{name}_").contains("__")
             && Symbol::new(name).is_well_formed();
         if !identifier || RESERVED.contains(&name.as_str()) {
-            return Err(entry
-                .key_error(format!("\"{}\" cannot name a parameter or a state", shown(name)))
-                .help("begin with a letter, go on with letters, digits and _; functions, it, id and trailer are taken"));
+            return Err(entry.key_error(format!("\"{}\" cannot name a parameter or a state", shown(name))).help(
+                "begin with a letter, go on with letters, digits and _; functions, it, id and trailer are taken",
+            ));
         }
         match self.names.insert(name.clone(), Spot::at(entry.source, entry.key_at)) {
             None => Ok(()),

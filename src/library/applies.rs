@@ -14,7 +14,7 @@ const NAMED: usize = 3;
 pub(super) struct Place<'m> {
     pub machine: &'m Machine,
     pub applied: Applied,
-    /// Each definition, the key of the change, and the formula in `it`.
+    /// Each definition and the key of its change.
     pub targets: Vec<Target>,
 }
 

@@ -14,7 +14,8 @@ const MOST: Size = Size { nodes: 5000, depth: 300, degree: 1000 };
 pub(super) fn check(own: &OwnEffect, library: &[Effect], machines: &[Machine]) -> Result<()> {
     for machine in machines {
         let Some(name) = outgrown(library, machine) else { continue };
-        let touches = |key: &str| key.trim_end_matches('*').starts_with(name.as_str()) || name.as_str().starts_with(key);
+        let touches =
+            |key: &str| key.trim_end_matches('*').starts_with(name.as_str()) || name.as_str().starts_with(key);
         let at = own.changes.iter().find(|(key, _)| touches(key)).or(own.changes.iter().next());
         let message =
             format!("with all effects together the formula of {name} grows beyond all bounds on {}", machine.label);

@@ -63,7 +63,8 @@ fn check_formula(own: &OwnEffect, formula: &FormulaText, known: &[Symbol], is_ch
         if name == "it" || own.names.contains_key(name) || known.contains(&s) {
             continue;
         }
-        let candidates: Vec<&str> = own.names.keys().map(String::as_str).chain(known.iter().map(Symbol::as_str)).collect();
+        let candidates: Vec<&str> =
+            own.names.keys().map(String::as_str).chain(known.iter().map(Symbol::as_str)).collect();
         let error = formula.error_at(&s, format!("no vehicle knows the name \"{}\"", crate::files::shown(name)));
         return Err(error.help(advice(name, "there are", &candidates)));
     }

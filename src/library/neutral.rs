@@ -23,15 +23,24 @@ struct Situation<'a> {
 /// An effect whose parameters are all positive or angles has no neutral value; it must only be defined.
 pub(super) fn check(own: &OwnEffect) -> Result<()> {
     let has_neutral = own.effect.parameters.values().any(|p| !p.positive && !p.periodic);
-    let settles = own.rates.values().all(|rate| all(own, true, |s| s.value(&rate.formula).is_none_or(|v| v == 0.0)));
+    let rests = |rate: &FormulaText| all(own, true, |s| s.value(&rate.formula).is_none_or(|v| close(v, 0.0)));
+    let restless = own.rates.iter().find(|(_, rate)| !rests(rate));
     for (key, (_, formula)) in &own.changes {
         if !all(own, true, |s| s.point >= NEAR || s.value(&formula.formula).is_some()) {
             return Err(undefined(own, formula, has_neutral));
         }
         let unchanged = |s: &Situation| s.value(&formula.formula).is_none_or(|v| close(v, s.number("it")));
-        if has_neutral && !(all(own, false, unchanged) || (settles && all(own, true, unchanged))) {
+        if !has_neutral || all(own, false, unchanged) {
+            continue;
+        }
+        if let Some((name, rate)) = restless.filter(|_| all(own, true, unchanged)) {
+            return Err(rate
+                .error(format!("the state {name} leaves 0 where the parameters are {}", neutral(own)))
+                .help("write its rate so that 0 means no effect, such as (c*v_l - u)/tau"));
+        }
+        if restless.is_some() || !all(own, true, unchanged) {
             return Err(formula
-                .error(format!("the effect still changes {key} where its parameters are {}", neutral(own)))
+                .error(format!("the effect still changes {key} where the parameters are {}", neutral(own)))
                 .help("write it so that 0 means no effect, such as it + c*v_l or it*(1 + scale)"));
         }
     }
@@ -76,7 +85,8 @@ impl Situation<'_> {
     /// A number of either sign that depends on the name and the point only.
     fn scattered(&self, name: &str) -> f64 {
         // Within 0.2 … 1.2, half of them below 0.7.
-        let within = |k: u32| Sample::of(&Definitions::default(), k).and_then(|s| s.value(&Expr::sym(Symbol::new(name))));
+        let within =
+            |k: u32| Sample::of(&Definitions::default(), k).and_then(|s| s.value(&Expr::sym(Symbol::new(name))));
         let size = within(2 * self.point).unwrap_or(1.0);
         let sign = if within(2 * self.point + 1).is_some_and(|x| x < 0.7) { -1.0 } else { 1.0 };
         sign * size * if self.point < NEAR { 1.0 } else { 10.0 }

@@ -2,12 +2,15 @@
 
 #[path = "support/bad_effects.rs"]
 mod bad_effects;
+#[path = "support/bad_formulas.rs"]
+mod bad_formulas;
 mod models;
 mod simulator;
 #[path = "support/slips.rs"]
 mod slips;
 
-use bad_effects::{BAD, GOOD};
+use bad_effects::{BAD_FILES, GOOD};
+use bad_formulas::BAD_FORMULAS;
 use creepage::describe::{self, Description};
 use creepage::effects::{Applied, Effect};
 use creepage::library::with_own;
@@ -54,7 +57,7 @@ fn is_expected(message: &str, expect: &str) -> bool {
 fn every_bad_file_is_explained_at_its_place() {
     assert!(library(GOOD.as_bytes()).is_ok());
     let mut failures = Vec::new();
-    for case in BAD {
+    for case in BAD_FILES.iter().chain(BAD_FORMULAS) {
         let text = case.edits.iter().fold(GOOD.to_string(), |text, (from, to)| {
             assert!(text.contains(from), "{}", case.name);
             text.replacen(from, to, 1)

@@ -224,16 +224,16 @@ fn a_rigid_motion_of_the_plane_moves_the_path_and_changes_nothing_else() {
 
 #[test]
 fn the_effects_of_the_catalogue_pass_the_checks_of_a_users_own() {
-    // Each by itself under another name; where a state is called as something on a vehicle, it gets a longer name.
-    let catalogue = include_str!("../src/effects/catalogue.toml");
-    for block in catalogue.split("[[effect]]").skip(1) {
+    let mut passed = 0;
+    for block in include_str!("../src/effects/catalogue.toml").split("[[effect]]").skip(1) {
         let own = block.replacen("id = \"", "id = \"my-", 1);
-        if let Err(message) = library(format!("[[effect]]{own}").as_bytes()) {
-            // A lever arm (a, b) hides the track `a` of a differential drive.
-            assert!(message.contains("a is also a name of the vehicle differential-drive"), "{message}\n{block}");
-            assert!(block.contains("\"lever-arm\""), "{message}");
+        match library(format!("[[effect]]{own}").as_bytes()) {
+            Ok(_) => passed += 1,
+            // The catalogue calls some parameters as a vehicle calls a coefficient: e_rc, e_tc, a.
+            Err(message) => assert!(message.contains(" is also a name of the vehicle "), "{message}\n{block}"),
         }
     }
+    assert!(passed >= 15, "{passed}");
 }
 
 #[test]

@@ -15,6 +15,7 @@ mod units;
 use crate::effects::{self, Effect};
 use crate::error::Result;
 use crate::files::{EffectsFile, OwnEffect};
+use crate::model::known;
 use machine::Machine;
 use std::path::Path;
 
@@ -58,7 +59,8 @@ pub fn with_own(path: impl AsRef<Path>) -> Result<Vec<Effect>> {
 /// That the name of an effect, and the symbols made from it, are no other's.
 fn distinct(own: &OwnEffect, library: &[Effect]) -> Result<()> {
     let id = &own.effect.id;
-    if library.iter().any(|e| e.id == *id && e.origin.is_none()) {
+    let is_taken = library.iter().any(|e| e.id == *id && e.origin.is_none()) || known(&[]).effect(id).is_some();
+    if is_taken {
         return Err(own.id.error(format!("the library has an effect \"{id}\"")).help("give yours another id"));
     }
     // `slip` on trailer 1 makes slip_1.c of its parameter c; so would `slip-1`.

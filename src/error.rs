@@ -77,6 +77,12 @@ impl Error {
         self
     }
 
+    /// The same error at another place, for a text that is part of a file.
+    pub fn moved_to(mut self, line: usize, column: usize) -> Self {
+        self.0.place = Some((line, column));
+        self
+    }
+
     /// What is wrong, without place and advice.
     pub fn message(&self) -> &str {
         &self.0.message

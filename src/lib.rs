@@ -8,6 +8,7 @@ pub mod effects;
 pub mod error;
 pub mod files;
 pub mod formula;
+pub mod library;
 pub mod mechanism;
 pub mod model;
 pub mod motion;

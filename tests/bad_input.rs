@@ -4,11 +4,14 @@
 mod bad_inputs;
 #[path = "support/known.rs"]
 mod known;
+#[path = "support/slips.rs"]
+mod slips;
 
 use bad_inputs::{BAD_LOGS, BAD_MODELS, CSV, Case, MODEL};
 use creepage::files::{ModelFile, Run, read_text};
 use creepage::{Error, Result};
 use proptest::prelude::*;
+use slips::{damage, slip};
 use std::path::Path;
 
 fn read(dir: &Path, model: &[u8], csv: &[u8]) -> Result<Run> {
@@ -70,71 +73,6 @@ fn a_device_without_end_is_refused() {
     let model = ModelFile::parse(MODEL, "model.toml", &known::known()).unwrap();
     assert!(Run::read("/dev/zero", &model).unwrap_err().to_string().contains("binary"));
     assert!(read_text("/dev/zero").unwrap_err().to_string().contains("larger than 16 MiB"));
-}
-
-/// What is done to the bytes of a good file.
-#[derive(Clone, Debug)]
-enum Slip {
-    Insert(Vec<u8>),
-    Remove(usize),
-    Repeat(usize),
-}
-
-fn slip() -> impl Strategy<Value = (prop::sample::Index, Slip)> {
-    let pieces = prop::sample::select(vec![
-        "\"",
-        "'",
-        ",",
-        "\n",
-        "\r\n",
-        "[",
-        "]",
-        "[[",
-        "{",
-        "}",
-        "=",
-        ".",
-        "nan",
-        "inf",
-        "-",
-        "1e999",
-        "\0",
-        "\u{feff}",
-        "#",
-        "\"\"\"",
-        "é",
-        "[[effects]]\n",
-        "id = \"lever-arm\"\n",
-        "\\u",
-        "0x",
-        ",,",
-        "99999999999999999999",
-        "x",
-    ]);
-    let slip = prop_oneof![
-        pieces.prop_map(|piece| Slip::Insert(piece.as_bytes().to_vec())),
-        prop::collection::vec(any::<u8>(), 1..4).prop_map(Slip::Insert),
-        (1..12usize).prop_map(Slip::Remove),
-        (1..40usize).prop_map(Slip::Repeat),
-    ];
-    (any::<prop::sample::Index>(), slip)
-}
-
-fn damage(text: &[u8], slips: &[(prop::sample::Index, Slip)]) -> Vec<u8> {
-    let mut bytes = text.to_vec();
-    for (place, slip) in slips {
-        let at = place.index(bytes.len() + 1);
-        let to = |n: &usize| (at + n).min(bytes.len());
-        match slip {
-            Slip::Insert(piece) => drop(bytes.splice(at..at, piece.iter().copied())),
-            Slip::Remove(n) => drop(bytes.drain(at..to(n))),
-            Slip::Repeat(n) => {
-                let piece = bytes[at..to(n)].to_vec();
-                drop(bytes.splice(at..at, piece));
-            }
-        }
-    }
-    bytes
 }
 
 /// What every run that was accepted keeps to.

@@ -156,7 +156,7 @@ fn entries() -> impl Strategy<Value = Vec<EffectEntry>> {
         id: id.into(),
         trailer,
         parameters: values.into_iter().map(|(name, value)| (name.to_string(), value)).collect(),
-        line: 0,
+        ..EffectEntry::default()
     };
     prop::collection::vec(
         prop_oneof![

@@ -1,13 +1,14 @@
 //! `creepage describe`
 
 use super::lists::pretty;
+use super::own_effects::OwnEffects;
 use super::print;
 use clap::{Args, ValueEnum};
+use creepage::Result;
 use creepage::describe::{CreepLimits, Description, json, latex, text};
 use creepage::files::ModelFile;
 use creepage::mechanism::Limits;
 use creepage::model::{self, Model};
-use creepage::{Result, effects};
 use std::path::PathBuf;
 
 /// Print a model's constraints, matrix, derivatives and motion, with every symbol and unit
@@ -17,6 +18,7 @@ Example:
   creepage describe examples/runs/steering/model.toml
   creepage describe examples/runs/steering/model.toml --format latex > model.tex
   creepage describe report/model.patched.toml --rotation-limits=-0.2,0.2 --traverse-limits=-0.1,0.1
+  creepage describe report/model.patched.toml --effects examples/effects/my_effects.toml
 
 A coefficient that the model gives is named by its regime; limits tell creep from sliding, and name every coefficient.")]
 pub struct Arguments {
@@ -32,6 +34,8 @@ pub struct Arguments {
     /// Limits of traverse creep: side-slip at and beyond them
     #[arg(long, value_name = "E2,E1", allow_hyphen_values = true, value_parser = limits)]
     traverse_limits: Option<Limits>,
+    #[command(flatten)]
+    own: OwnEffects,
 }
 
 fn limits(text: &str) -> std::result::Result<Limits, String> {
@@ -47,7 +51,7 @@ enum Format {
 
 /// Carries out the command.
 pub fn run(arguments: &Arguments) -> Result<()> {
-    let library = effects::all();
+    let library = &arguments.own.library()?;
     let file = ModelFile::read(&arguments.model, &model::known(library))?;
     let roles: Vec<String> = file.columns.inputs.iter().map(|i| i.role.clone()).collect();
     let limits = CreepLimits { rotation: arguments.rotation_limits, traverse: arguments.traverse_limits };

@@ -1,5 +1,6 @@
 //! `creepage discover`
 
+use super::own_effects::OwnEffects;
 use super::print;
 use super::progress::Progress;
 use clap::Args;
@@ -8,7 +9,7 @@ use creepage::discrepancy::html::{gap_svg, html};
 use creepage::discrepancy::summary::summary_text;
 use creepage::files::{ModelFile, Run, write_all_or_nothing};
 use creepage::model::{self, Model};
-use creepage::{Error, Result, effects};
+use creepage::{Error, Result};
 use std::path::{Path, PathBuf};
 
 /// Find where model and measurement disagree, name the missing effect, add it to the model
@@ -18,6 +19,7 @@ Example:
   creepage discover examples/runs/cornering/eights.csv examples/runs/cornering/rosette.csv \\
     --held-out examples/runs/cornering/square_held_out.csv \\
     --model examples/runs/cornering/model.toml --out report
+  creepage discover RUN.csv --model MODEL.toml --effects examples/effects/my_effects.toml --out report
 
 Writes report.json, report.html, gap.svg and model.patched.toml into the output folder.
 Exit code 0 whatever the verdict, 2 for unusable input, 1 for a failed run.")]
@@ -40,6 +42,8 @@ pub struct Arguments {
     /// Seed of the noise floor's random numbers
     #[arg(long, default_value_t = 0)]
     seed: u64,
+    #[command(flatten)]
+    own: OwnEffects,
 }
 
 fn horizon(text: &str) -> std::result::Result<f64, String> {
@@ -53,7 +57,7 @@ fn horizon(text: &str) -> std::result::Result<f64, String> {
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let progress = Progress::new(quiet);
     progress.say("reading the runs");
-    let library = effects::all();
+    let library = &arguments.own.library()?;
     let file = ModelFile::read(&arguments.model, &model::known(library))?;
     Model::check_motion(&file)?;
     let read = |paths: &[PathBuf]| paths.iter().map(|p| Run::read(p, &file)).collect::<Result<Vec<_>>>();

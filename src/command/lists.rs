@@ -1,9 +1,10 @@
 //! `creepage vehicles` and `creepage effects`
 
+use super::own_effects::OwnEffects;
 use super::print;
 use clap::{Args, ValueEnum};
+use creepage::Result;
 use creepage::describe::{effects_json, effects_text, vehicle_effects_text, vehicles_json, vehicles_text};
-use creepage::{Result, effects as library};
 
 /// List the vehicles a model file may name
 #[derive(Args)]
@@ -16,7 +17,11 @@ pub struct Vehicles {
 
 /// List the effects that can be named, with their equations
 #[derive(Args)]
-#[command(after_help = "Examples:\n  creepage effects\n  creepage effects --vehicle car")]
+#[command(after_help = "\
+Examples:
+  creepage effects
+  creepage effects --vehicle car
+  creepage effects --effects examples/effects/my_effects.toml")]
 pub struct Effects {
     /// Only those of one vehicle, with the equations they rewrite there and the effects that are the same
     #[arg(long, value_name = "NAME", conflicts_with = "format")]
@@ -24,6 +29,8 @@ pub struct Effects {
     /// How to print them
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    #[command(flatten)]
+    own: OwnEffects,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -48,13 +55,14 @@ pub fn vehicles(arguments: &Vehicles) -> Result<()> {
 
 /// Carries out `creepage effects`.
 pub fn effects(arguments: &Effects) -> Result<()> {
+    let library = arguments.own.library()?;
     if let Some(vehicle) = &arguments.vehicle {
-        print(&vehicle_effects_text(vehicle, library::all())?);
+        print(&vehicle_effects_text(vehicle, &library)?);
         return Ok(());
     }
     print(&match arguments.format {
-        Format::Text => effects_text(library::all())?,
-        Format::Json => pretty(&effects_json(library::all())?),
+        Format::Text => effects_text(&library)?,
+        Format::Json => pretty(&effects_json(&library)?),
     });
     Ok(())
 }

@@ -3,6 +3,7 @@
 mod describe;
 mod discover;
 mod lists;
+mod own_effects;
 mod progress;
 mod simulate;
 mod verify;

@@ -1,12 +1,13 @@
 //! `creepage simulate`
 
+use super::own_effects::OwnEffects;
 use super::print;
 use super::progress::Progress;
 use clap::Args;
 use creepage::files::{Initial, Inputs, ModelFile, write_whole};
 use creepage::model::{self, Model};
 use creepage::motion::{Integrator, Signals, Table, simulate_model};
-use creepage::{Error, Result, effects};
+use creepage::{Error, Result};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -15,6 +16,7 @@ use std::path::PathBuf;
 #[command(after_help = "\
 Example:
   creepage simulate examples/runs/cornering/model.toml --inputs examples/runs/cornering/eights.csv --out path.csv
+  creepage simulate report/model.patched.toml --inputs IN.csv --out path.csv --effects examples/effects/my_effects.toml
 
 Begins at the model's [initial], or at the pose in the first row of the inputs, or at the origin.")]
 pub struct Arguments {
@@ -33,6 +35,8 @@ pub struct Arguments {
     /// Absolute tolerance of the integration
     #[arg(long, default_value_t = 1e-12, value_parser = tolerance)]
     atol: f64,
+    #[command(flatten)]
+    own: OwnEffects,
 }
 
 fn tolerance(text: &str) -> std::result::Result<f64, String> {
@@ -46,7 +50,7 @@ fn tolerance(text: &str) -> std::result::Result<f64, String> {
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let progress = Progress::new(quiet);
     progress.say("integrating");
-    let library = effects::all();
+    let library = &arguments.own.library()?;
     let file = ModelFile::read(&arguments.model, &model::known(library))?;
     Model::check_motion(&file)?;
     let inputs = Inputs::read(&arguments.inputs, &file)?;

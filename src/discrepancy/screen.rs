@@ -35,7 +35,8 @@ const PAIRS: usize = 2;
 /// Whether an effect vanishes at zero and can be linearised there together with all others of its kind.
 fn is_regular(effect: &Effect, model: &Model, trailer: Option<usize>) -> bool {
     let known = model.effects.iter().any(|e| e.effect.id == effect.id && e.trailer == trailer);
-    !known && effect.states.is_empty() && effect.starts().len() == 1
+    // A user's own may be undefined somewhere, or close a circle with another: it must not spoil the pass for others.
+    !known && effect.origin.is_none() && effect.states.is_empty() && effect.starts().len() == 1
 }
 
 /// The candidates for a model by what they promise, best first.

@@ -3,9 +3,11 @@
 use crate::formula::{Expr, Symbol};
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Something a vehicle really does that its model leaves out.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Effect {
     /// Its name in files and reports.
@@ -33,6 +35,18 @@ pub struct Effect {
     /// Its place in the library; effects are applied in this order.
     #[serde(skip)]
     pub order: usize,
+    /// The file of a user that defines it; none for one of the catalogue.
+    #[serde(skip)]
+    pub origin: Option<Arc<Origin>>,
+}
+
+/// A file of effects.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Origin {
+    /// Where it was read.
+    pub path: PathBuf,
+    /// SHA-256 of its bytes, hexadecimal.
+    pub sha256: String,
 }
 
 /// A parameter of an effect.
@@ -88,6 +102,11 @@ impl Effect {
             }
         }
         Some(found)
+    }
+
+    /// Its formulas: the changes, then the rates of its states.
+    pub fn formulas(&self) -> impl Iterator<Item = &Expr> {
+        self.changes.values().chain(self.states.values().map(|s| &s.rate))
     }
 
     /// All combinations of the parameters' starting values.

@@ -1,10 +1,11 @@
-//! The effects that may be missing from a model: data. To add one, add it to `catalogue.toml`.
+//! The effects that may be missing from a model: data. To add one, add it to `catalogue.toml`;
+//! a user adds one without recompiling, see [`library`](crate::library).
 
 mod applied;
 mod effect;
 
 pub use applied::Applied;
-pub use effect::{Effect, Parameter, State};
+pub use effect::{Effect, Origin, Parameter, State};
 
 use std::sync::LazyLock;
 

@@ -5,6 +5,7 @@ use super::near;
 use super::toml_table::{Section, Value};
 use crate::error::{Error, Result};
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 /// An effect with its values, as one entry of a model file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -17,6 +18,8 @@ pub struct EffectEntry {
     pub parameters: BTreeMap<String, f64>,
     /// The line of the model file where the entry begins; 0 for one that is not in a file.
     pub line: usize,
+    /// The file of effects that defines it, for an effect of a user's own that is to be written into a model file.
+    pub defined_in: Option<PathBuf>,
 }
 
 impl EffectEntry {
@@ -63,14 +66,23 @@ fn read_entry(section: &Section, known: &Known, trailers: usize) -> Result<Effec
     for parameter in &effect.parameters {
         parameters.insert(parameter.name.clone(), read_parameter(section, effect, parameter)?);
     }
-    Ok(EffectEntry { id: effect.id.clone(), trailer, parameters, line: section.source.line(section.at) })
+    Ok(EffectEntry {
+        id: effect.id.clone(),
+        trailer,
+        parameters,
+        line: section.source.line(section.at),
+        defined_in: None,
+    })
 }
 
 fn find<'k>(id: &Value, known: &'k Known) -> Result<&'k KnownEffect> {
     let name = id.text()?;
     known.effect(name).ok_or_else(|| {
         let ids: Vec<&str> = known.effects.iter().map(|e| e.id.as_str()).collect();
-        id.error(format!("unknown effect \"{name}\"")).help(near::advice(name, "known effects", &ids))
+        id.error(format!("unknown effect \"{}\"", near::shown(name))).help(format!(
+            "if it is your own, give its file with --effects; {}",
+            near::advice(name, "known effects", &ids)
+        ))
     })
 }
 

@@ -8,7 +8,7 @@ const SHOWN: usize = 40;
 const LONGEST: usize = 64;
 
 /// Advice for an unknown `word`: the nearest candidate, and what there is.
-pub(super) fn advice(word: &str, noun: &str, candidates: &[&str]) -> String {
+pub(crate) fn advice(word: &str, noun: &str, candidates: &[&str]) -> String {
     let there = format!("{noun}: {}", list(candidates));
     match nearest(word, candidates) {
         Some(near) => format!("did you mean \"{near}\"? {there}"),
@@ -26,7 +26,7 @@ pub(super) fn list(names: &[&str]) -> String {
 }
 
 /// A text from a file as a message may show it: one line, not too long, nothing that moves the cursor.
-pub(super) fn shown(text: &str) -> String {
+pub(crate) fn shown(text: &str) -> String {
     let mut chars = text.chars().map(|c| if c.is_control() { ' ' } else { c });
     let start: String = chars.by_ref().take(SHOWN).collect();
     if chars.next().is_some() { start + "…" } else { start }

@@ -24,7 +24,12 @@ pub(super) fn patched(text: &str, added: &[EffectEntry]) -> String {
         }
     }
     match list.filter(|value| is_inline(text, value)) {
-        Some(value) => edits.extend(extend_list(&value, present.last(), &new)),
+        Some(value) => {
+            let line = text[..value.key_at].rfind('\n').map_or(0, |at| at + 1);
+            let notes = new.iter().filter_map(|entry| note(entry)).map(|note| note + newline(text));
+            edits.extend(notes.map(|note| (line..line, note)));
+            edits.extend(extend_list(&value, present.last(), &new));
+        }
         None => edits.push((text.len()..text.len(), blocks(text, &new))),
     }
     apply(text, edits)
@@ -78,9 +83,18 @@ fn blocks(text: &str, new: &[&EffectEntry]) -> String {
         added.push_str(end);
     }
     for entry in new {
-        added.push_str(&format!("{end}[[effects]]{end}{}{end}", lines(entry).join(end)));
+        let note = note(entry).map_or_else(String::new, |note| note + end);
+        added.push_str(&format!("{end}{note}[[effects]]{end}{}{end}", lines(entry).join(end)));
     }
     added
+}
+
+/// A comment that says where an effect of the user's own is defined.
+fn note(entry: &EffectEntry) -> Option<String> {
+    let path = entry.defined_in.as_ref()?.display().to_string();
+    // A path may hold anything but must not end the comment.
+    let path: String = path.chars().map(|c| if c.is_control() { '?' } else { c }).collect();
+    Some(format!("# \"{}\" is defined in {path}: wherever this model is used, add --effects {path}", entry.id))
 }
 
 fn lines(entry: &EffectEntry) -> Vec<String> {
@@ -127,7 +141,7 @@ mod tests {
 
     fn entry(id: &str, trailer: Option<usize>, values: &[(&str, f64)]) -> EffectEntry {
         let parameters = values.iter().map(|(name, value)| (name.to_string(), *value)).collect();
-        EffectEntry { id: id.into(), trailer, parameters, line: 0 }
+        EffectEntry { id: id.into(), trailer, parameters, ..EffectEntry::default() }
     }
 
     #[test]
@@ -157,6 +171,16 @@ mod tests {
         assert_eq!(patched(text, &new), expect);
         assert_eq!(patched("effects = []", &new[1..]), "effects = [{ id = \"c\", \"e e\" = 1.0 }]");
         assert_eq!(patched("effects = [{id = \"a\"}]", &new[..1]), "effects = [{scale = 0.25, id = \"a\"}]");
+    }
+
+    #[test]
+    fn an_effect_of_the_users_own_says_where_it_is_defined() {
+        let file = Some("mine\n.toml".into());
+        let own = EffectEntry { defined_in: file, ..entry("a", None, &[("e", 1.0)]) };
+        let note = "# \"a\" is defined in mine?.toml: wherever this model is used, add --effects mine?.toml\n";
+        assert_eq!(patched("", std::slice::from_ref(&own)), format!("\n{note}[[effects]]\nid = \"a\"\ne = 1.0\n"));
+        let list = "x = 1\neffects = []\n";
+        assert_eq!(patched(list, &[own]), format!("x = 1\n{note}effects = [{{ id = \"a\", e = 1.0 }}]\n"));
     }
 
     #[test]

@@ -18,11 +18,15 @@ pub(super) struct Source<'a> {
 impl<'a> Source<'a> {
     /// The whole document.
     pub fn parse(self) -> Result<Spanned<DeTable<'a>>> {
+        self.parse_as("a model file holds lines like wheel_radius = 0.5 under headings like [parameters]")
+    }
+
+    /// The whole document; `advice` says what it should look like.
+    pub fn parse_as(self, advice: &str) -> Result<Spanned<DeTable<'a>>> {
         DeTable::parse(self.text).map_err(|e| {
             let message = e.message().replace('\n', ", ");
             let at = e.span().map_or(0, |span| span.start);
-            self.error(at, format!("is not valid TOML: {message}"))
-                .help("a model file holds lines like wheel_radius = 0.5 under headings like [parameters]")
+            self.error(at, format!("is not valid TOML: {message}")).help(advice)
         })
     }
 
@@ -35,6 +39,11 @@ impl<'a> Source<'a> {
     /// The line of a byte offset.
     pub fn line(self, at: usize) -> usize {
         place(self.text, at).0
+    }
+
+    /// Line and column of a byte offset.
+    pub fn line_and_column(self, at: usize) -> (usize, usize) {
+        place(self.text, at)
     }
 }
 
@@ -66,6 +75,19 @@ impl<'a, 'd> Section<'a, 'd> {
     pub fn get(&self, key: &str) -> Option<Value<'a, 'd>> {
         let (name, value) = self.table.iter().find(|(name, _)| name.get_ref() == key)?;
         Some(Value { source: self.source, name: key.into(), key_at: name.span().start, value })
+    }
+
+    /// Every key with its value, in the order of the file.
+    pub fn entries(&self) -> Vec<Value<'a, 'd>> {
+        let value = |(key, value): (&Spanned<_>, &'d Spanned<DeValue<'a>>)| Value {
+            source: self.source,
+            name: AsRef::<str>::as_ref(key.get_ref()).to_string(),
+            key_at: key.span().start,
+            value,
+        };
+        let mut found: Vec<_> = self.table.iter().map(value).collect();
+        found.sort_by_key(|v| v.key_at);
+        found
     }
 
     /// The value of a key that must be there; `example` shows how to write it.
@@ -111,6 +133,16 @@ impl<'a, 'd> Value<'a, 'd> {
     /// An error about the value.
     pub fn error(&self, message: impl Into<String>) -> Error {
         self.source.error(self.value.span().start, message)
+    }
+
+    /// An error about the key.
+    pub fn key_error(&self, message: impl Into<String>) -> Error {
+        self.source.error(self.key_at, message)
+    }
+
+    /// True or false.
+    pub fn truth(&self) -> Result<bool> {
+        self.value.get_ref().as_bool().ok_or_else(|| self.wrong("true or false", &format!("{} = true", self.name)))
     }
 
     fn wrong(&self, wanted: &str, example: &str) -> Error {

@@ -1,5 +1,6 @@
 //! Text to tokens.
 
+use super::Symbol;
 use super::symbol::{is_inner, is_start};
 use crate::error::{Error, Result};
 use num_bigint::BigInt;
@@ -27,7 +28,7 @@ const MAX_EXPONENT: i32 = 400;
 const MAX_DIGITS: usize = 400;
 
 /// The error of a formula: message, and the line of the text with a caret under the column.
-pub(super) fn caret(text: &str, at: usize, message: impl Into<String>) -> Error {
+pub(crate) fn caret(text: &str, at: usize, message: impl Into<String>) -> Error {
     let (mut before, mut column) = (0, at);
     for line in text.split('\n') {
         let length = line.chars().count();
@@ -39,6 +40,12 @@ pub(super) fn caret(text: &str, at: usize, message: impl Into<String>) -> Error 
         (before, column) = (before + 1, column - length - 1);
     }
     Error::input(message)
+}
+
+/// The column, from zero, at which a formula first speaks of a name.
+pub(crate) fn column_of(text: &str, name: &Symbol) -> Option<usize> {
+    let is = |t: &Token| matches!(&t.kind, TokenKind::Name(n) if n.replace('′', "'") == name.as_str());
+    tokens(text).ok()?.iter().find(|t| is(t)).map(|t| t.column)
 }
 
 /// Splits a formula into tokens; the last one is [`TokenKind::End`].

@@ -2,10 +2,11 @@
 
 use super::constraints::{trailer_creep, trailer_direction, trailer_lengths};
 use super::{Model, trailer_heading};
-use crate::effects::Effect;
+use crate::effects::{Applied, Effect};
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Definitions, Heading, Velocity, solve};
+use std::collections::BTreeSet;
 
 /// A formula of this file; a malformed one would be a fault of the program, seen by every test.
 fn formula(text: &str) -> Expr {
@@ -48,7 +49,7 @@ impl Model {
     }
 
     /// What is defined before any effect: all of the motion, or what stands in the rows.
-    fn bare_definitions(&self) -> Definitions {
+    pub(crate) fn bare_definitions(&self) -> Definitions {
         self.ideal_definitions().unwrap_or_else(|_| {
             let mut d = Definitions::default();
             self.define_vehicle(&mut d);
@@ -73,10 +74,24 @@ impl Model {
     }
 
     /// What an effect rewrites on this vehicle; `None` when it does not apply.
-    pub(super) fn targets(&self, e: &Effect, trailer: Option<usize>, names: &[Symbol]) -> Option<Vec<(Symbol, Expr)>> {
+    pub(crate) fn targets(&self, e: &Effect, trailer: Option<usize>, names: &[Symbol]) -> Option<Vec<(Symbol, Expr)>> {
         let logged = e.needs.iter().all(|role| self.vehicle.inputs.contains_key(role));
         let found = e.targets(names, trailer).filter(|_| logged)?;
-        found.iter().all(|(name, _)| !self.vehicle.held.contains(name)).then_some(found)
+        let free = found.iter().all(|(name, _)| !self.vehicle.held.contains(name));
+        (free && self.stranger(e, names).is_none()).then_some(found)
+    }
+
+    /// The first name in an effect's formulas that means nothing in this model.
+    pub(crate) fn stranger(&self, e: &Effect, names: &[Symbol]) -> Option<Symbol> {
+        let own = |s: &Symbol| e.parameters.contains_key(s.as_str()) || e.states.contains_key(s.as_str());
+        let used: BTreeSet<Symbol> = e.formulas().flat_map(Expr::symbols).filter(|s| !own(s)).collect();
+        used.into_iter().find(|s| s.as_str() != "it" && !names.contains(s) && !self.gives(s))
+    }
+
+    /// Whether a name is a state, an input or a parameter of the model without its effects.
+    fn gives(&self, s: &Symbol) -> bool {
+        let plain = || Model { effects: vec![], ..self.clone() };
+        self.inputs.iter().any(|i| i == s.as_str()) || plain().values().contains_key(s) || plain().states().contains(s)
     }
 
     fn with_effects(&self, mut d: Definitions) -> Result<Definitions> {
@@ -86,11 +101,12 @@ impl Model {
             let names: Vec<Symbol> = d.iter().map(|(n, _)| n.clone()).collect();
             let targets = self.targets(&applied.effect, applied.trailer, &names);
             let targets = targets.ok_or_else(|| {
-                Error::input(format!(
-                    "the effect {} does not apply to the vehicle {}",
-                    applied.label(),
-                    self.vehicle.id
-                ))
+                let (label, vehicle) = (applied.label(), &self.vehicle.id);
+                let stranger = self.stranger(&applied.effect, &names);
+                Error::input(match stranger.filter(|_| applied.effect.targets(&names, applied.trailer).is_some()) {
+                    Some(name) => format!("the effect {label} speaks of {name}, which this {vehicle} has not"),
+                    None => format!("the effect {label} does not apply to the vehicle {vehicle}"),
+                })
             })?;
             for (name, formula) in targets {
                 let own =
@@ -101,9 +117,11 @@ impl Model {
         Ok(d)
     }
 
-    /// The names an effect may rewrite.
-    pub(super) fn definition_names(&self) -> Vec<Symbol> {
-        self.bare_definitions().iter().map(|(n, _)| n.clone()).collect()
+    /// Whether the definitions still lead from one to the next, without a circle, when one more effect rewrites them.
+    pub(crate) fn stays_open(&self, bare: &Definitions, e: &Effect, trailer: Option<usize>) -> bool {
+        let values = e.parameters.values().map(|p| p.size).collect();
+        let with = self.clone().with_effect(Applied::new(e, trailer, values));
+        with.with_effects(bare.clone()).is_ok_and(|d| d.sorted().is_ok())
     }
 
     fn ideal_definitions(&self) -> Result<Definitions> {

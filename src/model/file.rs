@@ -91,7 +91,7 @@ impl Model {
             model.effects.push(known.ok_or_else(|| {
                 Error::input(format!("unknown effect {:?}", entry.id)).at_file(&file.path).at(entry.line, 1)
             })?);
-            model.row_definitions().map_err(|e| {
+            model.row_definitions().and_then(|d| d.sorted().map(|_| ())).map_err(|e| {
                 let advice = "remove the entry; `creepage describe` shows what the vehicle has";
                 e.at_file(&file.path).at(entry.line, 1).help(advice)
             })?;
@@ -113,6 +113,7 @@ impl Applied {
             id: self.effect.id.clone(),
             trailer: self.trailer,
             parameters: self.named_values(),
+            defined_in: self.effect.origin.as_ref().map(|o| o.path.clone()),
             ..EffectEntry::default()
         }
     }

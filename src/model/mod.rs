@@ -104,9 +104,13 @@ impl Model {
     }
 
     /// The effects of a library that apply to the vehicle, one entry for each trailer they may belong to.
+    ///
+    /// A user's own effect does not where its formulas would close a circle with those of the model.
     pub fn applicable<'a>(&self, library: &'a [Effect]) -> Vec<(&'a Effect, Option<usize>)> {
-        let names = self.definition_names();
-        let fits = |e: &Effect, t: Option<usize>| self.targets(e, t, &names).is_some();
+        let bare = self.bare_definitions();
+        let names: Vec<Symbol> = bare.iter().map(|(n, _)| n.clone()).collect();
+        let open = |e: &Effect, t: Option<usize>| e.origin.is_none() || self.stays_open(&bare, e, t);
+        let fits = |e: &Effect, t: Option<usize>| self.targets(e, t, &names).is_some() && open(e, t);
         let places = |e: &Effect| -> Vec<Option<usize>> {
             if e.per_trailer { (1..=self.trailers.len()).map(Some).collect() } else { vec![None] }
         };

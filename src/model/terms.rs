@@ -217,6 +217,7 @@ fn term(target: &Target, factors: &[&Factor], symbols: &Symbols, model: &Model) 
         states: BTreeMap::new(),
         changes: BTreeMap::from([(target.definition.to_string(), &Expr::sym("it") + &product)]),
         order: 0,
+        origin: None,
     })
 }
 

@@ -7,6 +7,7 @@ use creepage::model::{Model, Trailer};
 use creepage::vehicles;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 pub type Values = BTreeMap<Symbol, f64>;
 
@@ -41,9 +42,19 @@ pub fn still() -> Vec<Model> {
     of_catalogue(|id| STILL.contains(&id))
 }
 
+static LIBRARY: LazyLock<Vec<Effect>> = LazyLock::new(|| creepage::library::with_own(OWN_EFFECTS).unwrap());
+
+/// The example of a user's own effects: the laws of effects hold for them, too.
+pub const OWN_EFFECTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/effects/my_effects.toml");
+
+/// The effects of the catalogue and of the example.
+pub fn library() -> &'static [Effect] {
+    &LIBRARY
+}
+
 /// A model with each effect of the library that applies to it.
 pub fn with_each_effect(m: &Model) -> Vec<(Model, &'static Effect, Option<usize>)> {
-    m.applicable(effects::all()).into_iter().map(|(e, t)| (m.clone(), e, t)).collect()
+    m.applicable(library()).into_iter().map(|(e, t)| (m.clone(), e, t)).collect()
 }
 
 /// Every machine with each effect that applies to it.

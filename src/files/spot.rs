@@ -1,0 +1,26 @@
+//! A place in a file, for errors that are found after it was read.
+
+use super::toml_table::Source;
+use crate::error::Error;
+use std::path::PathBuf;
+
+/// A place in a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Spot {
+    path: PathBuf,
+    line: usize,
+    column: usize,
+}
+
+impl Spot {
+    /// The place of a byte.
+    pub(super) fn at(source: Source, byte: usize) -> Self {
+        let (line, column) = source.line_and_column(byte);
+        Self { path: source.path.into(), line, column }
+    }
+
+    /// An error at the place.
+    pub fn error(&self, message: impl Into<String>) -> Error {
+        Error::input(message).at_file(&self.path).at(self.line, self.column)
+    }
+}

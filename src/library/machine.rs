@@ -1,0 +1,63 @@
+//! A vehicle that effects are held against.
+
+use crate::describe::Symbols;
+use crate::error::Result;
+use crate::formula::{Symbol, Unit};
+use crate::mechanism::Definitions;
+use crate::model::{Model, Trailer, WITH_TRAILERS};
+use crate::vehicles::{self, Vehicle};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A model without effects, with the unit of every name that a formula may speak of.
+pub(super) struct Machine {
+    /// What a user calls it.
+    pub label: String,
+    pub model: Model,
+    pub definitions: Definitions,
+    pub units: BTreeMap<Symbol, Unit>,
+}
+
+impl Machine {
+    /// Every vehicle of the catalogue, once for each column that may stand for an input, and with two trailers.
+    pub fn all() -> Result<Vec<Self>> {
+        let mut found = Vec::new();
+        for vehicle in vehicles::all() {
+            let alone = sample(vehicle)?;
+            found.push(Self::of(vehicle.id.clone(), alone.clone())?);
+            for (role, input) in &vehicle.inputs {
+                if let Some(other) = &input.instead {
+                    let mut logged = alone.clone();
+                    logged.inputs.iter_mut().filter(|i| *i == role).for_each(|i| i.clone_from(&other.role));
+                    found.push(Self::of(format!("{} logged by {}", vehicle.id, other.role), logged)?);
+                }
+            }
+        }
+        for vehicle in vehicles::all().iter().filter(|v| v.pulls()) {
+            let train = sample(vehicle)?.with_trailers(&[Trailer { length: 1.0, hitch: 1.0 }; 2]);
+            found.push(Self::of(format!("{WITH_TRAILERS} behind {}", vehicle.id), train)?);
+        }
+        Ok(found)
+    }
+
+    fn of(label: String, model: Model) -> Result<Self> {
+        let definitions = model.bare_definitions();
+        let mut used: BTreeSet<Symbol> = definitions.iter().map(|(n, _)| n.clone()).collect();
+        used.extend(model.values().into_keys().chain(model.states()));
+        used.extend(model.inputs.iter().map(|i| Symbol::new(i)));
+        let symbols = Symbols::of(&model, &definitions, &used)?;
+        let unit = |s: &Symbol| Unit::parse(&symbols.get(s)?.unit);
+        let units = used.iter().filter_map(|s| Some((s.clone(), unit(s)?))).collect();
+        Ok(Self { label, model, definitions, units })
+    }
+
+    /// The names that an effect may rewrite.
+    pub fn defined(&self) -> Vec<Symbol> {
+        self.definitions.iter().map(|(n, _)| n.clone()).collect()
+    }
+}
+
+/// A vehicle with every parameter one: enough for its formulas.
+fn sample(vehicle: &Vehicle) -> Result<Model> {
+    let ones: Vec<(&str, f64)> = vehicle.parameters.keys().map(|name| (name.as_str(), 1.0)).collect();
+    Model::new(&vehicle.id, &ones)
+}

@@ -1,0 +1,89 @@
+//! The library of effects: those of the catalogue, and a user's own from a file.
+//!
+//! An effect of a user's own is held against every vehicle it applies to before anything else is done with it: names,
+//! units, the value at which it vanishes, what the sensor may depend on, how far formulas grow when they are put into
+//! one another. What passes can be used like an effect of the catalogue.
+
+mod applies;
+mod growth;
+mod machine;
+mod names;
+mod neutral;
+mod sensor;
+mod units;
+
+use crate::effects::{self, Effect};
+use crate::error::Result;
+use crate::files::{EffectsFile, OwnEffect};
+use crate::model::known;
+use machine::Machine;
+use std::path::Path;
+
+/// The effects of the catalogue, followed by those of a file.
+///
+/// ```toml
+/// [[effect]]
+/// id = "yaw-slip"
+/// where = "traverse constraint"
+/// says = "the vehicle slides outwards by the square of its yaw rate"
+/// [effect.parameters.q]
+/// unit = "m*s"
+/// range = [-10.0, 10.0]
+/// size = 0.03
+/// [effect.changes]
+/// v_t = "it - q*phi'*abs(phi')"
+/// ```
+///
+/// # Errors
+/// With file, line and column when the file is not of this form, or an effect cannot do what the library's can: apply
+/// to a vehicle, have units, vanish where its parameters are neutral.
+///
+/// ```
+/// use creepage::library;
+/// let own = library::with_own("examples/effects/my_effects.toml").unwrap();
+/// assert!(own.iter().any(|e| e.id == "yaw-slip") && own.iter().any(|e| e.id == "rotation-creep"));
+/// ```
+pub fn with_own(path: impl AsRef<Path>) -> Result<Vec<Effect>> {
+    let file = EffectsFile::read(path.as_ref())?;
+    let mut library = effects::all().to_vec();
+    let machines = Machine::all()?;
+    for own in file.effects {
+        distinct(&own, &library)?;
+        check(&own, &machines)?;
+        library.push(Effect { order: library.len(), ..own.effect.clone() });
+        growth::check(&own, &library, &machines)?;
+    }
+    Ok(library)
+}
+
+/// That the name of an effect, and the symbols made from it, are no other's.
+fn distinct(own: &OwnEffect, library: &[Effect]) -> Result<()> {
+    let id = &own.effect.id;
+    let is_taken = library.iter().any(|e| e.id == *id && e.origin.is_none()) || known(&[]).effect(id).is_some();
+    if is_taken {
+        return Err(own.id.error(format!("the library has an effect \"{id}\"")).help("give yours another id"));
+    }
+    // `slip` on trailer 1 makes slip_1.c of its parameter c; so would `slip-1`.
+    let numbered = |long: &str, short: &Effect| {
+        let rest = long.strip_prefix(short.id.as_str()).and_then(|rest| rest.strip_prefix('-'));
+        short.per_trailer && rest.is_some_and(|n| !n.is_empty() && n.chars().all(|c| c.is_ascii_digit()))
+    };
+    match library.iter().find(|e| numbered(id, e) || numbered(&e.id, &own.effect)) {
+        None => Ok(()),
+        Some(e) => Err(own
+            .id
+            .error(format!("\"{id}\" and \"{}\" on a trailer would share the names of their parameters", e.id))
+            .help("give yours another id")),
+    }
+}
+
+fn check(own: &OwnEffect, machines: &[Machine]) -> Result<()> {
+    names::check(own, machines)?;
+    let places = applies::places(own, machines)?;
+    for place in &places {
+        names::check_clash(own, place)?;
+        units::check(own, place)?;
+        sensor::check(own, place)?;
+    }
+    neutral::check(own)
+}

@@ -96,7 +96,7 @@ fn single_body() -> Claim {
             |s, sampling| over(vehicles(Just(Drive::Splayed), 3, 0), true, s, sampling),
         )
         .sample(
-            "any of these, yaw rate not measured",
+            "parallel driven wheels, yaw rate not measured",
             &[
                 ("unicycle.k", "1"),
                 ("unicycle.m", "1"),
@@ -106,10 +106,13 @@ fn single_body() -> Claim {
                 ("car.m", "2"),
                 ("tricycle.k", "1"),
                 ("tricycle.m", "2"),
-                ("splayed.k", "2"),
-                ("splayed.m", "1"),
             ],
-            |s, sampling| over(vehicles(any_drive(), 3, 0), false, s, sampling),
+            move |s, sampling| over(vehicles(parallel(), 3, 0), false, s, sampling),
+        )
+        .sample(
+            "driven wheels at an angle to each other, yaw rate not measured",
+            &[("k", "2"), ("m", "1")],
+            |s, sampling| over(vehicles(Just(Drive::Splayed), 3, 0), false, s, sampling),
         )
         .proof(
             "with equal slip velocities the two-wheeler keeps (28), and RT is enough",
@@ -182,7 +185,12 @@ fn passive() -> Claim {
 }
 
 fn trailers() -> Claim {
-    let all = |s: &Statement, sampling: &Sampling| over(vehicles(any_drive(), 2, 10), false, s, &sampling.one_in(2));
+    // Few kinds at a time: a slip in what is said of one of them is to show in few cases.
+    let kinds = || prop::sample::select(vec![Drive::Unicycle, Drive::Differential, Drive::Car]);
+    let others = || prop::sample::select(vec![Drive::Tricycle, Drive::Splayed]);
+    let trains =
+        move |s: &Statement, sampling: &Sampling| over(vehicles(kinds(), 1, 10), false, s, &sampling.one_in(2));
+    let more = move |s: &Statement, sampling: &Sampling| over(vehicles(others(), 1, 10), false, s, &sampling.one_in(2));
     Claim::new("theorem-trailers", Status::Corrected, "the creep of a car with N trailers is realised by type RT^(N+1)")
         .at("section 4, second theorem; errata E21; corrected theorem (c)")
         .under(
@@ -199,14 +207,14 @@ fn trailers() -> Claim {
         .refutation_by(
             "the same counts whatever the tractor",
             &[("k", "1"), ("m", "N + 1")],
-            std::sync::Arc::new(all),
+            std::sync::Arc::new(trains),
             &[("k", "1"), ("m", "N + 1")],
             std::sync::Arc::new(|s: &Statement, sampling: &Sampling| {
-                over(vehicles(Just(Drive::Unicycle), 2, 10), false, s, &sampling.one_in(2))
+                over(vehicles(Just(Drive::Unicycle), 1, 10), false, s, &sampling.one_in(2))
             }),
         )
         .sample(
-            "generated trains of up to ten trailers with any bars and hitches, behind tractors with up to two more wheels, \
+            "generated trains of up to ten trailers with any bars and hitches, behind tractors with a further wheel or none, \
              every wheel of its own radius and heading",
             &[
                 ("unicycle.k", "1"),
@@ -215,12 +223,13 @@ fn trailers() -> Claim {
                 ("differential.m", "N + 1"),
                 ("car.k", "1"),
                 ("car.m", "N + 2"),
-                ("tricycle.k", "1"),
-                ("tricycle.m", "N + 2"),
-                ("splayed.k", "2"),
-                ("splayed.m", "N + 1"),
             ],
-            all,
+            trains,
+        )
+        .sample(
+            "the same behind front-driven tricycles and two driven wheels at an angle to each other",
+            &[("tricycle.k", "1"), ("tricycle.m", "N + 2"), ("splayed.k", "2"), ("splayed.m", "N + 1")],
+            more,
         )
 }
 

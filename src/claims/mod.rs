@@ -18,7 +18,7 @@
 mod checks;
 mod claim;
 mod driven;
-mod generated;
+pub mod generated;
 pub mod ledger;
 mod machine;
 mod mutants;

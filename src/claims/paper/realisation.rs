@@ -1,9 +1,11 @@
 //! Realisation as an inversion: from any admissible motion back to the coefficients and round again.
 
 use crate::claims::driven::{Creep, model, undefined};
+use crate::claims::generated::{Contact, Moving, moving};
 use crate::claims::{Claim, Fault, Statement, Status, Verdict, near, value_said};
-use crate::formula::Symbol;
+use crate::formula::{Exact, Expr, Symbol};
 use crate::model::{Model, Trailer};
+use crate::vehicles::Definition;
 use proptest::prelude::*;
 
 pub(super) fn claims() -> Vec<Claim> {
@@ -13,20 +15,32 @@ pub(super) fn claims() -> Vec<Claim> {
             .about(&[8, 17, 24, 25])
             .under("driven wheels turn, no contact has v_l = 0, the wheels do not stand across their motion")
             .chapter("05b-corrected-single-body")
-            .code(&["src/model/equations.rs", "src/effects/catalogue.toml"])
-            .tests(&["tests/mechanism_effects.rs", "tests/motion_kinematics.rs"])
+            .code(&[
+                "src/model/equations.rs",
+                "src/model/constraints.rs",
+                "src/effects/catalogue.toml",
+                "src/claims/generated/moving.rs",
+            ])
+            .tests(&["tests/mechanism_effects.rs", "tests/motion_kinematics.rs", "tests/claims_generated.rs"])
             .sample(
-                "generated twists and trailer rates of unicycles, differential drives and cars with up to five trailers: \
-                 coefficients from velocities of the contacts, put into the model as effects, through the compiled equations",
+                "generated twists and trailer rates of unicycles, differential drives and cars with up to five trailers, \
+                 every wheel of its own radius and fixed at its own angle: coefficients from velocities of the contacts, \
+                 put into the model as effects, through the compiled equations",
                 &[
-                    ("e_rc", "1 - v_l/(r*omega)"),
-                    ("e_right", "1 - (v_l + a*yaw/2)/(r*omega_1)"),
-                    ("e_left", "1 - (v_l - a*yaw/2)/(r*omega_2)"),
-                    ("e_tc", "v_t/v_l"),
+                    ("e_rc", "1 - (v_l*cos(mu) + v_t*sin(mu))/(r*omega)"),
+                    ("e_right", "1 - ((v_l + a*yaw/2)*cos(mu_1) + v_t*sin(mu_1))/(r_1*omega_1)"),
+                    ("e_left", "1 - ((v_l - a*yaw/2)*cos(mu_2) + v_t*sin(mu_2))/(r_2*omega_2)"),
+                    ("e_tc", "tan(atan(v_t/v_l) - mu)"),
                     ("e_front", "tan(atan((v_t + L*yaw)/v_l) - delta)"),
                     ("e_trailer", "w_i/v_i"),
                 ],
                 |s, sampling| sampling.cases(motions(), Motion::shown, |m| round(s, m)),
+            )
+            .sample(
+                "generated vehicles in any motion, exactly, with up to three more wheels anywhere at any heading, castors, and \
+                 up to ten trailers: the coefficients of velocities, radius and rate of each contact make every row vanish",
+                &[("e_rc", "1 - v_l/(r*omega)"), ("e_tc", "v_t/v_l")],
+                |s, sampling| sampling.cases(moving(3, 10), Moving::shown, |m| vanish(s, m)),
             ),
     ]
 }
@@ -35,6 +49,12 @@ pub(super) fn claims() -> Vec<Claim> {
 #[derive(Clone, Debug)]
 struct Motion {
     vehicle: usize,
+    /// Of the wheel, or of the right and the left one.
+    radii: [f64; 2],
+    /// Track or wheelbase.
+    size: f64,
+    /// Angles at which the wheels are fixed, in the order of the description.
+    mounted: [f64; 3],
     twist: [f64; 3],
     wheels: [f64; 2],
     delta: f64,
@@ -43,21 +63,22 @@ struct Motion {
     trailers: Vec<(f64, f64, f64, f64)>,
 }
 
-const VEHICLES: [(&str, &[(&str, f64)]); 3] = [
-    ("unicycle", &[("wheel_radius", 0.5)]),
-    ("differential-drive", &[("wheel_radius", 0.1), ("track_width", 0.4)]),
-    ("car", &[("wheel_radius", 0.3), ("wheelbase", 1.3)]),
-];
+const VEHICLES: [&str; 3] = ["unicycle", "differential-drive", "car"];
 
 fn motions() -> impl Strategy<Value = Motion> {
     let trailer = (0.5..2.0f64, -0.3..0.3f64, -0.7..0.7f64, -0.4..0.4f64);
-    let twist = (0.5..2.0f64, -0.4..0.4f64, -0.8..0.8f64);
-    let wheels = (2.0..8.0f64, 2.0..8.0f64);
-    (0..VEHICLES.len(), twist, wheels, -0.4..0.4f64, -3.0..3.0f64, prop::collection::vec(trailer, 0..=5)).prop_map(
-        |(vehicle, twist, wheels, delta, phi, trailers)| Motion {
+    let twist = [0.5..2.0f64, -0.4..0.4f64, -0.8..0.8f64];
+    let wheels = [2.0..8.0f64, 2.0..8.0f64];
+    let made = ([0.1..0.5f64, 0.1..0.5f64], 0.3..1.3f64, prop::array::uniform3(-0.6..0.6f64));
+    let stands = (-0.4..0.4f64, -3.0..3.0f64);
+    (0..VEHICLES.len(), made, twist, wheels, stands, prop::collection::vec(trailer, 0..=5)).prop_map(
+        |(vehicle, (radii, size, mounted), twist, wheels, (delta, phi), trailers)| Motion {
             vehicle,
-            twist: [twist.0, twist.1, twist.2],
-            wheels: [wheels.0, wheels.1],
+            radii,
+            size,
+            mounted,
+            twist,
+            wheels,
             delta,
             phi,
             trailers,
@@ -69,7 +90,9 @@ impl Motion {
     fn shown(&self) -> Vec<(String, String)> {
         let name = |s: &str| s.to_string();
         vec![
-            (name("vehicle"), VEHICLES[self.vehicle].0.into()),
+            (name("vehicle"), VEHICLES[self.vehicle].into()),
+            (name("radii, size"), format!("{:?}, {}", self.radii, self.size)),
+            (name("mounted at"), format!("{:?}", self.mounted)),
             (name("v_l, v_t, yaw rate"), format!("{:?}", self.twist)),
             (name("wheel rates"), format!("{:?}", self.wheels)),
             (name("delta, phi"), format!("{:?}", [self.delta, self.phi])),
@@ -99,13 +122,17 @@ impl Motion {
     }
 
     fn value(&self, name: &str) -> Option<f64> {
-        let parameters = VEHICLES[self.vehicle].1;
+        let axle = if self.is_differential() { 2 } else { 0 };
         Some(match name {
             "v_l" => self.twist[0],
             "v_t" => self.twist[1],
             "yaw" => self.twist[2],
-            "r" => parameters[0].1,
-            "a" | "L" => parameters.get(1)?.1,
+            "r" | "r_1" => self.radii[0],
+            "r_2" => self.radii[1],
+            "a" | "L" => self.size,
+            "mu" => self.mounted[axle],
+            "mu_1" => self.mounted[0],
+            "mu_2" => self.mounted[1],
             "omega" | "omega_1" => self.wheels[0],
             "omega_2" => self.wheels[1],
             "delta" => self.delta,
@@ -113,11 +140,37 @@ impl Motion {
         })
     }
 
+    fn is_differential(&self) -> bool {
+        VEHICLES[self.vehicle] == "differential-drive"
+    }
+
+    /// The vehicle with its lengths, every wheel that is not steered fixed at its angle.
+    fn bare(&self, trailers: &[Trailer], creeps: &[Creep]) -> crate::Result<Model> {
+        let (radius, size) = (("wheel_radius", self.radii[0]), self.size);
+        let mut model = match VEHICLES[self.vehicle] {
+            "differential-drive" => {
+                let ratio: Creep = ("wheel-radius-mismatch", None, vec![self.radii[1] / self.radii[0] - 1.0]);
+                model("differential-drive", &[radius, ("track_width", size)], trailers, &[creeps, &[ratio]].concat())
+            }
+            "car" => model("car", &[radius, ("wheelbase", size)], trailers, creeps),
+            id => model(id, &[radius], trailers, creeps),
+        }?;
+        for (i, wheel) in model.vehicle.wheels.iter_mut().enumerate().filter(|(_, w)| w.steering.is_none()) {
+            let (angle, given) = (Symbol::new(&format!("mounted_{i}")), format!("mounting_angle_{i}"));
+            let formula = Expr::sym(given.as_str());
+            let defined = Definition { formula, unit: "rad".into(), meaning: format!("heading of the {}", wheel.name) };
+            wheel.steering = Some(angle.clone());
+            model.vehicle.define.insert(angle, defined);
+            model.parameters.insert(given, self.mounted[i]);
+        }
+        Ok(model)
+    }
+
     /// The model with the coefficients that a statement gives to this motion.
     fn creeping(&self, s: &Statement) -> Result<Model, Fault> {
         let said = |name: &str| value_said(s, name, &|n| self.value(n));
         let mut creeps: Vec<Creep> = vec![("traverse-creep", None, vec![said("e_tc")?])];
-        match VEHICLES[self.vehicle].0 {
+        match VEHICLES[self.vehicle] {
             // Values in alphabetical order: e_left, e_right.
             "differential-drive" => {
                 creeps.push(("unequal-rotation-creep", None, vec![said("e_left")?, said("e_right")?]))
@@ -140,8 +193,7 @@ impl Motion {
             creeps.push(("trailer-traverse-creep", Some(i + 1), vec![value_said(s, "e_trailer", &at)?]));
         }
         let trailers: Vec<Trailer> = self.trailers.iter().map(|t| Trailer { length: t.0, hitch: t.1 }).collect();
-        let (vehicle, parameters) = VEHICLES[self.vehicle];
-        model(vehicle, parameters, &trailers, &creeps).map_err(|e| undefined(&e))
+        self.bare(&trailers, &creeps).map_err(|e| undefined(&e))
     }
 }
 
@@ -164,4 +216,43 @@ fn round(s: &Statement, m: &Motion) -> Verdict {
     near("y'", rates[1], m.twist[0] * sin + m.twist[1] * cos, 1e-9)?;
     near("phi'", rates[2], m.twist[2], 1e-9)?;
     m.trailers.iter().zip(&rates[3..]).try_for_each(|(t, found)| near("phi_i'", *found, t.3, 1e-9))
+}
+
+/// Puts the coefficients that a statement gives to a motion into the rows.
+fn vanish(s: &Statement, m: &Moving) -> Verdict {
+    let mut at = m.vehicle.point();
+    for contact in m.contacts() {
+        for (name, value) in coefficients(s, &contact)? {
+            at.set(name, value);
+        }
+    }
+    m.vehicle.mechanism().constraints.iter().try_for_each(|c| {
+        let left = c.row().expr().eval(&|name: &Symbol| m.rate(name).unwrap_or_else(|| at.value(name)));
+        match left.as_ref().and_then(Exact::as_rational) {
+            Some(v) if num_traits::Zero::is_zero(v) => Ok(()),
+            Some(v) => Err(Fault::False(format!("the row of {} is {v}", c.name))),
+            None => Err(Fault::Undefined(format!("the row of {} has no value", c.name))),
+        }
+    })
+}
+
+/// The coefficients of a contact by name.
+fn coefficients(s: &Statement, contact: &Contact) -> Result<Vec<(Symbol, Exact)>, Fault> {
+    let rolls = contact.rolls.as_ref();
+    let value = |name: &Symbol| match (name.as_str(), rolls) {
+        ("v_l", _) => contact.along.clone(),
+        ("v_t", _) => contact.across.clone(),
+        ("r", Some((radius, ..))) => radius.clone(),
+        ("omega", Some((_, rate, _))) => rate.clone(),
+        _ => Exact::ratio(0, 0),
+    };
+    let named = [("e_rc", rolls.map(|(.., e)| e)), ("e_tc", contact.directed.as_ref())];
+    let wanted = named.into_iter().filter_map(|(said, name)| Some((said, name?)));
+    wanted
+        .map(|(said, name)| {
+            let formula = s.said_of(said).ok_or_else(|| Fault::Undefined(format!("nothing is said of {said}")))?;
+            // A contact that rests, or moves sideways only, has no coefficient.
+            Ok((name.clone(), formula.eval(&value).ok_or(Fault::Outside)?))
+        })
+        .collect()
 }

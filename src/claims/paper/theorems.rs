@@ -6,30 +6,40 @@ use crate::claims::{Claim, Counterexample, Fault, Machine, Outcome, Sampling, St
 use crate::formula::{Exact, Expr, Symbol};
 use crate::mechanism::{Heading, Mechanism, Velocity};
 use crate::model::mechanism;
-use crate::vehicles::{Vehicle, Wheel, named};
+use crate::vehicles::{Definition, Vehicle, Wheel, named};
 use proptest::prelude::*;
 
 const REALISATION: &str = "src/mechanism/realisation.rs";
+const GENERATED: &str = "src/claims/generated/stand.rs";
 const TESTS: &str = "tests/mechanism_realisation.rs";
+const DRAWN: &str = "tests/claims_generated.rs";
 
 pub(super) fn claims() -> Vec<Claim> {
     vec![single_body(), passive(), trailers(), only_traverse()]
 }
 
 /// The counts k and m of a generated vehicle against what is said of its kind, such as `car.m = N + 2`; what is said
-/// of `k` and `m` alone is said of every kind.
+/// of `k` and `m` alone is said of every kind. `one_of_each` is 1 where a coefficient of type R and one of type T do.
 fn counts(s: &Statement, vehicle: &Generated, yaw: bool) -> Verdict {
     if !vehicle.is_regular() {
         return Err(Fault::Outside);
     }
     let mechanism = vehicle.mechanism();
     let found = mechanism.realisation(&vehicle.measured(yaw), &vehicle.point());
-    let (k, m) = found.map_err(|e| Fault::Undefined(e.to_string()))?.counts();
+    let found = found.map_err(|e| Fault::Undefined(e.to_string()))?;
+    let (k, m) = found.counts();
+    let letters = |set: &Vec<usize>| -> String { set.iter().map(|r| mechanism.constraints[*r].letter()).collect() };
+    let one_of_each = usize::from(found.sets.iter().any(|set| letters(set) == "RT"));
     let kind = format!("{:?}", vehicle.drive).to_lowercase();
-    for (name, count) in [("k", k), ("m", m)] {
+    let n = Exact::ratio(i64::try_from(vehicle.trailers()).unwrap_or(0), 1);
+    for (name, count) in [("k", k), ("m", m), ("one_of_each", one_of_each)] {
         let said = s.said_of(&format!("{kind}.{name}")).or_else(|| s.said_of(name));
-        let Some(said) = said else { return Err(Fault::Undefined(format!("nothing is said of {kind}.{name}"))) };
-        let n = Exact::ratio(i64::try_from(vehicle.trailers()).unwrap_or(0), 1);
+        let Some(said) = said else {
+            match name {
+                "one_of_each" => continue,
+                _ => return Err(Fault::Undefined(format!("nothing is said of {kind}.{name}"))),
+            }
+        };
         let value = said.eval(&|_: &Symbol| n.clone());
         if value.as_ref().and_then(Exact::as_rational)
             != Expr::int(i64::try_from(count).unwrap_or(-1)).as_number().as_ref()
@@ -47,18 +57,26 @@ fn over(vehicles: impl Strategy<Value = Generated> + Sync, yaw: bool, s: &Statem
 fn single_body() -> Claim {
     let unequal = [("phi'", "r*(theta_1' - theta_2')/a")];
     let creeping = [("phi'", "r*(theta_1'*(1 - e_rc_1) - theta_2'*(1 - e_rc_2))/a")];
-    let measured_yaw = |s: &Statement, sampling: &Sampling| over(vehicles(any_drive(), 3, 0), true, s, sampling);
+    let parallel = || prop::sample::select(vec![Drive::Unicycle, Drive::Differential, Drive::Car, Drive::Tricycle]);
+    let measured_yaw = move |s: &Statement, sampling: &Sampling| over(vehicles(parallel(), 3, 0), true, s, sampling);
     Claim::new("theorem-single-body", Status::Corrected, "the creep of all wheeled cars with a single body is realised by type RT")
         .at("section 4, first theorem; errata E17, E20; corrected theorem (b)")
         .about(&[26, 27, 28])
-        .under("equal slip velocities of the driven contacts, or the yaw rate measured; else R²T for a differential drive and RT² with front steering")
+        .under(
+            "equal slip velocities of the driven contacts, or the yaw rate measured; else R²T for a differential drive and \
+             RT² with front steering. There is an ideal motion and no wheel of these rests in it: axles of fixed and \
+             steered wheels meet in one point or are parallel. Where driven wheels stand at an angle to each other, R² \
+             takes the place of RT, R being counted first",
+        )
         .remark(
             "As many coefficients are needed as there are components of the twist that are not measured. Wheels beyond \
-             those, castors of known angle included, are passive: their coefficients follow.",
+             those, castors of known angle included, are passive: their coefficients follow. Of what radius and heading \
+             the wheels are does not matter to the number; to the letters it does, for two driven wheels that are not \
+             parallel tell the whole velocity of the body.",
         )
         .chapter("05b-corrected-single-body")
-        .code(&[REALISATION, "src/claims/generated.rs"])
-        .tests(&[TESTS])
+        .code(&[REALISATION, GENERATED])
+        .tests(&[TESTS, DRAWN])
         .refutation("a two-wheeler with unequal creep, in six numbers", &unequal, &creeping, proving(two_wheels()))
         .refutation_by(
             "one coefficient of each type, for every generated vehicle",
@@ -67,9 +85,18 @@ fn single_body() -> Claim {
             &[("k", "1"), ("m", "1")],
             std::sync::Arc::new(measured_yaw),
         )
-        .sample("generated vehicles with up to three more wheels, yaw rate measured", &[("k", "1"), ("m", "1")], measured_yaw)
         .sample(
-            "the same, yaw rate not measured",
+            "generated vehicles with up to three more wheels, every wheel of its own radius and heading, yaw rate measured",
+            &[("k", "1"), ("m", "1")],
+            measured_yaw,
+        )
+        .sample(
+            "the same with two driven wheels at an angle to each other; either of them with its direction would do, too",
+            &[("k", "2"), ("m", "0"), ("one_of_each", "1")],
+            |s, sampling| over(vehicles(Just(Drive::Splayed), 3, 0), true, s, sampling),
+        )
+        .sample(
+            "parallel driven wheels, yaw rate not measured",
             &[
                 ("unicycle.k", "1"),
                 ("unicycle.m", "1"),
@@ -80,7 +107,12 @@ fn single_body() -> Claim {
                 ("tricycle.k", "1"),
                 ("tricycle.m", "2"),
             ],
-            |s, sampling| over(vehicles(any_drive(), 3, 0), false, s, sampling),
+            move |s, sampling| over(vehicles(parallel(), 3, 0), false, s, sampling),
+        )
+        .sample(
+            "driven wheels at an angle to each other, yaw rate not measured",
+            &[("k", "2"), ("m", "1")],
+            |s, sampling| over(vehicles(Just(Drive::Splayed), 3, 0), false, s, sampling),
         )
         .proof(
             "with equal slip velocities the two-wheeler keeps (28), and RT is enough",
@@ -93,32 +125,38 @@ fn single_body() -> Claim {
         )
 }
 
-/// A differential drive with one more wheel, h ahead and b to the left, and the formula of its coefficient.
+/// A differential drive with one more wheel, h ahead and b to the left, at an angle mu to the body, and the formula of
+/// its coefficient. No two radii are equal.
 fn further_wheel() -> Machine {
     let Some(found) = passive_formula() else { return Machine::default() };
     let body = Heading::along("phi");
     let there = Velocity::in_body("v_l", "v_t", &body)
         .at_offset(&body, &Expr::sym("h"))
         .at_offset(&body.left(), &Expr::sym("b"));
-    let one_radius = |s: &Symbol| matches!(s.as_str(), "r_1" | "r_2").then(|| Expr::sym("r"));
-    two_wheels()
-        .with("e_further", found.substitute(&one_radius))
-        .with("quotient", &there.along(&body.left()).expr() / &there.along(&body).expr())
+    let wheel = body.turned_by("mu");
+    Machine::of("differential-drive")
+        .with("e_further", found)
+        .with("quotient", &there.along(&wheel.left()).expr() / &there.along(&wheel).expr())
+        .with_text("u", "v_l - b*phi'")
+        .with_text("w", "v_t + h*phi'")
 }
 
 fn passive_formula() -> Option<Expr> {
     let mut vehicle: Vehicle = named("differential-drive")?.clone();
+    let mounted = Definition { formula: Expr::sym("as_mounted"), unit: "rad".into(), meaning: "of the wheel".into() };
+    vehicle.define.insert("mu".into(), mounted);
     vehicle.wheels.push(Wheel {
         name: "further wheel".into(),
         forward: Expr::sym("h"),
         left: Expr::sym("b"),
+        steering: Some("mu".into()),
         traverse_creep: Some("e_further".into()),
         ..Wheel::default()
     });
     let mechanism: Mechanism = mechanism(&vehicle, 0);
-    let numbers = [("a", 3, 2), ("r_1", 1, 2), ("r_2", 1, 2), ("h", 1, 3), ("b", 1, 5)];
+    let numbers = [("a", 3, 2), ("r_1", 1, 2), ("r_2", 2, 5), ("h", 1, 3), ("b", 1, 5)];
     let at = numbers.iter().fold(crate::mechanism::Point::default(), |p, (s, n, d)| p.with(*s, Exact::ratio(*n, *d)));
-    let at = at.with("phi", Exact::half_tangent(1, 3));
+    let at = at.with("phi", Exact::half_tangent(1, 3)).with("mu", Exact::half_tangent(1, 2));
     let found = mechanism.realisation(&["theta_1'".into(), "theta_2'".into()], &at).ok()?;
     let further = mechanism.constraints.iter().position(|c| c.creep == "e_further".into())?;
     mechanism.passive_coefficient(&found, further)
@@ -132,41 +170,52 @@ fn passive() -> Claim {
     )
     .at("corrected theorem (b)4")
     .about(&[25])
-    .under("differential drive with one more wheel h ahead and b to the left; v_l − b·φ̇ ≠ 0")
+    .under(
+        "differential drive, any two radii, with one more wheel h ahead and b to the left at an angle μ to the body; its \
+         contact does move along the wheel",
+    )
     .chapter("05b-corrected-single-body")
     .code(&[REALISATION])
     .tests(&[TESTS])
     .proof(
-        "the formula the machine derives, against the quotient of the velocities there",
-        &[("e_further", "(v_t + h*phi')/(v_l - b*phi')"), ("e_further", "quotient")],
+        "the formula the machine derives, against the quotient of the velocities there, u = v_l − b·φ̇ and w = v_t + h·φ̇",
+        &[("e_further", "(w*cos(mu) - u*sin(mu))/(u*cos(mu) + w*sin(mu))"), ("e_further", "quotient")],
         proving(further_wheel()),
     )
 }
 
 fn trailers() -> Claim {
+    // Few kinds at a time: a slip in what is said of one of them is to show in few cases.
     let kinds = || prop::sample::select(vec![Drive::Unicycle, Drive::Differential, Drive::Car]);
-    let all = move |s: &Statement, sampling: &Sampling| over(vehicles(kinds(), 0, 10), false, s, &sampling.one_in(2));
+    let others = || prop::sample::select(vec![Drive::Tricycle, Drive::Splayed]);
+    let trains =
+        move |s: &Statement, sampling: &Sampling| over(vehicles(kinds(), 1, 10), false, s, &sampling.one_in(2));
+    let more = move |s: &Statement, sampling: &Sampling| over(vehicles(others(), 1, 10), false, s, &sampling.one_in(2));
     Claim::new("theorem-trailers", Status::Corrected, "the creep of a car with N trailers is realised by type RT^(N+1)")
         .at("section 4, second theorem; errata E21; corrected theorem (c)")
-        .under("a unicycle tractor; RT^(N+2) with front steering, R²T^(N+1) with a differential drive; no trailer across its hitch")
+        .under(
+            "a unicycle tractor; RT^(N+2) with front steering, R²T^(N+1) with two driven wheels; there is an ideal motion in \
+             which every axle moves along itself",
+        )
         .remark(
             "Right for the coordinates (x, y, φ, θ) and N trailers. The coordinates of the literature that the paper \
              cites contain a steering angle and no wheel angle.",
         )
         .chapter("06-trailers")
-        .code(&[REALISATION, "src/claims/generated.rs"])
-        .tests(&[TESTS])
+        .code(&[REALISATION, GENERATED])
+        .tests(&[TESTS, DRAWN])
         .refutation_by(
             "the same counts whatever the tractor",
             &[("k", "1"), ("m", "N + 1")],
-            std::sync::Arc::new(all),
+            std::sync::Arc::new(trains),
             &[("k", "1"), ("m", "N + 1")],
             std::sync::Arc::new(|s: &Statement, sampling: &Sampling| {
-                over(vehicles(Just(Drive::Unicycle), 0, 10), false, s, &sampling.one_in(2))
+                over(vehicles(Just(Drive::Unicycle), 1, 10), false, s, &sampling.one_in(2))
             }),
         )
         .sample(
-            "generated trains of up to ten trailers with any bars and hitches",
+            "generated trains of up to ten trailers with any bars and hitches, behind tractors with a further wheel or none, \
+             every wheel of its own radius and heading",
             &[
                 ("unicycle.k", "1"),
                 ("unicycle.m", "N + 1"),
@@ -175,7 +224,12 @@ fn trailers() -> Claim {
                 ("car.k", "1"),
                 ("car.m", "N + 2"),
             ],
-            all,
+            trains,
+        )
+        .sample(
+            "the same behind front-driven tricycles and two driven wheels at an angle to each other",
+            &[("tricycle.k", "1"), ("tricycle.m", "N + 2"), ("splayed.k", "2"), ("splayed.m", "N + 1")],
+            more,
         )
 }
 

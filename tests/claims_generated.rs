@@ -1,0 +1,163 @@
+//! The vehicles that claims are tried on: their wheels differ, they can move, and the rows know it.
+
+mod support;
+
+use creepage::claims::generated::{Drive, Facing, Generated, Placed, any_drive, loose_vehicles, vehicles};
+use creepage::formula::{Exact, Fun, Scalar, Symbol};
+use creepage::mechanism::{Constraint, Form, Mechanism, Point};
+use num_rational::BigRational;
+use num_traits::Zero;
+use proptest::prelude::*;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+use support::{Outcome, check};
+
+/// How often something was met.
+#[derive(Default)]
+struct Met(RefCell<BTreeMap<&'static str, usize>>);
+
+impl Met {
+    fn note(&self, what: &'static str, is_so: bool) {
+        *self.0.borrow_mut().entry(what).or_default() += usize::from(is_so);
+    }
+
+    fn at_least(&self, wanted: &[(&str, usize)]) {
+        let found = self.0.borrow();
+        for (what, count) in wanted {
+            assert!(found.get(what).is_some_and(|n| n >= count), "{what}: {found:?}");
+        }
+    }
+}
+
+fn rolling_and_fixed(vehicle: &Generated) -> (Vec<Placed>, Vec<Exact>) {
+    let wheels = vehicle.wheels().unwrap_or_default();
+    let heading = |w: &Placed| match &w.facing {
+        Facing::Fixed(heading) => Some(heading.clone()),
+        _ => None,
+    };
+    let headings = wheels.iter().filter_map(heading).collect();
+    (wheels, headings)
+}
+
+fn number(v: &Exact) -> BigRational {
+    v.as_rational().cloned().unwrap_or_else(|| panic!("{v} is no number"))
+}
+
+fn cos_and_sin(angle: &Exact) -> [BigRational; 2] {
+    [Fun::Cos, Fun::Sin].map(|f| number(&Exact::call(f, angle)))
+}
+
+#[test]
+fn wheels_of_one_vehicle_have_different_radii_and_headings() {
+    let met = Met::default();
+    check(300, vehicles(any_drive(), 3, 0), |vehicle| {
+        let (wheels, headings) = rolling_and_fixed(&vehicle);
+        let at = vehicle.point();
+        let radii: Vec<Exact> = wheels.iter().filter_map(|w| w.radius.clone()).collect();
+        let different: BTreeSet<String> = radii.iter().map(ToString::to_string).collect();
+        prop_assert_eq!(different.len(), radii.len());
+        for wheel in wheels.iter().filter(|w| w.radius.is_some()) {
+            let known = at.value(&Symbol::new(&format!("r_{}", wheel.k)));
+            prop_assert!(known.equals(wheel.radius.as_ref().unwrap()), "{}", wheel);
+        }
+        let towards: BTreeSet<_> = headings.iter().map(cos_and_sin).collect();
+        let one = BigRational::from_integer(1.into());
+        prop_assert!(towards.iter().all(|[cos, sin]| cos * cos + sin * sin == one));
+        met.note("two radii", radii.len() > 1);
+        met.note("five radii", radii.len() > 4);
+        met.note("two headings", towards.len() > 1);
+        met.note("four headings", towards.len() > 3);
+        met.note("none along the body", !headings.is_empty() && towards.iter().all(|[_, sin]| !sin.is_zero()));
+        met.note("backwards", towards.iter().any(|[c, s]| towards.contains(&[-c, -s])));
+        met.note("castor", wheels.iter().any(|w| matches!(w.facing, Facing::Castor)));
+        Ok(())
+    });
+    met.at_least(&[("two radii", 200), ("five radii", 20), ("two headings", 150), ("four headings", 10)]);
+    met.at_least(&[("none along the body", 150), ("backwards", 60), ("castor", 60)]);
+}
+
+/// What an ideal vehicle has besides turning wheels: the pose, and the steering angle.
+fn freedoms(vehicle: &Generated, mechanism: &Mechanism) -> usize {
+    let steered = matches!(vehicle.drive, Drive::Car | Drive::Tricycle);
+    mechanism.coordinates.len() - mechanism.rank(&vehicle.point()).unwrap() - usize::from(steered)
+}
+
+#[test]
+fn made_around_a_motion_they_have_one() {
+    let met = Met::default();
+    check(200, vehicles(any_drive(), 3, 2), |vehicle| {
+        if vehicle.wheels().is_none() {
+            met.note("none", true);
+            return Ok(());
+        }
+        let (_, headings) = rolling_and_fixed(&vehicle);
+        let lines: BTreeSet<_> =
+            headings.iter().map(|h| number(&Exact::call(Fun::Sin, &h.sub(&headings[0])))).collect();
+        let found = freedoms(&vehicle, &vehicle.mechanism());
+        let most = if matches!(vehicle.drive, Drive::Unicycle | Drive::Differential) { 2 } else { 1 };
+        prop_assert!((1..=most).contains(&found), "{}", found);
+        met.note("circles", lines.len() > 1);
+        met.note("two freedoms", found == 2);
+        met.note("straight or circling for want of freedom", most == 2 && found == 1);
+        Ok(())
+    });
+    met.at_least(&[("circles", 60), ("two freedoms", 20), ("straight or circling for want of freedom", 20)]);
+    assert!(met.0.borrow().get("none").is_none_or(|n| *n < 40), "{:?}", met.0);
+}
+
+/// The hypothesis of the theorems is needed: a wheel whose axle misses the centre of turning leaves no ideal motion
+/// near which coefficients could act.
+#[test]
+fn a_loose_wheel_leaves_no_ideal_motion_and_no_realisation_near_one() {
+    let met = Met::default();
+    check(150, loose_vehicles(any_drive(), 3, 0), |vehicle| {
+        if vehicle.wheels().is_none() {
+            return Ok(());
+        }
+        let mechanism = vehicle.mechanism();
+        let realised = mechanism.realisation(&vehicle.measured(false), &vehicle.point());
+        let held = freedoms(&vehicle, &mechanism) == 0;
+        prop_assert!(!held || realised.is_err(), "{:?}", realised);
+        met.note("held", held);
+        met.note("moves", !held);
+        Ok(())
+    });
+    met.at_least(&[("held", 40), ("moves", 20)]);
+}
+
+/// The coefficients of a row at a point without creep.
+fn row_at(c: &Constraint, at: &Point, rate: &str) -> BigRational {
+    let coefficient = c.ideal_row().coefficient(&rate.into());
+    number(&coefficient.eval(&|s: &Symbol| at.value(s)).unwrap())
+}
+
+/// −r of the wheel itself stands before its rate; a velocity along the wheel, and no other, fulfils its direction.
+fn knows_its_wheel(c: &Constraint, wheel: &Placed, at: &Point) -> Outcome {
+    let Facing::Fixed(heading) = &wheel.facing else { return Ok(()) };
+    let [cos, sin] = cos_and_sin(&at.value(&"phi".into()).add(heading));
+    let [x, y] = ["x'", "y'"].map(|rate| row_at(c, at, rate));
+    match &c.form {
+        Form::R(rolling) => {
+            let before = row_at(c, at, rolling.rate.as_str());
+            prop_assert_eq!(before, -number(wheel.radius.as_ref().unwrap()));
+            prop_assert_eq!((x, y), (cos, sin));
+        }
+        Form::T(_) => {
+            prop_assert!((&x * &cos + &y * &sin).is_zero());
+            prop_assert!(!(y * cos - x * sin).is_zero());
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn rows_have_the_radius_and_the_heading_of_their_wheel() {
+    check(100, loose_vehicles(any_drive(), 4, 0), |vehicle| {
+        let (at, wheels) = (vehicle.point(), vehicle.wheels().unwrap_or_default());
+        for c in vehicle.mechanism().constraints {
+            let wheel = wheels.iter().find(|w| c.name.starts_with(&format!("{},", w.name)));
+            knows_its_wheel(&c, wheel.unwrap(), &at)?;
+        }
+        Ok(())
+    });
+}

@@ -1,6 +1,6 @@
 //! Where the normal form gives up: exactly beyond its bounds, and nowhere before.
 
-use creepage::formula::{Expr, Normal, Scalar, identical};
+use creepage::formula::{Expr, Normal, Polynomial, Scalar, identical};
 
 fn normal(text: &str) -> Normal {
     Normal::of(&Expr::parse(text).unwrap())
@@ -60,4 +60,40 @@ fn odd_and_even_powers_of_sums_are_multiplied_out() {
         assert_eq!(ask(power, sum), Some(true), "{power}");
         assert_eq!(ask(power, &format!("{sum} + 1")), Some(false), "{power}");
     }
+}
+
+/// So that no walk over a long sum goes deep, and a sum that is not long is read as it is written.
+#[test]
+fn a_sum_of_more_than_two_hundred_terms_is_printed_in_halves() {
+    let sum = |n: usize| (0..n).map(|i| format!("x{i}")).collect::<Vec<_>>().join(" + ");
+    let printed = |n: usize| normal(&sum(n)).to_string();
+    assert!(!printed(200).contains('('), "{}", printed(200));
+    let (ahead, behind) = printed(201).split_once(" + (").map(|(a, b)| (a.to_string(), b.to_string())).unwrap();
+    assert_eq!((ahead.matches('x').count(), behind.matches('x').count()), (100, 101));
+    for n in [200, 201, 390] {
+        let alternating = sum(n).replace(" + x1", " - x1");
+        let (written, back) = (Expr::parse(&alternating).unwrap(), normal(&alternating).to_string());
+        assert_eq!(identical(&written, &Expr::parse(&back).unwrap()), Some(true), "{n}");
+    }
+}
+
+#[test]
+fn a_tree_of_four_hundred_levels_is_the_last_that_is_read() {
+    let sum = |n: usize| vec!["x"; n].join(" + ");
+    assert!(Expr::parse(&sum(400)).is_ok());
+    assert!(Expr::parse(&sum(401)).is_err());
+    let product = |n: usize| vec!["x"; n].join("*");
+    assert!(Expr::parse(&product(400)).is_ok() && Expr::parse(&product(401)).is_err());
+}
+
+#[test]
+fn a_product_of_twenty_thousand_pairs_is_the_last_that_is_multiplied_out() {
+    let sum = |c: char, n: usize| (0..n).map(|i| format!("{c}{i}")).collect::<Vec<_>>().join(" + ");
+    let terms = |n: usize, m: usize| {
+        let text = format!("({})*({})", sum('x', n), sum('y', m));
+        Polynomial::of(&Expr::parse(&text).unwrap()).expr().to_string().matches('*').count()
+    };
+    assert_eq!(terms(100, 200), 20_000);
+    // One product of two sums that stand as they were written.
+    assert_eq!(terms(101, 200), 1);
 }

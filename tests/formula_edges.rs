@@ -1,6 +1,6 @@
 //! Carriers where a shortcut, a size or a layout could be mistaken for another.
 
-use creepage::formula::{Dual, Exact, Expr, Jet, Layout, Scalar};
+use creepage::formula::{Dual, Exact, Expr, Graph, Jet, Layout, Polynomial, Program, Scalar};
 use num_bigint::BigInt;
 use num_dual::{Dual2, Dual2Vec, Dual64, DualVec};
 use num_rational::BigRational;
@@ -81,4 +81,22 @@ fn an_angle_of_long_numbers_has_a_value() {
     let ten = |k: u32| BigInt::from(10).pow(k);
     let angle = Exact::direction(ten(400) + 1, ten(399) * 3);
     assert!((angle.to_f64() - 0.3f64.atan()).abs() < 1e-12, "{}", angle.to_f64());
+}
+
+#[test]
+fn a_program_says_how_large_it_is() {
+    let mut g = Graph::default();
+    let node = g.insert(&Expr::parse("x*y").unwrap());
+    let program = Program::compile(&g, &["x".into(), "y".into(), "unused".into()], &[node]).unwrap();
+    assert_eq!((program.inputs(), program.outputs(), program.len(), program.registers().len()), (3, 1, 3, 3));
+    let nothing = Program::compile(&g, &[], &[]).unwrap();
+    assert!(nothing.is_empty() && !program.is_empty());
+}
+
+#[test]
+fn polynomials_are_equal_when_their_terms_are() {
+    let of = |text: &str| Polynomial::of(&Expr::parse(text).unwrap());
+    assert!(of("a + b") == of("b + a"));
+    assert!(of("a*b + a*cos(c)") == of("a*(cos(c) + b)"));
+    assert!(of("a + b") != of("a + c") && of("a + b") != of("a + 2*b"));
 }

@@ -65,7 +65,7 @@ pub fn run(at: &Places, path: &str, tests: &[&str], variable: (&str, &str), seco
         if let Some(status) = child.try_wait().unwrap() {
             return (end(status), started.elapsed());
         }
-        if started.elapsed() > Duration::from_secs(6 * seconds) {
+        if started.elapsed() > Duration::from_secs(40 * seconds) {
             let _ = Command::new("kill").args(["-9", "--", &format!("-{}", child.id())]).status();
             let _ = child.wait();
             return (End::TooLong, started.elapsed());

@@ -43,6 +43,8 @@ fn what_all_terms_share_stands_in_front() {
         ("x*y + x*z", "x*(y + z)"),
         ("6*x^2*y + 4*x^3*z", "2*x^2*(2*x*z + 3*y)"),
         ("x*y + z", "x*y + z"),
+        // Here the terms share x only once they are added.
+        ("(x + y)^2 - y^2", "x*(x + 2*y)"),
         ("-x*y - x", "-x*(y + 1)"),
     ] {
         assert_eq!(normal(text).to_string(), wanted, "{text}");

@@ -1,6 +1,6 @@
 //! Carriers where a shortcut, a size or a layout could be mistaken for another.
 
-use creepage::formula::{Dual, Exact, Expr, Graph, Jet, Layout, Polynomial, Program, Scalar};
+use creepage::formula::{Dual, Exact, Expr, Graph, Jet, Layout, Polynomial, Program, Scalar, Unit};
 use num_bigint::BigInt;
 use num_dual::{Dual2, Dual2Vec, Dual64, DualVec};
 use num_rational::BigRational;
@@ -89,6 +89,7 @@ fn a_program_says_how_large_it_is() {
     let node = g.insert(&Expr::parse("x*y").unwrap());
     let program = Program::compile(&g, &["x".into(), "y".into(), "unused".into()], &[node]).unwrap();
     assert_eq!((program.inputs(), program.outputs(), program.len(), program.registers().len()), (3, 1, 3, 3));
+    assert_eq!(program.run_in(&[2.0, 3.0, 5.0]), [6.0]);
     let nothing = Program::compile(&g, &[], &[]).unwrap();
     assert!(nothing.is_empty() && !program.is_empty());
 }
@@ -99,4 +100,27 @@ fn polynomials_are_equal_when_their_terms_are() {
     assert!(of("a + b") == of("b + a"));
     assert!(of("a*b + a*cos(c)") == of("a*(cos(c) + b)"));
     assert!(of("a + b") != of("a + c") && of("a + b") != of("a + 2*b"));
+}
+
+#[test]
+fn a_logarithm_of_a_number_is_a_number_and_of_zero_of_any_unit_is_nothing() {
+    let unit = |text: &str, of: Unit| Expr::parse(text).unwrap().eval(&|_| of).map(|u| u.to_string());
+    let number = Unit::number_unit();
+    for text in ["ln(x)", "cot(x)", "exp(x)", "cos(x)"] {
+        assert_eq!(unit(text, number), Some("1".into()), "{text}");
+        assert_eq!(unit(text, Unit::parse("m").unwrap()), None, "{text}");
+    }
+    assert_eq!((unit("ln(0)", number), unit("cot(0)", number), unit("cos(0)", number)), (None, None, Some("1".into())));
+}
+
+/// A function that is zero at zero keeps the zero that may stand for a length.
+#[test]
+fn functions_of_the_number_zero_are_zero_of_any_unit_or_a_number() {
+    let unit = |text: &str| Expr::parse(text).unwrap().eval(&|_| Unit::parse("m").unwrap()).map(|u| u.to_string());
+    for f in ["sin", "tan", "asin", "atan", "tanh", "abs", "sqrt"] {
+        assert_eq!(unit(&format!("{f}(0) + x")), Some("m".into()), "{f}");
+    }
+    for f in ["cos", "exp", "acos", "sign"] {
+        assert_eq!(unit(&format!("{f}(0) + x")), None, "{f}");
+    }
 }

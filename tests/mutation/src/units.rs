@@ -51,7 +51,7 @@ pub fn tests(at: &Places, path: &str) -> Vec<String> {
 /// Runs some tests of a binary, with a limit of processor time in seconds, and says how long it took.
 pub fn run(at: &Places, path: &str, tests: &[&str], variable: (&str, &str), seconds: u64) -> (End, Duration) {
     // Limits of memory (KiB) and processor time: what loops for ever is stopped, on a busy machine no earlier.
-    let limits = format!("ulimit -v 8000000; ulimit -t {seconds}; exec \"$@\"");
+    let limits = format!("ulimit -v 4000000; ulimit -t {seconds}; exec \"$@\"");
     let mut command = Command::new("sh");
     command.args(["-c", &limits, "sh", path, "--exact"]).args(tests).current_dir(at.copy());
     command.env_remove("MUTANT").env_remove("MUTANT_REACH").env(variable.0, variable.1);

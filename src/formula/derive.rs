@@ -28,7 +28,7 @@ impl Graph {
     pub(super) fn reachable(&self, from: &[NodeId], count: usize) -> Vec<bool> {
         let mut needed = vec![false; count];
         from.iter().for_each(|id| needed[*id] = true);
-        for id in (0..count).rev().filter(|id| *id < count) {
+        for id in (0..count).rev() {
             if needed[id] {
                 self.arguments(id).into_iter().flatten().for_each(|x| needed[x] = true);
             }

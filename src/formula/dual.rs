@@ -209,6 +209,6 @@ impl<D: DualNum<f64> + Parts> Dual<D> {
     }
 
     fn undefined(&self) -> Self {
-        Dual(self.0.clone() * D::from(f64::NAN) + D::from(f64::NAN))
+        Dual(self.0.clone() * D::from(f64::NAN))
     }
 }

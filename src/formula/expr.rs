@@ -259,7 +259,6 @@ impl std::ops::Mul for &Expr {
             (_, Some(b)) => scaled(&b, other, self),
             // A sign stands in front of the product it belongs to.
             _ => match (self.node(), other.node()) {
-                (Node::Neg(a), Node::Neg(b)) => a * b,
                 (Node::Neg(a), _) => -&(a * other),
                 (_, Node::Neg(b)) => -&(self * b),
                 _ => Expr::raw(Node::Mul(self.clone(), other.clone())),

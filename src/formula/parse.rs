@@ -49,8 +49,9 @@ impl Parser<'_> {
         &self.tokens[self.at].kind
     }
 
+    /// Passes a token that was looked at and is not the end.
     fn advance(&mut self) {
-        self.at = (self.at + 1).min(self.tokens.len() - 1);
+        self.at += 1;
     }
 
     fn take(&mut self, mark: char) -> bool {

@@ -1,0 +1,86 @@
+//! The tests that were built, and how one process with some of them is run.
+
+use crate::Places;
+use crate::build::cargo;
+use serde_json::Value;
+use std::os::unix::process::{CommandExt, ExitStatusExt};
+use std::process::{Command, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
+
+/// Test binaries that hardly concern these layers and take long.
+const LEFT_OUT: [&str; 6] =
+    ["discover_laws", "discover_names", "fit_statistics", "simulator_laws", "report_html", "motion_sensitivity"];
+
+/// How a process ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum End {
+    Passed,
+    Failed,
+    TooLong,
+}
+
+/// Builds the tests, or only those in some files of `tests`: names and paths of their binaries.
+pub fn binaries(at: &Places, only: &[&str]) -> Vec<(String, String)> {
+    let mut wanted = vec!["test".to_string(), "--no-run".into()];
+    wanted.extend(only.is_empty().then(|| "--lib".into()));
+    let mut names: Vec<String> = std::fs::read_dir(at.root.join("tests"))
+        .unwrap()
+        .filter_map(|f| f.unwrap().file_name().to_str()?.strip_suffix(".rs").map(String::from))
+        .filter(|name| !LEFT_OUT.contains(&name.as_str()))
+        .filter(|name| only.is_empty() || only.contains(&name.as_str()))
+        .collect();
+    names.sort();
+    wanted.extend(names.iter().map(|name| format!("--test={name}")));
+    let made = cargo(at, &wanted.iter().map(String::as_str).collect::<Vec<_>>());
+    let lines = String::from_utf8(made.stdout).unwrap();
+    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+    let binary = |v: Value| match v["profile"]["test"] == true {
+        true => Some((v["target"]["name"].as_str()?.to_string(), v["executable"].as_str()?.to_string())),
+        false => None,
+    };
+    lines.lines().filter_map(|l| binary(serde_json::from_str(l).ok()?)).collect()
+}
+
+/// The tests of a binary that are not ignored.
+pub fn tests(at: &Places, path: &str) -> Vec<String> {
+    let made = Command::new(path).args(["--list", "--format=terse"]).current_dir(at.copy()).output().unwrap();
+    let text = String::from_utf8(made.stdout).unwrap();
+    text.lines().filter_map(|l| l.strip_suffix(": test").map(String::from)).collect()
+}
+
+/// Runs some tests of a binary, with a limit of processor time in seconds, and says how long it took.
+pub fn run(at: &Places, path: &str, tests: &[&str], variable: (&str, &str), seconds: u64) -> (End, Duration) {
+    // Limits of memory (KiB) and processor time: what loops for ever is stopped, on a busy machine no earlier.
+    let limits = format!("ulimit -v 4000000; ulimit -t {seconds}; exec \"$@\"");
+    let mut command = Command::new("sh");
+    command.args(["-c", &limits, "sh", path, "--exact"]).args(tests).current_dir(at.copy());
+    command.env_remove("MUTANT").env_remove("MUTANT_REACH").env(variable.0, variable.1);
+    command.env("INSTA_UPDATE", "no").env("INSTA_WORKSPACE_ROOT", at.copy()).env("RAYON_NUM_THREADS", "2");
+    command.env("PROPTEST_DISABLE_FAILURE_PERSISTENCE", "1").env("RUST_BACKTRACE", "0");
+    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).process_group(0);
+    let started = Instant::now();
+    let mut child = command.spawn().unwrap();
+    let mut pause = Duration::from_millis(1);
+    loop {
+        if let Some(status) = child.try_wait().unwrap() {
+            return (end(status), started.elapsed());
+        }
+        if started.elapsed() > Duration::from_secs(40 * seconds) {
+            let _ = Command::new("kill").args(["-9", "--", &format!("-{}", child.id())]).status();
+            let _ = child.wait();
+            return (End::TooLong, started.elapsed());
+        }
+        std::thread::sleep(pause);
+        pause = (pause * 5 / 4).min(Duration::from_millis(40));
+    }
+}
+
+fn end(status: ExitStatus) -> End {
+    const KILLED: i32 = 9;
+    const TOO_LONG: i32 = 24;
+    match (status.success(), status.signal()) {
+        (true, _) => End::Passed,
+        (_, Some(KILLED | TOO_LONG)) => End::TooLong,
+        _ => End::Failed,
+    }
+}

@@ -8,9 +8,12 @@
 //! cases that fail with their seeds, and writes `trust.json`, `cases.csv`, `parameters.csv`, `times.csv` and
 //! `trust.svg` to DIR. `--case SEED` runs one case alone and leaves its log and model file in DIR.
 
+mod heat_map;
 mod interval;
 mod rows;
 mod suite;
+mod table;
+mod tally;
 mod workers;
 
 use clap::Parser;
@@ -18,6 +21,7 @@ use std::path::{Path, PathBuf};
 use suite::case::{Case, Kind, seed};
 use suite::make::MAKES;
 use suite::trial;
+use tally::Tally;
 
 /// Put the discover command to the test on hidden runs.
 #[derive(Parser)]
@@ -54,10 +58,11 @@ fn main() -> std::io::Result<()> {
     if let Some(seed) = arguments.case {
         return alone(seed, &arguments.out);
     }
-    let seeds: Vec<u64> = [(Kind::Nothing, arguments.null), pairs_apart(arguments.effects, false), pairs_apart(arguments.effects, true)]
-        .into_iter()
-        .flat_map(|(kind, n)| chosen(&arguments, kind, n))
-        .collect();
+    let seeds: Vec<u64> =
+        [(Kind::Nothing, arguments.null), pairs_apart(arguments.effects, false), pairs_apart(arguments.effects, true)]
+            .into_iter()
+            .flat_map(|(kind, n)| chosen(&arguments, kind, n))
+            .collect();
     let mut outcomes = workers::all(&seeds, arguments.threads, &|done| say(done, seeds.len()));
     let timed = chosen(&arguments, Kind::Timed, arguments.timed);
     outcomes.extend(workers::all(&timed, 1, &|done| say(done, timed.len())));
@@ -66,6 +71,10 @@ fn main() -> std::io::Result<()> {
     std::fs::write(out("cases.csv"), rows::cases(&outcomes))?;
     std::fs::write(out("parameters.csv"), rows::parameters(&outcomes))?;
     std::fs::write(out("times.csv"), rows::times(&outcomes))?;
+    let tally = Tally::of(&outcomes);
+    std::fs::write(out("trust.json"), serde_json::to_string_pretty(&tally)? + "\n")?;
+    std::fs::write(out("trust.svg"), heat_map::svg(&tally))?;
+    print!("{}", table::text(&tally, &outcomes));
     Ok(())
 }
 
@@ -81,7 +90,8 @@ fn chosen(arguments: &Arguments, kind: Kind, n: u64) -> Vec<u64> {
     let (vehicle, effect) = only.split_once('/').unwrap_or((only, ""));
     let fits = |seed: &u64| {
         let (_, make, targets) = Case::topic(*seed);
-        (vehicle.is_empty() || MAKES[make].name == vehicle) && (effect.is_empty() || targets.iter().any(|t| t.0 == effect))
+        (vehicle.is_empty() || MAKES[make].name == vehicle)
+            && (effect.is_empty() || targets.iter().any(|t| t.0 == effect))
     };
     all.filter(fits).take(n as usize).collect()
 }

@@ -131,7 +131,8 @@ impl Case {
         let mut text = self.scenario.model_toml();
         if self.tells_noise {
             let noise = self.scenario.noise;
-            text += &format!("\n[noise]\nposition = {:?}   # m\nheading = {:?}   # rad\n", noise.position, noise.heading);
+            text +=
+                &format!("\n[noise]\nposition = {:?}   # m\nheading = {:?}   # rad\n", noise.position, noise.heading);
         }
         text
     }

@@ -44,8 +44,24 @@ pub fn converted(id: &str, name: &str, value: f64) -> (&'static str, f64, f64) {
 /// The parameters of the contract by their lasting names.
 fn plain(name: &str) -> &'static str {
     const NAMES: [&str; 18] = [
-        "e_rc", "e_tc", "e_left", "e_right", "mass_over_bR", "mass_over_bT", "c", "length", "bias", "scale", "offset",
-        "gradient", "delay", "a", "b", "vx", "vy", "rate",
+        "e_rc",
+        "e_tc",
+        "e_left",
+        "e_right",
+        "mass_over_bR",
+        "mass_over_bT",
+        "c",
+        "length",
+        "bias",
+        "scale",
+        "offset",
+        "gradient",
+        "delay",
+        "a",
+        "b",
+        "vx",
+        "vy",
+        "rate",
     ];
     NAMES.into_iter().find(|n| *n == name).unwrap_or("direction")
 }

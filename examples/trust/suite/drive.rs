@@ -54,9 +54,8 @@ impl Drive {
         let side = if random.random::<bool>() { 1.0 } else { -1.0 };
         let half = reach.turn * random.random_range(0.5..1.0);
         let swift = reach.speed * random.random_range(0.6..1.2);
-        let speed = |share: f64, random: &mut ChaCha8Rng| {
-            Signal::constant(swift) + waves(share * swift, reach.periods, random)
-        };
+        let speed =
+            |share: f64, random: &mut ChaCha8Rng| Signal::constant(swift) + waves(share * swift, reach.periods, random);
         match self {
             Drive::Wander => Profile { speed: speed(0.5, random), turn: waves(half, reach.periods, random) },
             Drive::Meander => {

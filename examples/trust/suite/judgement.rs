@@ -93,6 +93,10 @@ fn judged(case: &Case, report: &Report) -> Judgement {
             }
         }
     }
+    // Beside an effect that goes by another name its companion's parameters mean something else too.
+    if parameters.len() < case.scenario.hidden.iter().map(|h| secret::parameters(h).len()).sum::<usize>() {
+        parameters.clear();
+    }
     let extra: Vec<Target> = left.into_iter().map(|i| named[i]).collect();
     let unnamed = report.verdict == Verdict::UnnamedEffect;
     let nothing = case.kind == Kind::Nothing || case.scenario.hidden.is_empty();
@@ -169,9 +173,7 @@ fn excused(case: &Case, found: &[bool], extra: &[Target]) -> bool {
     let missed: Vec<usize> = (0..found.len()).filter(|i| !found[*i]).collect();
     let visible = |i: &usize| case.powers[*i].visible >= super::power::VISIBLE;
     let excuses = |e: &Target| missed.iter().any(|i| case.powers[*i].excuses(*e));
-    !missed.is_empty()
-        && extra.iter().all(excuses)
-        && (!extra.is_empty() || missed.iter().all(|i| !visible(i)))
+    !missed.is_empty() && extra.iter().all(excuses) && (!extra.is_empty() || missed.iter().all(|i| !visible(i)))
 }
 
 fn at(report: &Report, horizon: f64) -> Option<&Gap> {

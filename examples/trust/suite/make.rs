@@ -1,9 +1,9 @@
 //! The makes of vehicle a case is drawn from, and which effects apply to each.
 
 use super::simulator::{Parameters, Scenario, Tractor, Vehicle};
+use creepage::effects;
 use creepage::files::ModelFile;
 use creepage::model::{self, Model};
-use creepage::effects;
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use std::sync::LazyLock;

@@ -106,12 +106,7 @@ impl<'a> Clean<'a> {
             ..scenario.clone()
         };
         let rows = (scenario.rate * (1.0 - scenario.dropouts) / THINNED).sqrt();
-        Clean {
-            scenario,
-            thinned,
-            position: rows / scenario.noise.position,
-            heading: rows / scenario.noise.heading,
-        }
+        Clean { scenario, thinned, position: rows / scenario.noise.position, heading: rows / scenario.noise.heading }
     }
 
     fn log(&self, hidden: &[Hidden]) -> Log {

@@ -15,8 +15,10 @@ pub fn text(tally: &Tally, outcomes: &[Outcome]) -> String {
     line("two effects, both named rightly", &tally.pairs);
     line("95 % intervals that hold the truth", &tally.coverage);
     line("named though the data hardly tell", &tally.undetermined);
-    out += &format!("{:34} {:.2} (1 is honest)\n", "RMS error / standard deviation", tally.rms_z);
-    for (what, (n, median, high)) in &tally.gaps {
+    if tally.coverage.n > 0 {
+        out += &format!("{:34} {:.2} (1 is honest)\n", "RMS error / standard deviation", tally.rms_z);
+    }
+    for (what, (n, median, high)) in tally.gaps.iter().filter(|(_, row)| row.0 > 0) {
         out += &format!("{:34} median {median:.2}, 90 % {high:.2} ({n} runs)\n", format!("gap / floor, {what}"));
     }
     let (n, [median, high, most]) = times(outcomes);
@@ -34,6 +36,9 @@ pub fn text(tally: &Tally, outcomes: &[Outcome]) -> String {
 }
 
 fn section(title: &str, groups: &Groups) -> String {
+    if groups.is_empty() {
+        return String::new();
+    }
     let rows = groups.iter().map(|(name, share)| format!("  {name:32} {}\n", share.text()));
     format!("\n{title}\n{}", rows.collect::<String>())
 }

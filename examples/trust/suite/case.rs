@@ -75,7 +75,7 @@ impl Case {
         let (make, target) = PAIRINGS[index * 89 % PAIRINGS.len()];
         match kind {
             Kind::Nothing => (kind, index % MAKES.len(), vec![]),
-            Kind::Timed if index % 3 == 0 => (kind, index / 3 % MAKES.len(), vec![]),
+            Kind::Timed if index.is_multiple_of(3) => (kind, index / 3 % MAKES.len(), vec![]),
             Kind::Single | Kind::Timed => (kind, make, vec![target]),
             Kind::Pair => {
                 let targets = &TARGETS[make];

@@ -87,10 +87,9 @@ fn judged(case: &Case, report: &Report) -> Judgement {
         let by_name = left.iter().position(|i| class::same(named[*i], wanted));
         let hit = by_name.or_else(|| left.iter().position(|i| listed(&report.effects[*i], wanted)));
         found.push(hit.is_some());
-        if let Some(hit) = hit.map(|at| left.remove(at)) {
-            if by_name.is_some() {
-                parameters.extend(measured(hidden, &report.effects[hit]));
-            }
+        let hit = hit.map(|at| left.remove(at));
+        if let Some(hit) = hit.filter(|_| by_name.is_some()) {
+            parameters.extend(measured(hidden, &report.effects[hit]));
         }
     }
     // Beside an effect that goes by another name its companion's parameters mean something else too.

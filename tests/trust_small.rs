@@ -14,7 +14,8 @@ const SUITE: u64 = 7;
 /// Short logs only: the whole benchmark has the long ones.
 fn outcomes(kind: Kind, wanted: impl Fn(&Case) -> bool + Sync, n: usize) -> Vec<(Case, Judgement)> {
     let cases: Vec<Case> = (0..2 * n as u64).into_par_iter().map(|i| Case::drawn(seed(SUITE, kind, i))).collect();
-    let cases: Vec<Case> = cases.into_iter().filter(|c| wanted(c) && c.scenario.duration * c.scenario.rate < 2500.0).take(n).collect();
+    let cases: Vec<Case> =
+        cases.into_iter().filter(|c| wanted(c) && c.scenario.duration * c.scenario.rate < 2500.0).take(n).collect();
     cases.into_par_iter().map(|case| (judge(&case, &trial::run(&case)), case)).map(|(j, c)| (c, j)).collect()
 }
 

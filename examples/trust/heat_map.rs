@@ -46,7 +46,7 @@ fn heading(tally: &Tally) -> Vec<Element> {
     for (i, (what, text)) in lines.iter().enumerate() {
         let y = 48.0 + 17.0 * i as f64;
         out.push(label("soft", [12.0, y], "start", *what));
-        out.push(label("strong", [200.0, y], "start", text));
+        out.push(label("strong", [226.0, y], "start", text));
     }
     out
 }

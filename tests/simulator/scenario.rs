@@ -13,7 +13,7 @@ use super::vehicle::{Channel, Parameters, Vehicle, channels};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// The longest integration step, s.
+/// The longest integration step unless a scenario says otherwise, s.
 const STEP: f64 = 0.005;
 
 /// What a row of the log holds in its input columns.
@@ -66,6 +66,8 @@ pub struct Scenario {
     pub lead_in: f64,
     /// Articulation of each trailer when the drive began: heading ahead minus its own, rad.
     pub articulation: Vec<f64>,
+    /// The longest integration step, s.
+    pub step: f64,
     /// Of jitter, lost rows and noise; the profile is already drawn.
     pub seed: u64,
 }
@@ -96,6 +98,7 @@ impl Scenario {
             wrap_heading: false,
             lead_in: 20.0,
             articulation: vec![0.0; vehicle.trailers()],
+            step: STEP,
             vehicle,
             seed,
         }
@@ -176,12 +179,12 @@ impl Scenario {
             })
             .collect();
         let began = body.at_rest_in(-self.lead_in, self.start, &headings);
-        let arrived = advance(&rates, began, -self.lead_in, 0.0, STEP);
+        let arrived = advance(&rates, began, -self.lead_in, 0.0, self.step);
         let mut state = body.moved_to(&arrived, self.start);
         let mut now = 0.0;
         let mut truth = Vec::with_capacity(times.len());
         for &t in times {
-            state = advance(&rates, state, now, t, STEP);
+            state = advance(&rates, state, now, t, self.step);
             now = t;
             let pace = body.pace(t, &state);
             truth.push(Truth {

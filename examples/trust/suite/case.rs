@@ -1,0 +1,152 @@
+//! A case: everything about one hidden run, drawn from one number.
+
+use super::drive::Drive;
+use super::logging;
+use super::make::{MAKES, Make, PAIRINGS, TARGETS, Target};
+use super::power::{Power, powers};
+use super::secret;
+use super::simulator::{Hidden, Scenario};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+/// What a case asks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Whether nothing is named where nothing is hidden.
+    Nothing,
+    /// Whether one hidden effect is named.
+    Single,
+    /// Whether two at once are named.
+    Pair,
+    /// How long it takes: 60 s at 50 Hz.
+    Timed,
+}
+
+impl Kind {
+    /// All kinds; the place of one is the digit that stands for it in a seed.
+    pub const ALL: [Kind; 4] = [Kind::Nothing, Kind::Single, Kind::Pair, Kind::Timed];
+
+    /// The name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Nothing => "nothing",
+            Kind::Single => "single",
+            Kind::Pair => "pair",
+            Kind::Timed => "timed",
+        }
+    }
+}
+
+/// Cases of a kind that one suite may have.
+const MOST: u64 = 100_000;
+/// How often a case is drawn anew when its data cannot tell what it hides.
+const ATTEMPTS: u64 = 3;
+
+/// The seed of the `index`-th case of a kind in a suite.
+pub fn seed(suite: u64, kind: Kind, index: u64) -> u64 {
+    (suite * 10 + kind as u64) * MOST + index % MOST
+}
+
+/// One hidden run.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// The number it is drawn from.
+    pub seed: u64,
+    /// What it asks.
+    pub kind: Kind,
+    /// The vehicle.
+    pub make: Make,
+    /// How it is driven.
+    pub drive: Drive,
+    /// The run; what is hidden stands there.
+    pub scenario: Scenario,
+    /// Whether the model file tells the noise.
+    pub tells_noise: bool,
+    /// For each hidden effect, how well the data show it.
+    pub powers: Vec<Power>,
+}
+
+impl Case {
+    /// What the case of a seed is about, before anything is drawn: the make and the effects it hides.
+    pub fn topic(seed: u64) -> (Kind, usize, Vec<Target>) {
+        let kind = Kind::ALL[(seed / MOST % 10) as usize % Kind::ALL.len()];
+        let index = (seed % MOST) as usize;
+        // The step is prime to the number of pairings: every one has its turn before any has a second.
+        let (make, target) = PAIRINGS[index * 89 % PAIRINGS.len()];
+        match kind {
+            Kind::Nothing => (kind, index % MAKES.len(), vec![]),
+            Kind::Timed if index.is_multiple_of(3) => (kind, index / 3 % MAKES.len(), vec![]),
+            Kind::Single | Kind::Timed => (kind, make, vec![target]),
+            Kind::Pair => {
+                let targets = &TARGETS[make];
+                let mut random = stream(seed, 1);
+                let free: Vec<Target> = targets.iter().copied().filter(|t| differ(*t, target)).collect();
+                (kind, make, vec![target, free[random.random_range(0..free.len())]])
+            }
+        }
+    }
+
+    /// The case of a seed. Where something is hidden it is drawn up to three times until the data can tell it.
+    pub fn drawn(seed: u64) -> Self {
+        let mut case = Self::attempt(seed, 0);
+        for attempt in 1..ATTEMPTS {
+            if case.determined() {
+                break;
+            }
+            case = Self::attempt(seed, attempt);
+        }
+        case
+    }
+
+    fn attempt(seed: u64, attempt: u64) -> Self {
+        let (kind, index, targets) = Self::topic(seed);
+        let make = MAKES[index];
+        let mut random = stream(seed, 100 + attempt);
+        let (vehicle, parameters) = make.drawn(&mut random);
+        // After a first failure the vehicle is driven so that it tells more.
+        let drive = if attempt == 0 { Drive::drawn(&mut random) } else { Drive::rich(&mut random) };
+        let hidden: Vec<Hidden> = targets.iter().map(|t| secret::drawn(*t, make.tractor, &mut random)).collect();
+        let mut scenario = Scenario {
+            parameters,
+            hidden,
+            profile: drive.profile(make.tractor, make.trailers > 0, &mut random),
+            logs_speed: make.by_speed,
+            logs_heading: make.heading,
+            lead_in: 6.0,
+            ..Scenario::new(vehicle, seed)
+        };
+        logging::draw(&mut scenario, kind == Kind::Timed, &mut random);
+        let tells_noise = random.random_bool(0.2);
+        let powers = if scenario.hidden.is_empty() { vec![] } else { powers(&scenario, &TARGETS[index]) };
+        Case { seed, kind, make, drive, scenario, tells_noise, powers }
+    }
+
+    /// Whether the data show all that is hidden and tell it from everything else of the library.
+    pub fn determined(&self) -> bool {
+        self.powers.iter().all(Power::determined)
+    }
+
+    /// The model file of its user.
+    pub fn model_toml(&self) -> String {
+        let mut text = self.scenario.model_toml();
+        if self.tells_noise {
+            let noise = self.scenario.noise;
+            text +=
+                &format!("\n[noise]\nposition = {:?}   # m\nheading = {:?}   # rad\n", noise.position, noise.heading);
+        }
+        text
+    }
+}
+
+/// Whether two effects can be hidden at once and are not two names of one place.
+fn differ(a: Target, b: Target) -> bool {
+    use super::class::{contains, same};
+    !same(a, b) && !contains(a.0, b.0) && !contains(b.0, a.0)
+}
+
+/// Independent random numbers for each purpose.
+fn stream(seed: u64, purpose: u64) -> ChaCha8Rng {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    random.set_stream(purpose);
+    random
+}

@@ -108,7 +108,7 @@ fn every_command_refuses_a_bad_file_and_writes_nothing() {
 /// A log to find an effect in, and the model that lacks it.
 fn files(dir: &Path, scenario: &Scenario) {
     std::fs::write(dir.join("model.toml"), scenario.model_toml()).unwrap();
-    scenario.run().write_csv(&dir.join("run.csv")).unwrap();
+    scenario.run().write_csv(dir.join("run.csv")).unwrap();
 }
 
 /// What `discover` writes with the example's effects.

@@ -7,7 +7,7 @@ use super::locate;
 use super::record::Record;
 use super::relatives::{self, Relative, relatives};
 use super::report::*;
-use super::{experiment, picture, summary, unnamed, verdict};
+use super::{experiment, outliers, picture, summary, unnamed, verdict};
 use crate::effects::Effect;
 use crate::error::{Error, Result};
 use crate::files::{EffectEntry, ModelFile, Run};
@@ -17,6 +17,9 @@ use std::collections::BTreeMap;
 
 /// Share of every run that is fitted when no run is held out.
 const FITTED_SHARE: f64 = 0.75;
+
+/// Why a row whose pose no smooth motion passes through is left out.
+const GROSS: &str = "gross error of the measured pose";
 
 /// What `discover` works on.
 pub struct Request<'a> {
@@ -55,17 +58,24 @@ impl Discovery {
 pub(super) struct Data {
     pub fitted: Vec<Record>,
     pub held_out: Vec<Record>,
+    /// Rows left out because their measured pose is grossly wrong.
+    gross: usize,
 }
 
 impl Data {
-    fn of(request: &Request, model: &Model) -> Self {
+    fn of(request: &Request, model: &Model) -> Result<Self> {
         let record = |r: &Run| Record::of_run(r, request.file.input_timing, model.trailers.len());
         let whole: Vec<Record> = request.runs.iter().map(record).collect();
-        if !request.held_out.is_empty() {
-            return Self { fitted: whole, held_out: request.held_out.iter().map(record).collect() };
-        }
-        let (fitted, held_out) = whole.iter().map(|r| r.split(FITTED_SHARE)).unzip();
-        Self { fitted, held_out }
+        let (fitted, held_out): (Vec<Record>, Vec<Record>) = match request.held_out.is_empty() {
+            true => whole.iter().map(|r| r.split(FITTED_SHARE)).unzip(),
+            false => (whole, request.held_out.iter().map(record).collect()),
+        };
+        let clean = |records: &[Record]| -> Result<(Vec<Record>, Vec<usize>)> {
+            let each = records.par_iter().map(|r| outliers::without_gross_errors(r, model));
+            Ok(each.collect::<Result<Vec<_>>>()?.into_iter().unzip())
+        };
+        let ((fitted, a), (held_out, b)) = (clean(&fitted)?, clean(&held_out)?);
+        Ok(Self { fitted, held_out, gross: a.iter().chain(&b).sum() })
     }
 }
 
@@ -78,7 +88,7 @@ impl Data {
 pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery> {
     let roles = common_roles(request)?;
     let model = Model::from_file(request.file, request.library, &roles)?;
-    let data = Data::of(request, &model);
+    let data = Data::of(request, &model)?;
     let known = request.file.noise;
     let problem = Problem::new(data.fitted.clone(), known.position, known.heading);
     if let Some(verdict) = verdict::before_fitting(&problem) {
@@ -145,6 +155,9 @@ fn empty_report(request: &Request, data: &Data) -> Report {
     let runs = || request.runs.iter().chain(request.held_out);
     let mut why_dropped: BTreeMap<String, usize> = BTreeMap::new();
     runs().flat_map(|r| &r.why_dropped).for_each(|(why, n)| *why_dropped.entry(why.clone()).or_default() += n);
+    if data.gross > 0 {
+        *why_dropped.entry(GROSS.into()).or_default() += data.gross;
+    }
     let warnings = runs().flat_map(|r| r.warnings.iter().map(move |w| format!("{}: {w}", r.name)));
     let mut hashes: BTreeMap<String, String> =
         runs().map(|r| (r.path.to_string_lossy().into_owned(), r.sha256.clone())).collect();
@@ -164,8 +177,8 @@ fn empty_report(request: &Request, data: &Data) -> Report {
         steps: vec![],
         data: DataSummary {
             runs: runs().count(),
-            rows: runs().map(|r| r.time.len()).sum(),
-            rows_dropped: runs().map(|r| r.rows_dropped).sum(),
+            rows: runs().map(|r| r.time.len()).sum::<usize>() - data.gross,
+            rows_dropped: runs().map(|r| r.rows_dropped).sum::<usize>() + data.gross,
             why_dropped,
             warnings,
         },

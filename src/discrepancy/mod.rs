@@ -27,6 +27,7 @@ pub mod html;
 pub mod identity;
 pub mod locate;
 pub mod manoeuvre;
+pub mod outliers;
 pub mod picture;
 pub mod record;
 pub mod relatives;

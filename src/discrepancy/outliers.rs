@@ -1,0 +1,150 @@
+//! Gross errors of the measured pose: rows that no smooth motion passes through.
+
+use super::gap::Predictor;
+use super::record::{Channel, Record};
+use crate::error::Result;
+use crate::model::Model;
+use std::f64::consts::TAU;
+
+/// Windows over which the model takes the motion's own curvature out, s.
+const WINDOW: f64 = 1.0;
+/// How many of the usual errors a gross one is: noise that is normal gives one in 10¹⁵.
+const GROSS: f64 = 8.0;
+/// More than this share of a column is no gross error but its noise.
+const MOST: f64 = 0.05;
+/// Rounds in which the largest errors are taken out; a gross error hides its neighbours.
+const ROUNDS: usize = 6;
+/// Rows on either side within which only the largest is taken out in one round.
+const NEAR: usize = 3;
+
+/// A record without the rows whose measured pose is grossly wrong, and how many there were; inputs are kept.
+///
+/// | quantity | how |
+/// |---|---|
+/// | residual | measured minus the model restarted every second: smooth, whatever the model misses |
+/// | error of a row | its residual minus the cubic through its four neighbours, over what unit noise makes of it |
+/// | gross | eight times the usual, by the median over the record |
+///
+/// # Errors
+/// When the model's formulas are malformed.
+pub fn without_gross_errors(record: &Record, model: &Model) -> Result<(Record, usize)> {
+    let residuals = residuals(record, model)?;
+    let mut gross = vec![false; record.rows.end];
+    for column in &residuals {
+        mark(&record.time, column, &mut gross);
+    }
+    let first = record.rows.start;
+    let dropped = gross[first..].iter().filter(|g| **g).count();
+    if !gross.contains(&true) {
+        return Ok((record.clone(), 0));
+    }
+    let kept = |i: &usize| !gross.get(*i).copied().unwrap_or(false);
+    let before = (0..first).filter(kept).count();
+    let end = (0..record.rows.end).filter(kept).count();
+    let pick = |column: &[f64]| (0..column.len()).filter(kept).map(|i| column[i]).collect::<Vec<f64>>();
+    let columns = record.columns.iter().map(|c| pick(c)).collect();
+    Ok((Record { time: pick(&record.time), columns, rows: before..end, ..record.clone() }, dropped))
+}
+
+/// Measured minus modelled, column by column, over the rows up to the end of those that take part.
+fn residuals(record: &Record, model: &Model) -> Result<Vec<Vec<f64>>> {
+    let whole = Record { rows: 0..record.rows.end, ..record.clone() };
+    let predictor = Predictor::new(model, &whole)?;
+    let mut found = vec![vec![f64::NAN; record.rows.end]; record.columns.len()];
+    let channels = record.channels();
+    for (from, to) in predictor.windows(WINDOW) {
+        for (i, y) in (from..=to).zip(predictor.outputs(from, to)) {
+            for (c, column) in found.iter_mut().enumerate() {
+                let r = record.columns[c][i] - y[record.output_of(c)];
+                column[i] = if channels[c] == Channel::Position { r } else { r - TAU * (r / TAU).round() };
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// Marks the gross errors of one column.
+fn mark(time: &[f64], column: &[f64], gross: &mut [bool]) {
+    let mut own = gross.to_vec();
+    for _ in 0..ROUNDS {
+        let rows: Vec<usize> = (0..column.len()).filter(|i| !own[*i] && column[*i].is_finite()).collect();
+        let errors: Vec<f64> = (0..rows.len()).map(|k| error(time, column, &rows, k)).collect();
+        let Some(usual) = median(&errors) else { return };
+        let is_gross = |k: usize| {
+            let near = k.saturating_sub(NEAR)..(k + NEAR + 1).min(rows.len());
+            errors[k] > GROSS * usual && errors[near].iter().all(|e| e.is_nan() || *e <= errors[k])
+        };
+        let found: Vec<usize> = (0..rows.len()).filter(|k| is_gross(*k)).map(|k| rows[k]).collect();
+        if found.is_empty() {
+            break;
+        }
+        found.into_iter().for_each(|i| own[i] = true);
+    }
+    let marked = own.iter().filter(|g| **g).count();
+    if (marked as f64) < MOST * column.len() as f64 {
+        gross.copy_from_slice(&own);
+    }
+}
+
+/// |r_i − cubic through its neighbours| over the deviation that unit noise gives it; nothing at the ends or over a gap.
+fn error(time: &[f64], column: &[f64], rows: &[usize], k: usize) -> f64 {
+    if k < 2 || k + 2 >= rows.len() {
+        return f64::NAN;
+    }
+    let others = [rows[k - 2], rows[k - 1], rows[k + 1], rows[k + 2]];
+    let i = rows[k];
+    let lagrange = others.map(|j| {
+        let factors = others.iter().filter(|o| **o != j).map(|o| (time[i] - time[*o]) / (time[j] - time[*o]));
+        factors.product::<f64>()
+    });
+    let prediction: f64 = others.iter().zip(lagrange).map(|(j, l)| l * column[*j]).sum();
+    let spread = (1.0 + lagrange.iter().map(|l| l * l).sum::<f64>()).sqrt();
+    (column[i] - prediction).abs() / spread
+}
+
+/// The median of the errors there are, in standard deviations; `None` with too few or none at all.
+fn median(errors: &[f64]) -> Option<f64> {
+    let mut known: Vec<f64> = errors.iter().copied().filter(|e| e.is_finite()).collect();
+    if known.len() < 20 {
+        return None;
+    }
+    let middle = known.len() / 2;
+    let value = *known.select_nth_unstable_by(middle, f64::total_cmp).1;
+    (value > 0.0).then_some(value / 0.674_489_750_196_081_7)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::{Rng, SeedableRng};
+
+    /// A smooth residual with noise, and gross errors at some rows, two of them neighbours.
+    fn column(wrong: &[usize]) -> (Vec<f64>, Vec<f64>) {
+        let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(3);
+        let time: Vec<f64> = (0..400).map(|i| 0.05 * f64::from(i)).collect();
+        let noise = rand_distr::Normal::new(0.0, 1e-4).unwrap();
+        let mut y: Vec<f64> = time.iter().map(|t| 0.05 * (1.3 * t).sin() + random.sample(noise)).collect();
+        wrong.iter().for_each(|i| y[*i] += 0.02);
+        (time, y)
+    }
+
+    #[test]
+    fn gross_errors_are_found_and_nothing_else() {
+        for wrong in [vec![], vec![7], vec![50, 51, 200, 330]] {
+            let (time, y) = column(&wrong);
+            let mut gross = vec![false; y.len()];
+            mark(&time, &y, &mut gross);
+            let found: Vec<usize> = (0..y.len()).filter(|i| gross[*i]).collect();
+            assert_eq!(found, wrong);
+        }
+    }
+
+    #[test]
+    fn noise_with_heavy_tails_is_left_alone() {
+        let (time, mut y) = column(&[]);
+        (0..400).step_by(7).for_each(|i| y[i] += 0.02);
+        let mut gross = vec![false; y.len()];
+        mark(&time, &y, &mut gross);
+        assert!(!gross.contains(&true));
+    }
+}

@@ -73,8 +73,15 @@ impl Case {
     fn plain(&self, p: &[f64], window: usize, moved: [f64; 3]) -> ([Vec<f64>; 2], Vec<f64>) {
         let (record, segment) = (self.record(), &self.problem.plan[0]);
         let mut stepper = Stepper::new(&self.equations, &record.signals, p);
-        let begin = record.time[segment.windows[0].start];
-        let mut hidden = carry::at_rest(&self.equations, p, &mut stepper, begin, &self.starts[0][0]).z;
+        // From rest at the log's first row to the first window, without sensitivities.
+        let first = segment.windows[0].start;
+        let pose = &self.starts[0][0];
+        let mut hidden = carry::at_rest(&self.equations, p, &mut stepper, record.time[0], pose).z;
+        for i in 0..first {
+            let mut arc = Arc { z: [pose.clone(), hidden].concat(), s: vec![] };
+            stepper.advance(&mut arc, record.time[i], record.time[i + 1]);
+            hidden = arc.z[3..].to_vec();
+        }
         for (k, rows) in segment.windows.iter().enumerate() {
             let mut z = self.starts[0][k].clone();
             if k == window {

@@ -28,6 +28,9 @@ pub fn before(
     for i in first..row {
         // The pose a hidden state sees is the measured one; only the hidden states are carried.
         let mut arc = stepper.start(&[visible, &hidden.z].concat(), Some(&hidden.s));
+        if hidden.s.is_empty() {
+            arc.s.clear();
+        }
         stepper.advance(&mut arc, time[i], time[i + 1]);
         hidden = Arc { z: arc.z[equations.visible..].to_vec(), s: arc.s };
     }

@@ -1,6 +1,7 @@
 //! A model with free effects fitted to all windows at once.
 
 use super::chain::{Eliminated, Variances, eliminate};
+use super::course::measured_at;
 use super::record::{Channel, Record};
 use super::smooth;
 use super::variances::{self, Free};
@@ -77,7 +78,7 @@ impl Problem {
         let equations = model.equations(&[])?;
         let of_segment = |s: &Segment| {
             let record = &self.records[s.record];
-            s.windows.iter().map(|w| pose_of(&equations, &record.smoothed(w.start))).collect()
+            s.windows.iter().map(|w| pose_of(&equations, &measured_at(&equations, record, w.start))).collect()
         };
         Ok(self.plan.iter().map(of_segment).collect())
     }

@@ -1,6 +1,7 @@
 //! The gap: how far a model strays from the measurements after a horizon, and what noise alone would make of it.
 
 use super::carry;
+use super::course::{Course, heading_at, measured_at};
 use super::fit::pose_of;
 use super::record::{Channel, Record};
 use super::windows::MARGIN;
@@ -78,7 +79,7 @@ impl<'a> Predictor<'a> {
 
     /// The state at a row: the smoothed pose and the carried hidden states.
     fn start(&self, i: usize) -> Vec<f64> {
-        let mut z = pose_of(&self.equations, &self.record.smoothed(i));
+        let mut z = pose_of(&self.equations, &measured_at(&self.equations, self.record, i));
         z.extend(self.hidden.get(i).into_iter().flatten());
         z
     }
@@ -133,15 +134,21 @@ impl<'a> Predictor<'a> {
     /// a vehicle on a plane moves rigidly with its start, so no trajectory has to be integrated anew.
     pub fn floor(&self, horizon: f64, noise: &[f64; 3], seed: u64) -> Errors {
         let windows = self.windows(horizon);
+        // A heading that is taken from the path inherits the noise of its positions.
+        let courses: Vec<Option<Course>> = windows
+            .iter()
+            .map(|(from, _)| (!self.record.has_heading).then(|| heading_at(&self.equations, self.record, *from)))
+            .collect();
         let ends: Vec<[f64; 2]> = windows.iter().map(|(from, to)| displacement(&self.outputs(*from, *to))).collect();
         let mut errors = Errors::default();
         let draws = (2000 / windows.len().max(1)).clamp(4, 200);
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         for _ in 0..draws {
             let noisy = with_noise(self.record, noise, &mut rng);
-            for ((from, to), d) in windows.iter().zip(&ends) {
+            for (((from, to), d), course) in windows.iter().zip(&ends).zip(&courses) {
                 let (clean, shifted) = (self.record.smoothed(*from), noisy.smoothed(*from));
-                let turn = shifted[2] - clean[2];
+                let moved = |i: usize| [0, 1].map(|c| noisy.columns[c][i] - self.record.columns[c][i]);
+                let turn = course.as_ref().map_or(shifted[2] - clean[2], |c| c.error(moved));
                 let turn = turn - TAU * (turn / TAU).round();
                 let (sin, cos) = turn.sin_cos();
                 let turned = [(cos - 1.0) * d[0] - sin * d[1], sin * d[0] + (cos - 1.0) * d[1]];

@@ -1,11 +1,12 @@
 //! Where model and measurement disagree: constraint by constraint, window by window.
 
+use super::course::{heading_at, measured_at};
 use super::fit::{Problem, pose_of};
 use super::record::Record;
 use super::report::{Disagreement, ResidualPicture};
 use super::windows::{self, Linear, Segment};
 use crate::error::Result;
-use crate::model::Model;
+use crate::model::{Equations, Model};
 
 /// Names and units of the violated rates, in the order of a window's mismatch.
 pub const CONSTRAINTS: [(&str, &str); 4] = [
@@ -47,7 +48,9 @@ impl Violation {
     pub fn of(model: &Model, record: &Record, noise: &[f64; 3]) -> Result<Self> {
         let equations = model.equations(&[])?;
         let plan = windows::plan(std::slice::from_ref(record));
-        let smoothed = |s: &Segment| -> Vec<Vec<f64>> { s.windows.iter().map(|w| record.smoothed(w.start)).collect() };
+        let smoothed = |s: &Segment| -> Vec<Vec<f64>> {
+            s.windows.iter().map(|w| measured_at(&equations, record, w.start)).collect()
+        };
         let measured: Vec<Vec<Vec<f64>>> = plan.iter().map(smoothed).collect();
         let starts = measured.iter().map(|s| s.iter().map(|y| pose_of(&equations, y)).collect()).collect();
         let linear = windows::linearise(&equations, &[], std::slice::from_ref(record), &plan, &starts);
@@ -59,12 +62,12 @@ impl Violation {
                 found.windows.push(window(line, [t(k), t(k + 1)], &measured[k], &measured[k + 1]));
             }
         }
-        found.noise = found.noise_of(record, &plan, noise);
+        found.noise = found.noise_of(&equations, record, &plan, noise);
         Ok(found)
     }
 
     /// Smoothing noise at both ends of a window; a heading off by δ moves the end across by v·W·δ.
-    fn noise_of(&self, record: &Record, plan: &[Segment], noise: &[f64; 3]) -> [f64; 4] {
+    fn noise_of(&self, equations: &Equations, record: &Record, plan: &[Segment], noise: &[f64; 3]) -> [f64; 4] {
         let Some(segment) = plan.first() else { return [0.0; 4] };
         let i = segment.windows[segment.windows.len() / 2].start;
         let share: f64 = record.smoothing(i).iter().map(|(_, w)| w * w).sum();
@@ -74,10 +77,10 @@ impl Violation {
         let [position, heading, trailer] = noise.map(|v| (2.0 * share * v).sqrt() / duration);
         let across = match record.has_heading {
             true => position.hypot((share * noise[1]).sqrt() * speed),
-            // A direction taken from the velocity is off by the velocity's noise over the speed.
+            // So does one that is taken from the path.
             false => {
-                let share = record.course_weights(i).map_or(0.0, |w| w.iter().map(|(_, w)| w * w).sum());
-                position.hypot((share * noise[0]).sqrt())
+                let share: f64 = heading_at(equations, record, i).weights.iter().map(|(_, a, b)| a * a + b * b).sum();
+                position.hypot((share * noise[0]).sqrt() * speed)
             }
         };
         [position, across, heading, trailer.hypot(heading)]
@@ -136,8 +139,13 @@ fn window(line: &Linear, span: [f64; 2], from: &[f64], to: &[f64]) -> Window {
         span,
         rates: line.mismatch.iter().map(|m| m / line.duration).collect(),
         speed: travelled / line.duration,
-        yaw: (to[2] - from[2]) / line.duration,
+        yaw: wrapped(to[2] - from[2]) / line.duration,
     }
+}
+
+/// An angle without whole turns.
+fn wrapped(angle: f64) -> f64 {
+    angle - std::f64::consts::TAU * (angle / std::f64::consts::TAU).round()
 }
 
 /// Which windows belong to a regime.

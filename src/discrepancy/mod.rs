@@ -16,6 +16,7 @@ pub mod carry;
 pub mod chain;
 pub mod choose;
 pub mod clock;
+pub mod course;
 pub mod crossval;
 pub mod discover;
 pub mod envelope;

@@ -84,6 +84,12 @@ impl Record {
         (part(self.rows.start..at), part(at..self.rows.end))
     }
 
+    /// Standard deviation of the measured positions, m.
+    pub fn position_noise(&self) -> f64 {
+        let of = |c: usize| smooth::noise(&self.time[self.rows.clone()], &self.columns[c][self.rows.clone()]);
+        [0, 1].into_iter().filter_map(of).fold(1e-9, f64::max)
+    }
+
     /// The usual time between rows, s.
     pub fn step(&self) -> f64 {
         let mut steps: Vec<f64> = self.time[self.rows.clone()].windows(2).map(|w| w[1] - w[0]).collect();
@@ -146,7 +152,7 @@ impl Record {
     }
 
     /// The weights of the velocity that the direction of travel is taken from.
-    pub fn course_weights(&self, i: usize) -> Option<Vec<(usize, f64)>> {
+    fn course_weights(&self, i: usize) -> Option<Vec<(usize, f64)>> {
         smooth::slope_weights(&self.time, 0..self.rows.end, i)
     }
 }

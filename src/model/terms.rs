@@ -85,7 +85,7 @@ impl Model {
     /// let terms = wheel.terms().unwrap();
     /// let term = terms.iter().find(|t| t.id == "unnamed-traverse-yaw-abs-yaw").unwrap();
     /// assert_eq!(term.parameters["k"].unit, "m*s");
-    /// assert_eq!(term.changes["v_t"].to_string(), "it + k*phi'*abs(phi')");
+    /// assert_eq!(term.changes["v_t"].to_string(), "it + k*(phi'*abs(phi'))");
     /// ```
     pub fn terms(&self) -> Result<Vec<Effect>> {
         let bare = Model { effects: vec![], ..self.clone() };

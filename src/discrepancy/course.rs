@@ -1,15 +1,19 @@
 //! The heading of a vehicle whose heading nothing measures, from where its model says it went.
 
 use super::carry;
+use super::fit::pose_of;
 use super::record::Record;
 use crate::model::Equations;
 use crate::motion::{Arc, Stepper};
 use nalgebra::{Rotation2, Vector2};
+use std::ops::Range;
 
 /// Half width of the stretch that is laid on the measured path, s; wider where the vehicle hardly moves.
 const HALF_WIDTHS: [f64; 3] = [1.0, 3.0, 9.0];
 /// Points this many times their noise from their mean, all together, tell a direction.
 const LONG_ENOUGH: f64 = 20.0;
+/// Headings that differ by more do not agree, rad.
+const AGREEMENT: f64 = 0.5;
 /// Rounds; more than one because drift and slopes know where north is.
 const ROUNDS: usize = 3;
 
@@ -18,6 +22,8 @@ const ROUNDS: usize = 3;
 pub struct Course {
     /// The measured heading at the row, as a sensor would give it, rad.
     pub heading: f64,
+    /// How far the points that tell it reach, m: the root of the sum of squares about their mean.
+    pub reach: f64,
     /// δheading = Σ (a·δx + b·δy) over rows: (row, a, b).
     pub weights: Vec<(usize, f64, f64)>,
 }
@@ -35,19 +41,19 @@ impl Course {
 /// and a tracked point off the axle are in the motion, which a direction of travel alone does not know.
 pub fn heading_at(equations: &Equations, record: &Record, row: usize) -> Course {
     let noise = record.position_noise();
-    let mut best = Course { heading: record.smoothed(row)[2], weights: vec![] };
+    let mut best = Course { heading: record.smoothed(row)[2], ..Course::default() };
     for half in HALF_WIDTHS {
-        let Some((course, length)) = laid_on(equations, record, row, half, best.heading) else { continue };
+        let Some(course) = laid_on(equations, record, row, half, best.heading) else { continue };
         best = course;
-        if length > LONG_ENOUGH * noise {
+        if best.reach > LONG_ENOUGH * noise {
             break;
         }
     }
     best
 }
 
-/// The heading from a stretch, and how far the stretch reaches.
-fn laid_on(equations: &Equations, record: &Record, row: usize, half: f64, guess: f64) -> Option<(Course, f64)> {
+/// The heading from a stretch.
+fn laid_on(equations: &Equations, record: &Record, row: usize, half: f64, guess: f64) -> Option<Course> {
     let rows = stretch(record, row, half);
     if rows.len() < 3 {
         return None;
@@ -60,13 +66,13 @@ fn laid_on(equations: &Equations, record: &Record, row: usize, half: f64, guess:
         let here = path[row - rows.start][2];
         let (turn, found, length) = turned(record, rows.start, &path)?;
         begin += turn;
-        course = Some((Course { heading: here + turn, weights: found }, length));
+        course = Some(Course { heading: here + turn, reach: length, weights: found });
     }
     course
 }
 
 /// Rows around a row without a gap, never beyond those that take part.
-fn stretch(record: &Record, row: usize, half: f64) -> std::ops::Range<usize> {
+fn stretch(record: &Record, row: usize, half: f64) -> Range<usize> {
     let time = &record.time;
     let gap = (5.0 * record.step()).max(0.5);
     let near = |i: usize| (time[i] - time[row]).abs() <= half;
@@ -76,11 +82,11 @@ fn stretch(record: &Record, row: usize, half: f64) -> std::ops::Range<usize> {
 }
 
 /// Modelled measurements (x, y, heading) over a stretch that begins with a heading.
-fn path(equations: &Equations, record: &Record, rows: std::ops::Range<usize>, heading: f64) -> Option<Vec<[f64; 3]>> {
+fn path(equations: &Equations, record: &Record, rows: Range<usize>, heading: f64) -> Option<Vec<[f64; 3]>> {
     let mut stepper = Stepper::new(equations, &record.signals, &[]);
     let mut start = record.smoothed(rows.start);
     start[2] = heading;
-    let start = super::fit::pose_of(equations, &start);
+    let start = pose_of(equations, &start);
     let hidden = carry::before(equations, &[], &mut stepper, record, rows.start, &start);
     let mut arc = Arc { z: [start, hidden.z].concat(), s: vec![] };
     let mut found = Vec::with_capacity(rows.len());
@@ -117,6 +123,46 @@ fn turned(record: &Record, first: usize, path: &[[f64; 3]]) -> Option<(f64, Vec<
     };
     let found: Vec<(usize, f64, f64)> = path.iter().enumerate().map(weight).collect();
     (square > 0.0 && turn.is_finite()).then(|| (turn, found, square.sqrt()))
+}
+
+/// Poses at the starts of windows. Headings that nothing measures follow each other by the model's own turning from
+/// where the path tells them best: a vehicle that stands or drifts shows no heading, and a reversed one a false one.
+pub fn starts(equations: &Equations, record: &Record, windows: &[Range<usize>]) -> Vec<Vec<f64>> {
+    let rows: Vec<usize> = windows.iter().map(|w| w.start).collect();
+    let mut poses: Vec<Vec<f64>> =
+        rows.iter().map(|i| pose_of(equations, &measured_at(equations, record, *i))).collect();
+    if record.has_heading {
+        return poses;
+    }
+    let reach = |i: &usize| heading_at(equations, record, *i).reach;
+    let reaches: Vec<f64> = rows.iter().map(reach).collect();
+    let best = (0..rows.len()).max_by(|a, b| reaches[*a].total_cmp(&reaches[*b])).unwrap_or(0);
+    let turns: Vec<f64> =
+        (1..rows.len()).map(|k| turning(equations, record, rows[k - 1]..rows[k], &poses[k - 1])).collect();
+    for k in best + 1..rows.len() {
+        follow(&mut poses, k, k - 1, turns[k - 1]);
+    }
+    for k in (0..best).rev() {
+        follow(&mut poses, k, k + 1, -turns[k]);
+    }
+    poses
+}
+
+/// By how much the model turns between two rows.
+fn turning(equations: &Equations, record: &Record, rows: Range<usize>, pose: &[f64]) -> f64 {
+    let mut stepper = Stepper::new(equations, &record.signals, &[]);
+    let hidden = carry::at_rest(equations, &[], &mut stepper, record.time[rows.start], pose);
+    let mut arc = Arc { z: [pose, &hidden.z].concat(), s: vec![] };
+    rows.clone().for_each(|i| stepper.advance(&mut arc, record.time[i], record.time[i + 1]));
+    arc.z[2] - pose[2]
+}
+
+/// Keeps a heading that agrees with its neighbour's, and else takes the neighbour's, turned.
+fn follow(poses: &mut [Vec<f64>], k: usize, neighbour: usize, turn: f64) {
+    let expected = poses[neighbour][2] + turn;
+    let off = poses[k][2] - expected;
+    let off = off - std::f64::consts::TAU * (off / std::f64::consts::TAU).round();
+    poses[k][2] = if off.abs() < AGREEMENT { expected + off } else { expected };
 }
 
 /// The smoothed measurement at a row, with the heading that the model says where none is measured.

@@ -1,7 +1,7 @@
 //! A model with free effects fitted to all windows at once.
 
 use super::chain::{Eliminated, Variances, eliminate};
-use super::course::measured_at;
+use super::course;
 use super::record::{Channel, Record};
 use super::smooth;
 use super::variances::{self, Free};
@@ -76,10 +76,7 @@ impl Problem {
     /// Poses at the windows' starts from the measurements alone, as the model's sensor says.
     pub fn starts(&self, model: &Model) -> Result<Starts> {
         let equations = model.equations(&[])?;
-        let of_segment = |s: &Segment| {
-            let record = &self.records[s.record];
-            s.windows.iter().map(|w| pose_of(&equations, &measured_at(&equations, record, w.start))).collect()
-        };
+        let of_segment = |s: &Segment| course::starts(&equations, &self.records[s.record], &s.windows);
         Ok(self.plan.iter().map(of_segment).collect())
     }
 }
@@ -116,6 +113,9 @@ pub struct Effort {
     pub variances: bool,
 }
 
+/// Parameters that are damped so much hardly move.
+const DAMPED: f64 = 10.0;
+
 /// A linearisation that has been accepted.
 struct Point {
     p: DVector<f64>,
@@ -138,7 +138,8 @@ impl Problem {
         let Some(mut point) = self.point(&equations, p, starts.clone(), &v) else { return Ok(None) };
         point = self.descend(&equations, point, &v, &bounds, effort);
         if effort.variances {
-            for first_step in [1.0, 0.3] {
+            // Better variances show a better way down, and the other way round.
+            for first_step in [1.0, 0.3, 0.3, 0.3, 0.3, 0.3] {
                 let better = variances::improve(&point.linear, v, self.free, free.len(), first_step);
                 let settled = better.close_to(&v);
                 v = better;
@@ -160,26 +161,35 @@ impl Problem {
         Some(Point { p, starts, linear, eliminated })
     }
 
+    /// Levenberg–Marquardt steps of parameters and poses; a step that leads uphill is damped and, since no damping of
+    /// the parameters shortens what the poses do, taken by a share.
     fn descend(&self, equations: &Equations, mut here: Point, v: &Variances, bounds: &Bounds, effort: Effort) -> Point {
-        let mut damping = 1e-6;
-        let mut settled = false;
+        let (mut damping, mut share, mut settled) = (1e-6, 1.0, false);
         for _ in 0..effort.passes {
             let Some(delta) = step(&here.eliminated, damping) else { return here };
             if settled && promised(&here.eliminated, &delta) < effort.enough {
                 break;
             }
-            let target = bounds.within(&here.p, &delta);
-            let delta = &target - &here.p;
-            let starts = moved(&here.starts, &here.eliminated.corrections(&here.linear, &delta));
-            let next = self.point(equations, target, starts, v);
-            let gain = next.as_ref().map_or(f64::NEG_INFINITY, |n| here.eliminated.cost() - n.eliminated.cost());
+            let delta = bounds.within(&here.p, &delta) - &here.p;
+            let corrections = here.eliminated.corrections(&here.linear, &delta);
+            let target = bounds.within(&here.p, &(delta * share));
+            let next = self.point(equations, target, moved(&here.starts, &corrections, share), v);
+            let gain = next.as_ref().map_or(f64::NEG_INFINITY, |n| gain(&here, n, v, share));
             match next {
                 Some(next) if gain >= -1e-3 => {
-                    settled = gain < effort.enough.max(1e-2);
+                    // A short step that gains little says nothing of how far the valley is.
+                    settled = gain < effort.enough.max(1e-2) && share == 1.0;
                     here = next;
                     damping = (damping / 10.0).max(1e-9);
+                    share = f64::min(1.0, 3.0 * share);
                 }
-                _ => damping = (damping * 30.0).max(1e-3),
+                _ => {
+                    // Damping the parameters comes first: only then is it the poses that overshoot.
+                    if damping > DAMPED {
+                        share *= 0.3;
+                    }
+                    damping = (damping * 30.0).max(1e-3);
+                }
             }
             if damping > 1e9 {
                 break;
@@ -241,6 +251,27 @@ impl Problem {
     }
 }
 
+/// What a step gains: a whole one in what is promised once the poses have followed, a shortened one in what is there.
+fn gain(here: &Point, next: &Point, v: &Variances, share: f64) -> f64 {
+    match share < 1.0 {
+        true => misfit(&here.linear, v) - misfit(&next.linear, v),
+        false => here.eliminated.cost() - next.eliminated.cost(),
+    }
+}
+
+/// What the poses and values of a point cost as they are: squared residuals over the noise and squared jumps over
+/// theirs. The cost that is left when the poses are eliminated is a promise of the linearisation, and where that is far
+/// from the truth no step would be seen to lead down.
+fn misfit(linear: &[Vec<Linear>], v: &Variances) -> f64 {
+    let of_window = |w: &Linear| {
+        let last = w.gram[0].nrows() - 1;
+        let noise: f64 = w.gram.iter().zip(v.noise).map(|(g, noise)| g[(last, last)] / noise).sum();
+        let jump = w.mismatch.iter().enumerate().map(|(c, m)| m * m / (v.jump[c.min(3)] * w.duration));
+        noise + jump.sum::<f64>()
+    };
+    linear.iter().flatten().map(of_window).sum()
+}
+
 /// The number of values that count as independent: all of them where noise is white and nothing jumps, one a
 /// window and coordinate where jumps dominate.
 fn sample_size(linear: &[Vec<Linear>], e: &Eliminated) -> f64 {
@@ -287,8 +318,8 @@ fn promised(e: &Eliminated, delta: &DVector<f64>) -> f64 {
     -(delta.dot(&(information * delta)) + 2.0 * gradient.dot(delta))
 }
 
-fn moved(starts: &Starts, by: &[Vec<DVector<f64>>]) -> Starts {
-    let add = |(z, d): (&Vec<f64>, &DVector<f64>)| z.iter().zip(d.iter()).map(|(z, d)| z + d).collect();
+fn moved(starts: &Starts, by: &[Vec<DVector<f64>>], share: f64) -> Starts {
+    let add = |(z, d): (&Vec<f64>, &DVector<f64>)| z.iter().zip(d.iter()).map(|(z, d)| z + share * d).collect();
     starts.iter().zip(by).map(|(s, b)| s.iter().zip(b).map(add).collect()).collect()
 }
 

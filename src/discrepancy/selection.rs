@@ -31,7 +31,7 @@ pub struct Scored {
 }
 
 pub(super) const SCREEN: Effort = Effort { passes: 5, enough: 0.05, variances: false };
-pub(super) const FULL: Effort = Effort { passes: 6, enough: 1e-4, variances: true };
+pub(super) const FULL: Effort = Effort { passes: 15, enough: 1e-4, variances: true };
 
 /// What a search ends with.
 pub(super) struct Grown {

@@ -62,7 +62,7 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &d
         drops: true,
     };
     let named = selection.grown(&before, progress)?;
-    let grown = unnamed::search(&selection, model, &named, progress)?.unwrap_or(named);
+    let grown = unnamed::search(&selection, model, &before, &named, progress)?.unwrap_or(named);
     let chosen = selection.examined(&grown.fit)?;
     Ok(Some(Choice { before, after: grown.fit, chosen, steps: grown.steps, candidates: grown.candidates }))
 }

@@ -19,6 +19,8 @@ const MUCH: [f64; 2] = [0.1, 1.5];
 const WORTH: f64 = 40.0;
 /// Runs that are asked, the least explained first: each costs some fits.
 const MOST_RUNS: usize = 6;
+/// How often the drift is doubled: up to some seconds.
+const MOST_DOUBLINGS: usize = 7;
 const EFFORT: Effort = Effort { passes: 6, enough: 0.1, variances: true };
 
 /// How the clock of the inputs runs against the clock of the measurements.
@@ -69,16 +71,18 @@ impl Problem {
             Ok(fitted.map_or(f64::INFINITY, |f| f.deviance))
         };
         let tried = TRIED / duration(record);
-        let [below, here, above] = [deviance(-tried)?, deviance(0.0)?, deviance(tried)?];
-        let mut best =
-            [(-tried, below), (tried, above)].into_iter().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0.0, here));
-        let bend = above - 2.0 * here + below;
-        let vertex = 0.5 * tried * (below - above) / bend;
-        if bend > 0.0 && vertex.is_finite() {
-            let vertex = vertex.clamp(-8.0 * tried, 8.0 * tried);
-            let there = deviance(vertex)?;
-            if there < best.1 {
-                best = (vertex, there);
+        let here = deviance(0.0)?;
+        let mut best = (0.0, here);
+        for direction in [-tried, tried] {
+            let mut rate = direction;
+            // Far from where the clocks agree the deviance is flat: so long as it falls, twice as far.
+            for _ in 0..MOST_DOUBLINGS {
+                let there = deviance(rate)?;
+                if there >= best.1 {
+                    break;
+                }
+                best = (rate, there);
+                rate *= 2.0;
             }
         }
         let (rate, reached) = best;

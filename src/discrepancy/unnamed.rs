@@ -11,8 +11,8 @@ use crate::picture::number::significant;
 
 /// Deviance that unexplained motion must be worth before terms without a name are tried.
 const NOTICEABLE: f64 = 25.0;
-/// Named effects from which on simpler terms are tried whatever remains: so many causes at once are rare.
-const MANY: usize = 3;
+/// Named effects from which on one simpler term is tried whatever remains.
+const MANY: usize = 2;
 
 /// Most terms that are added: an equation of more is no explanation.
 const MOST: usize = 2;
@@ -42,6 +42,7 @@ fn is_wanted(named: &Fit) -> bool {
 pub(super) fn search(
     selection: &Selection,
     model: &Model,
+    before: &Fit,
     named: &Grown,
     progress: &dyn Fn(&str),
 ) -> Result<Option<Grown>> {
@@ -59,7 +60,9 @@ pub(super) fn search(
         ..*selection
     };
     // From what has a name on: what a term makes superfluous is dropped then.
-    let mut found = wider.grown(&named.fit, progress)?;
+    // Where nothing remains but much was needed, from the model as given: one term may do what several names did.
+    let from = if remains(&named.fit) { &named.fit } else { before };
+    let mut found = wider.grown(from, progress)?;
     if remains(&found.fit) && named_effects(&found.fit) < named_effects(&named.fit) {
         // A term that leaves the rest unexplained is no reason to give a name up.
         found = Selection { drops: false, ..wider }.grown(&named.fit, progress)?;

@@ -31,8 +31,8 @@ const fn factor(name: &'static str, formula: &'static str, metres: i32, seconds:
 const SPEED: [Factor; 4] =
     [factor("", "1", 0, 0), factor("v", "v", 1, -1), factor("v2", "v^2", 2, -2), factor("v3", "v^3", 3, -3)];
 
-/// Powers of the yaw rate, each in both parities: turning left and right alike, or opposite.
-const YAW: [Factor; 7] = [
+/// Powers of the yaw rate, each in both parities: turning left and right alike, or opposite; and one side alone.
+const YAW: [Factor; 9] = [
     factor("", "1", 0, 0),
     factor("yaw", "w", 0, -1),
     factor("abs-yaw", "abs(w)", 0, -1),
@@ -40,6 +40,15 @@ const YAW: [Factor; 7] = [
     factor("yaw2", "w^2", 0, -2),
     factor("yaw3", "w^3", 0, -3),
     factor("abs-yaw3", "abs(w)*w^2", 0, -3),
+    factor("left-yaw", "(w + abs(w))/2", 0, -1),
+    factor("right-yaw", "(w - abs(w))/2", 0, -1),
+];
+
+/// Powers of the steering angle beyond offset and gain, which have names.
+const STEERING: [Factor; 3] = [
+    factor("steering2", "steering_angle^2", 0, 0),
+    factor("steering-abs-steering", "steering_angle*abs(steering_angle)", 0, 0),
+    factor("steering3", "steering_angle^3", 0, 0),
 ];
 
 /// Where the vehicle points: ground that is not level, a compass near iron.
@@ -55,18 +64,20 @@ struct Target {
     definition: &'static str,
     name: &'static str,
     place: &'static str,
+    /// Powers of length and time in what it defines.
     metres: i32,
+    seconds: i32,
 }
 
 const TARGETS: [Target; 3] = [
-    Target { definition: "v_l", name: "rotation", place: "rotation constraint", metres: 1 },
-    Target { definition: "v_t", name: "traverse", place: "traverse constraint", metres: 1 },
-    Target { definition: "phi'", name: "yaw", place: "yaw rate", metres: 0 },
+    Target { definition: "v_l", name: "rotation", place: "rotation constraint", metres: 1, seconds: -1 },
+    Target { definition: "v_t", name: "traverse", place: "traverse constraint", metres: 1, seconds: -1 },
+    Target { definition: "phi'", name: "yaw", place: "yaw rate", metres: 0, seconds: -1 },
 ];
 
 impl Model {
     /// Every term of the library without names for this vehicle: `target = it + k·vⁱ·ωʲ`, in both parities of ω, and
-    /// terms of the heading.
+    /// terms of the heading; and powers of the steering angle where there is one.
     ///
     /// | symbol | unit | meaning |
     /// |---|---|---|
@@ -100,6 +111,10 @@ impl Model {
                 found.extend(SPEED[..2].iter().map(|speed| term(target, &[speed, heading], &symbols, &bare)));
             }
         }
+        if self.vehicle.inputs.contains_key("steering_angle") {
+            let symbols = Symbols { v: Expr::sym("v_l"), w: Expr::sym("phi'") };
+            found.extend(STEERING.iter().map(|power| term(&STEERED, &[power], &symbols, &bare)));
+        }
         let mut found: Vec<Effect> = found.into_iter().flatten().collect();
         // After every effect that has a name.
         found.iter_mut().enumerate().for_each(|(i, e)| e.order = LAST + i);
@@ -115,6 +130,9 @@ impl Model {
     }
 }
 
+/// The steering input; what it misses shows in the yaw rate.
+const STEERED: Target = Target { definition: "delta", name: "steering", place: "yaw rate", metres: 0, seconds: 0 };
+
 /// The id of every term that some vehicle has.
 pub fn ids() -> Vec<String> {
     let products = |target: &Target| -> Vec<String> {
@@ -122,7 +140,8 @@ pub fn ids() -> Vec<String> {
         let heading = HEADING.iter().flat_map(|h| SPEED[..2].iter().map(move |v| [v, h]));
         yaw.chain(heading).map(|f| id(target, &f)).collect()
     };
-    TARGETS.iter().flat_map(products).collect()
+    let steering = STEERING.iter().map(|power| id(&STEERED, &[power]));
+    TARGETS.iter().flat_map(products).chain(steering).collect()
 }
 
 /// Smallest and largest coefficient.
@@ -197,7 +216,7 @@ fn term(target: &Target, factors: &[&Factor], symbols: &Symbols, model: &Model) 
     let product = factors.iter().map(|f| formula(f.formula, symbols)).filter(|f| !f.is_one());
     let product = product.fold(Expr::sym(COEFFICIENT), |p, f| &p * &f);
     let metres = target.metres - factors.iter().map(|f| f.metres).sum::<i32>();
-    let seconds = -1 - factors.iter().map(|f| f.seconds).sum::<i32>();
+    let seconds = target.seconds - factors.iter().map(|f| f.seconds).sum::<i32>();
     let parameter = Parameter {
         unit: unit(metres, seconds),
         range: RANGE,

@@ -17,6 +17,9 @@ const AGREEMENT: f64 = 0.5;
 /// Rounds; more than one because drift and slopes know where north is.
 const ROUNDS: usize = 3;
 
+/// A row with what errors of its x and y do to a heading.
+pub type Weight = (usize, f64, f64);
+
 /// A heading with what position noise does to it.
 #[derive(Clone, Debug, Default)]
 pub struct Course {
@@ -25,7 +28,7 @@ pub struct Course {
     /// How far the points that tell it reach, m: the root of the sum of squares about their mean.
     pub reach: f64,
     /// δheading = Σ (a·δx + b·δy) over rows: (row, a, b).
-    pub weights: Vec<(usize, f64, f64)>,
+    pub weights: Vec<Weight>,
 }
 
 impl Course {
@@ -101,7 +104,7 @@ fn path(equations: &Equations, record: &Record, rows: Range<usize>, heading: f64
 }
 
 /// The turn that lays a path on the measured one, the weights of the measured points in it, and the path's extent.
-fn turned(record: &Record, first: usize, path: &[[f64; 3]]) -> Option<(f64, Vec<(usize, f64, f64)>, f64)> {
+fn turned(record: &Record, first: usize, path: &[[f64; 3]]) -> Option<(f64, Vec<Weight>, f64)> {
     let n = path.len() as f64;
     let mean = |f: &dyn Fn(usize) -> f64| (0..path.len()).map(f).sum::<f64>() / n;
     let measured = |k: usize| [record.columns[0][first + k], record.columns[1][first + k]];
@@ -121,7 +124,7 @@ fn turned(record: &Record, first: usize, path: &[[f64; 3]]) -> Option<(f64, Vec<
         let p = turning * Vector2::new(point[0] - centre[0], point[1] - centre[1]);
         (first + k, -p.y / square, p.x / square)
     };
-    let found: Vec<(usize, f64, f64)> = path.iter().enumerate().map(weight).collect();
+    let found: Vec<Weight> = path.iter().enumerate().map(weight).collect();
     (square > 0.0 && turn.is_finite()).then(|| (turn, found, square.sqrt()))
 }
 

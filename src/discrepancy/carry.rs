@@ -18,7 +18,7 @@ pub fn before(
     visible: &[f64],
 ) -> Arc {
     let time = &record.time;
-    let gap = (5.0 * record.step()).max(0.5);
+    let gap = record.gap();
     let joined = |i: &usize| time[i + 1] - time[*i] <= gap && time[row] - time[*i] <= LEAD;
     let first = (0..row).rev().take_while(joined).last().unwrap_or(row);
     let mut hidden = at_rest(equations, p, stepper, time[first], visible);
@@ -28,9 +28,6 @@ pub fn before(
     for i in first..row {
         // The pose a hidden state sees is the measured one; only the hidden states are carried.
         let mut arc = stepper.start(&[visible, &hidden.z].concat(), Some(&hidden.s));
-        if hidden.s.is_empty() {
-            arc.s.clear();
-        }
         stepper.advance(&mut arc, time[i], time[i + 1]);
         hidden = Arc { z: arc.z[equations.visible..].to_vec(), s: arc.s };
     }

@@ -1,5 +1,6 @@
 //! The heading of a vehicle whose heading nothing measures, from where its model says it went.
 
+use super::angle::wrapped;
 use super::carry;
 use super::fit::pose_of;
 use super::record::Record;
@@ -77,7 +78,7 @@ fn laid_on(equations: &Equations, record: &Record, row: usize, half: f64, guess:
 /// Rows around a row without a gap, never beyond those that take part.
 fn stretch(record: &Record, row: usize, half: f64) -> Range<usize> {
     let time = &record.time;
-    let gap = (5.0 * record.step()).max(0.5);
+    let gap = record.gap();
     let near = |i: usize| (time[i] - time[row]).abs() <= half;
     let first = (0..row).rev().take_while(|i| near(*i) && time[i + 1] - time[*i] <= gap).last().unwrap_or(row);
     let last = (row + 1..record.rows.end).take_while(|i| near(*i) && time[*i] - time[i - 1] <= gap).last();
@@ -163,8 +164,7 @@ fn turning(equations: &Equations, record: &Record, rows: Range<usize>, pose: &[f
 /// Keeps a heading that agrees with its neighbour's, and else takes the neighbour's, turned.
 fn follow(poses: &mut [Vec<f64>], k: usize, neighbour: usize, turn: f64) {
     let expected = poses[neighbour][2] + turn;
-    let off = poses[k][2] - expected;
-    let off = off - std::f64::consts::TAU * (off / std::f64::consts::TAU).round();
+    let off = wrapped(poses[k][2] - expected);
     poses[k][2] = if off.abs() < AGREEMENT { expected + off } else { expected };
 }
 

@@ -1,5 +1,6 @@
 //! A model with free effects fitted to all windows at once.
 
+use super::angle::wrapped;
 use super::chain::{Eliminated, Variances, eliminate};
 use super::course;
 use super::record::{Channel, Record};
@@ -355,7 +356,7 @@ impl Bounds {
             let target = p[i] + step[i];
             let target = if self.positive[i] { target.clamp(p[i] / 5.0, p[i] * 5.0) } else { target };
             if self.periodic[i] {
-                return target - std::f64::consts::TAU * (target / std::f64::consts::TAU).round();
+                return wrapped(target);
             }
             target.clamp(self.range[i][0], self.range[i][1])
         })

@@ -1,5 +1,6 @@
 //! The gap: how far a model strays from the measurements after a horizon, and what noise alone would make of it.
 
+use super::angle::wrapped;
 use super::carry;
 use super::course::{Course, heading_at, measured_at};
 use super::fit::pose_of;
@@ -11,7 +12,6 @@ use crate::motion::{Arc, Stepper};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
-use std::f64::consts::TAU;
 
 /// Sum of squared errors over windows.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,7 +27,7 @@ impl Errors {
         self.position += position[0] * position[0] + position[1] * position[1];
         self.windows += 1;
         if let Some(h) = heading {
-            let h = h - TAU * (h / TAU).round();
+            let h = wrapped(h);
             self.heading += h * h;
             self.headings += 1;
         }
@@ -149,7 +149,7 @@ impl<'a> Predictor<'a> {
                 let (clean, shifted) = (self.record.smoothed(*from), noisy.smoothed(*from));
                 let moved = |i: usize| [0, 1].map(|c| noisy.columns[c][i] - self.record.columns[c][i]);
                 let turn = course.as_ref().map_or(shifted[2] - clean[2], |c| c.error(moved));
-                let turn = turn - TAU * (turn / TAU).round();
+                let turn = wrapped(turn);
                 let (sin, cos) = turn.sin_cos();
                 let turned = [(cos - 1.0) * d[0] - sin * d[1], sin * d[0] + (cos - 1.0) * d[1]];
                 let end = |c: usize| noisy.columns[c][*to] - self.record.columns[c][*to];

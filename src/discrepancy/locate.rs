@@ -1,5 +1,6 @@
 //! Where model and measurement disagree: constraint by constraint, window by window.
 
+use super::angle::wrapped;
 use super::course::{heading_at, measured_at};
 use super::fit::{Problem, pose_of};
 use super::record::Record;
@@ -141,11 +142,6 @@ fn window(line: &Linear, span: [f64; 2], from: &[f64], to: &[f64]) -> Window {
         speed: travelled / line.duration,
         yaw: wrapped(to[2] - from[2]) / line.duration,
     }
-}
-
-/// An angle without whole turns.
-fn wrapped(angle: f64) -> f64 {
-    angle - std::f64::consts::TAU * (angle / std::f64::consts::TAU).round()
 }
 
 /// Which windows belong to a regime.

@@ -1,10 +1,11 @@
 //! Gross errors of the measured pose: rows that no smooth motion passes through.
 
+use super::angle::wrapped;
 use super::gap::Predictor;
 use super::record::{Channel, Record};
+use super::smooth;
 use crate::error::Result;
 use crate::model::Model;
-use std::f64::consts::TAU;
 
 /// Windows over which the model takes the motion's own curvature out, s.
 const WINDOW: f64 = 2.0;
@@ -16,6 +17,8 @@ const MOST: f64 = 0.05;
 const ROUNDS: usize = 6;
 /// Rows this close to the edge of a window are judged in the other windows, where a gross error beyond the edge is seen.
 const EDGE: usize = 4;
+/// Errors from which a usual one is told.
+const FEWEST: usize = 20;
 /// Rows on either side within which only the largest is taken out in one round.
 const NEAR: usize = 3;
 
@@ -68,7 +71,7 @@ fn residuals(record: &Record, predictor: &Predictor, windows: &[(usize, usize)])
         for (i, y) in (from..to).zip(predictor.outputs(from, to)) {
             for (c, column) in found.iter_mut().enumerate() {
                 let r = record.columns[c][i] - y[record.output_of(c)];
-                column[i] = if channels[c] == Channel::Position { r } else { r - TAU * (r / TAU).round() };
+                column[i] = if channels[c] == Channel::Position { r } else { wrapped(r) };
             }
         }
     }
@@ -83,7 +86,7 @@ fn mark(time: &[f64], column: &[f64], windows: &[(usize, usize)], gross: &mut [b
     for _ in 0..ROUNDS {
         let rows: Vec<usize> = (0..column.len()).filter(|i| !own[*i] && column[*i].is_finite()).collect();
         let errors: Vec<f64> = (0..rows.len()).map(|k| error(time, column, &window, &rows, k)).collect();
-        let Some(usual) = median(&errors) else { return };
+        let Some(usual) = usual(&errors) else { return };
         let is_gross = |k: usize| {
             let near = k.saturating_sub(NEAR)..(k + NEAR + 1).min(rows.len());
             errors[k] > GROSS * usual && errors[near].iter().all(|e| e.is_nan() || *e <= errors[k])
@@ -106,7 +109,7 @@ fn readmit(time: &[f64], column: &[f64], window: &[usize], before: &[bool], own:
     let good = |own: &[bool]| (0..column.len()).filter(|i| !own[*i] && column[*i].is_finite()).collect::<Vec<usize>>();
     let left = good(own);
     let errors: Vec<f64> = (0..left.len()).map(|k| error(time, column, window, &left, k)).collect();
-    let Some(usual) = median(&errors) else { return };
+    let Some(usual) = usual(&errors) else { return };
     for i in (0..column.len()).filter(|i| own[*i] && !before[*i]).collect::<Vec<usize>>() {
         let mut rows = good(own);
         let k = rows.partition_point(|j| *j < i);
@@ -123,26 +126,16 @@ fn error(time: &[f64], column: &[f64], window: &[usize], rows: &[usize], k: usiz
     if k < EDGE || k + EDGE >= rows.len() || window[rows[k - EDGE]] != window[rows[k + EDGE]] {
         return f64::NAN;
     }
-    let others = [rows[k - 2], rows[k - 1], rows[k + 1], rows[k + 2]];
-    let i = rows[k];
-    let lagrange = others.map(|j| {
-        let factors = others.iter().filter(|o| **o != j).map(|o| (time[i] - time[*o]) / (time[j] - time[*o]));
-        factors.product::<f64>()
-    });
-    let prediction: f64 = others.iter().zip(lagrange).map(|(j, l)| l * column[*j]).sum();
-    let spread = (1.0 + lagrange.iter().map(|l| l * l).sum::<f64>()).sqrt();
-    (column[i] - prediction).abs() / spread
+    smooth::beside_cubic(time, column, rows[k], [rows[k - 2], rows[k - 1], rows[k + 1], rows[k + 2]])
 }
 
-/// The median of the errors there are, in standard deviations; `None` with too few or none at all.
-fn median(errors: &[f64]) -> Option<f64> {
+/// The usual error, as a standard deviation; `None` with too few errors or none at all.
+fn usual(errors: &[f64]) -> Option<f64> {
     let mut known: Vec<f64> = errors.iter().copied().filter(|e| e.is_finite()).collect();
-    if known.len() < 20 {
+    if known.len() < FEWEST {
         return None;
     }
-    let middle = known.len() / 2;
-    let value = *known.select_nth_unstable_by(middle, f64::total_cmp).1;
-    (value > 0.0).then_some(value / 0.674_489_750_196_081_7)
+    smooth::deviation(&mut known).filter(|usual| *usual > 0.0)
 }
 
 #[cfg(test)]

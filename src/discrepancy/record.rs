@@ -100,10 +100,15 @@ impl Record {
         *steps.select_nth_unstable_by(middle, f64::total_cmp).1
     }
 
+    /// The time between rows from which on a log is interrupted, s.
+    pub fn gap(&self) -> f64 {
+        (5.0 * self.step()).max(0.5)
+    }
+
     /// Stretches without a gap, a margin away from the ends of the log so that inputs can be looked up
     /// earlier and later than they were logged.
     pub fn segments(&self, margin: f64) -> Vec<Range<usize>> {
-        let gap = (5.0 * self.step()).max(0.5);
+        let gap = self.gap();
         let (first, last) = (self.time[0] + margin, self.time[self.time.len() - 1] - margin);
         let mut segments: Vec<Range<usize>> = Vec::new();
         for i in self.rows.clone().filter(|i| (first..=last).contains(&self.time[*i])) {

@@ -63,27 +63,36 @@ pub fn noise(time: &[f64], column: &[f64]) -> Option<f64> {
         return None;
     }
     let mut errors: Vec<f64> = (2..time.len() - 2).filter_map(|i| standardised(time, column, i)).collect();
-    let middle = errors.len() / 2;
-    if errors.is_empty() {
+    deviation(&mut errors)
+}
+
+/// The standard deviation of a normal distribution whose sizes have this median; `None` without any.
+pub fn deviation(sizes: &mut [f64]) -> Option<f64> {
+    if sizes.is_empty() {
         return None;
     }
-    errors.select_nth_unstable_by(middle, f64::total_cmp);
+    let middle = sizes.len() / 2;
     // The median of |N(0,1)|.
-    Some(errors[middle] / 0.674_489_750_196_081_7)
+    Some(*sizes.select_nth_unstable_by(middle, f64::total_cmp).1 / 0.674_489_750_196_081_7)
 }
 
 /// |y_i − cubic through its four neighbours| over the standard deviation that unit noise gives it.
 fn standardised(time: &[f64], column: &[f64], i: usize) -> Option<f64> {
-    let others = [i - 2, i - 1, i + 1, i + 2];
+    let error = beside_cubic(time, column, i, [i - 2, i - 1, i + 1, i + 2]);
+    // Across a gap the cubic says nothing.
+    let even = time[i + 2] - time[i - 2] < 8.0 * (time[i] - time[i - 1]).min(time[i + 1] - time[i]);
+    even.then_some(error).filter(|e| e.is_finite())
+}
+
+/// |y_i − cubic through four other rows| over the standard deviation that unit noise gives it.
+pub fn beside_cubic(time: &[f64], column: &[f64], i: usize, others: [usize; 4]) -> f64 {
     let lagrange = others.map(|j| {
         let factors = others.iter().filter(|k| **k != j).map(|k| (time[i] - time[*k]) / (time[j] - time[*k]));
         factors.product::<f64>()
     });
     let prediction: f64 = others.iter().zip(lagrange).map(|(j, l)| l * column[*j]).sum();
     let spread = (1.0 + lagrange.iter().map(|l| l * l).sum::<f64>()).sqrt();
-    // Across a gap the cubic says nothing.
-    let even = time[i + 2] - time[i - 2] < 8.0 * (time[i] - time[i - 1]).min(time[i + 1] - time[i]);
-    even.then(|| (column[i] - prediction).abs() / spread).filter(|e| e.is_finite())
+    (column[i] - prediction).abs() / spread
 }
 
 #[cfg(test)]

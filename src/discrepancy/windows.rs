@@ -1,11 +1,11 @@
 //! Runs cut into windows, and the model linearised along each.
 
+use super::angle::wrapped;
 use super::record::{Channel, Record};
 use crate::model::Equations;
 use crate::motion::{Arc, Stepper};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
-use std::f64::consts::TAU;
 use std::ops::Range;
 
 /// Length of a window, s.
@@ -128,7 +128,7 @@ fn window_along(
             output_line(y, output, visible, k, &arc.s, &mut line);
             line[k] = y[output] - record.columns[c][i];
             if *channel != Channel::Position {
-                line[k] -= TAU * (line[k] / TAU).round();
+                line[k] = wrapped(line[k]);
             }
             let kind = *channel as usize;
             add_square(&mut gram[kind], &line);
@@ -147,7 +147,7 @@ fn window_along(
     let duration = record.time[last] - record.time[rows.start];
     let (back, mismatch) = match next {
         Some(next) => {
-            let c: Vec<f64> = (0..visible).map(|i| wrapped(i, arc.z[i] - next[i])).collect();
+            let c: Vec<f64> = (0..visible).map(|i| difference_of(i, arc.z[i] - next[i])).collect();
             let mismatch = axes.tr_mul(&nalgebra::DVector::from_column_slice(&c));
             (Some(backwards(&arc.s, &c, visible, k)?), mismatch.as_slice().to_vec())
         }
@@ -161,8 +161,8 @@ fn visible_of(record: &Record) -> usize {
     3 + record.trailers
 }
 
-fn wrapped(i: usize, difference: f64) -> f64 {
-    if i < 2 { difference } else { difference - TAU * (difference / TAU).round() }
+fn difference_of(i: usize, difference: f64) -> f64 {
+    if i < 2 { difference } else { wrapped(difference) }
 }
 
 /// One row of J: ∂y/∂z·S plus the direct dependence of the sensor on p.

@@ -4,7 +4,7 @@ mod simulator;
 
 use creepage::discrepancy::carry;
 use creepage::discrepancy::chain::{Variances, eliminate};
-use creepage::discrepancy::fit::{Problem, pose_of};
+use creepage::discrepancy::problem::{Problem, pose_of};
 use creepage::discrepancy::record::{Channel, Record};
 use creepage::discrepancy::variances;
 use creepage::discrepancy::windows::{Linear, Starts, linearise};

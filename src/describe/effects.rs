@@ -1,10 +1,11 @@
 //! The list of effects.
 
 use super::page::Page;
-use super::vehicles::{sample, sample_train, tractors};
+use super::vehicles::{sample_train, tractors};
 use crate::effects::{Effect, Parameter};
 use crate::error::Result;
 use crate::formula::{Symbol, latex_symbol};
+use crate::model::Model;
 use crate::model::WITH_TRAILERS;
 use crate::vehicles;
 use serde_json::{Map, Value, json};
@@ -46,7 +47,7 @@ fn applies_to(e: &Effect) -> Result<Vec<&'static str>> {
     let library = std::slice::from_ref(e);
     let mut found = Vec::new();
     for v in vehicles::all() {
-        if !sample(v)?.applicable(library).is_empty() {
+        if !Model::sample(v)?.applicable(library).is_empty() {
             found.push(v.id.as_str());
         }
     }

@@ -1,7 +1,7 @@
 //! The effects of one vehicle, with the equations they rewrite and their relatives.
 
 use super::page::Page;
-use super::vehicles::{sample, sample_train, tractors};
+use super::vehicles::{sample_train, tractors};
 use crate::discrepancy::identity::{Change, Measured, Relation, relation};
 use crate::discrepancy::picture::equation;
 use crate::effects::{Applied, Effect};
@@ -47,7 +47,7 @@ fn open(effect: &Effect, trailer: Option<usize>) -> Applied {
 fn model_of(name: &str) -> Result<Model> {
     let unknown = || Error::input(format!("no vehicle is called {name:?}")).help("`creepage vehicles` lists them");
     match vehicles::named(name) {
-        Some(vehicle) => sample(vehicle),
+        Some(vehicle) => Model::sample(vehicle),
         None if name == WITH_TRAILERS => {
             let car = tractors().find(|v| v.id == "car").or_else(|| tractors().next());
             sample_train(car.ok_or_else(unknown)?)

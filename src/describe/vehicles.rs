@@ -13,15 +13,9 @@ use serde_json::{Value, json};
 /// What the entry of vehicles with trailers says.
 const TRAIN: &str = "a tractor with trailers; one more direction constraint for each trailer";
 
-/// A model of a vehicle of the catalogue with every parameter one: enough for its formulas.
-pub(super) fn sample(vehicle: &Vehicle) -> Result<Model> {
-    let ones: Vec<(&str, f64)> = vehicle.parameters.keys().map(|name| (name.as_str(), 1.0)).collect();
-    Model::new(&vehicle.id, &ones)
-}
-
-/// The same with one trailer.
+/// A vehicle of the catalogue with one trailer, every parameter one.
 pub(super) fn sample_train(vehicle: &Vehicle) -> Result<Model> {
-    Ok(sample(vehicle)?.with_trailers(&[Trailer { length: 1.0, hitch: 1.0 }]))
+    Ok(Model::sample(vehicle)?.with_trailers(&[Trailer { length: 1.0, hitch: 1.0 }]))
 }
 
 /// Every vehicle with parameters, inputs, signature and constraint rows, as text.
@@ -46,7 +40,7 @@ pub fn vehicles_text() -> Result<String> {
         if let Some(advice) = &vehicle.instead {
             page.entry(&format!("motion: not determined by its constraints; {advice}"));
         }
-        rows(&mut page, &sample(vehicle)?);
+        rows(&mut page, &Model::sample(vehicle)?);
     }
     page.heading(2, WITH_TRAILERS);
     page.paragraph(TRAIN);
@@ -55,7 +49,7 @@ pub fn vehicles_text() -> Result<String> {
     page.entry("parameter trailer_lengths (m): from hitch to axle, nearest first");
     page.entry("parameter hitch_offsets (m, optional): hitch behind the axle ahead of it");
     for vehicle in tractors() {
-        let Signature { r, t } = Signature::of(&sample(vehicle)?.constraints());
+        let Signature { r, t } = Signature::of(&Model::sample(vehicle)?.constraints());
         page.entry(&format!("signature of N trailers behind {}: {}T^(N+{t})", vehicle.id, power('R', r)));
     }
     let all = sample_train(&vehicles::all()[0])?;
@@ -97,7 +91,7 @@ fn row(page: &mut Page, model: &Model, c: &Constraint) {
 /// # Errors
 /// As [`vehicles_text`].
 pub fn vehicles_json() -> Result<Value> {
-    let single = vehicles::all().iter().map(|v| entry(v, &sample(v)?)).collect::<Result<Vec<Value>>>()?;
+    let single = vehicles::all().iter().map(|v| entry(v, &Model::sample(v)?)).collect::<Result<Vec<Value>>>()?;
     Ok(json!({ "schema": 1, "vehicles": single.into_iter().chain([train()?]).collect::<Vec<_>>() }))
 }
 
@@ -130,7 +124,7 @@ fn constraint(model: &Model, c: &Constraint) -> Value {
 fn train() -> Result<Value> {
     let parameter = |name: &str, meaning: &str, optional: bool| json!({ "name": name, "unit": "m", "meaning": meaning, "optional": optional });
     let tractor = |v: &Vehicle| -> Result<Value> {
-        let Signature { r, t } = Signature::of(&sample(v)?.constraints());
+        let Signature { r, t } = Signature::of(&Model::sample(v)?.constraints());
         Ok(
             json!({ "id": v.id, "signature": { "r": r, "t": format!("N+{t}"), "text": format!("{}T^(N+{t})", power('R', r)) } }),
         )

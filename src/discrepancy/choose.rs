@@ -1,8 +1,9 @@
 //! Which effects are missing: candidates ranked by evidence on the fitting data alone.
 
 use super::evidence::tail;
-use super::fit::{Fit, Problem};
-use super::selection::{FINALISTS, FULL, MOST, Selection, bic, find, free_effects};
+use super::fit::Fit;
+use super::problem::Problem;
+use super::selection::{FINALISTS, FULL, MOST, Selection, bic, find};
 use super::unnamed;
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
@@ -72,7 +73,7 @@ impl Selection<'_> {
     fn examined(&self, fit: &Fit) -> Result<Vec<Chosen>> {
         let mut at = 0;
         let mut found = Vec::new();
-        for applied in free_effects(&fit.model) {
+        for applied in fit.model.free_effects().cloned() {
             let k = applied.values.len();
             // What runs scatter by counts where it is more than their noise explains.
             let between = |i: usize| fit.between_runs.as_ref().map_or(0.0, |c| c[(i, i)].sqrt());

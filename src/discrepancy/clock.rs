@@ -1,6 +1,7 @@
 //! Whether the clocks of inputs and measurements match: a delay that drifts along a run says they do not.
 
-use super::fit::{Effort, Fit, Problem};
+use super::fit::{Effort, Fit};
+use super::problem::Problem;
 use super::record::Record;
 use crate::effects::Applied;
 use crate::error::Result;
@@ -17,7 +18,7 @@ const TRIED: f64 = 0.05;
 const MUCH: [f64; 2] = [0.1, 1.5];
 /// Deviance that a drift must be worth: far beyond chance and beyond what another small misfit imitates.
 const WORTH: f64 = 40.0;
-/// Runs that are asked, the least explained first: each costs some fits.
+/// Runs that are asked, the first ones: each costs some fits.
 const MOST_RUNS: usize = 6;
 /// How often the drift is doubled: up to some seconds.
 const MOST_DOUBLINGS: usize = 7;

@@ -2,7 +2,7 @@
 
 use super::angle::wrapped;
 use super::carry;
-use super::fit::pose_of;
+use super::problem::pose_of;
 use super::record::Record;
 use crate::model::Equations;
 use crate::motion::{Arc, Stepper};

@@ -1,7 +1,8 @@
 //! Windows left out in turn: how well a fitted model predicts what it was not fitted to.
 
 use super::chain::{Variances, eliminate};
-use super::fit::{FEWEST_RUNS, Fit, Problem};
+use super::fit::{FEWEST_RUNS, Fit};
+use super::problem::Problem;
 use super::variances::noise_determinant;
 use super::windows::{Linear, linearise};
 use crate::error::Result;
@@ -27,14 +28,13 @@ impl Problem {
     /// # Errors
     /// When the model's formulas are malformed.
     pub fn left_out(&self, fit: &Fit) -> Result<Option<Vec<f64>>> {
-        let free: Vec<_> = fit.model.effects.iter().filter(|e| e.free).flat_map(|e| e.parameters()).collect();
-        let equations = fit.model.equations(&free)?;
+        let equations = fit.model.free_equations()?;
         let Some(linear) = linearise(&equations, &fit.p, &self.records, &self.plan, &fit.starts) else {
             return Ok(None);
         };
         let blocks = self.blocks(linear);
         let folds = blocks.iter().map(|b| b.fold + 1).max().unwrap_or(0);
-        let parts = (0..folds).map(|fold| of_fold(&blocks, fold, &fit.variances, free.len()));
+        let parts = (0..folds).map(|fold| of_fold(&blocks, fold, &fit.variances, fit.p.len()));
         Ok(parts.collect())
     }
 }

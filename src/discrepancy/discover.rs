@@ -1,22 +1,21 @@
 //! The main job in one line: runs → choice → gap → report.
 
 use super::choose::{Choice, Chosen, choose};
-use super::fit::{Fit, Problem};
+use super::data::Data;
+use super::fit::Fit;
 use super::gap::{Errors, Predictor};
 use super::locate;
+use super::problem::Problem;
 use super::record::Record;
 use super::relatives::{self, Relative, relatives};
 use super::report::*;
-use super::{experiment, outliers, picture, summary, unnamed, verdict};
+use super::{experiment, picture, summary, unnamed, verdict};
 use crate::effects::Effect;
 use crate::error::{Error, Result};
 use crate::files::{EffectEntry, ModelFile, Run};
 use crate::model::Model;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-
-/// Share of every run that is fitted when no run is held out.
-const FITTED_SHARE: f64 = 0.75;
 
 /// Why a row whose pose no smooth motion passes through is left out.
 const GROSS: &str = "gross error of the measured pose";
@@ -51,31 +50,6 @@ impl Discovery {
     /// The model file with the findings added.
     pub fn patched(&self, file: &ModelFile) -> String {
         file.patched(&self.added)
-    }
-}
-
-/// Runs cut into what is fitted and what is held out.
-pub(super) struct Data {
-    pub fitted: Vec<Record>,
-    pub held_out: Vec<Record>,
-    /// Rows left out because their measured pose is grossly wrong.
-    gross: usize,
-}
-
-impl Data {
-    fn of(request: &Request, model: &Model) -> Result<Self> {
-        let record = |r: &Run| Record::of_run(r, request.file.input_timing, model.trailers.len());
-        let whole: Vec<Record> = request.runs.iter().map(record).collect();
-        let (fitted, held_out): (Vec<Record>, Vec<Record>) = match request.held_out.is_empty() {
-            true => whole.iter().map(|r| r.split(FITTED_SHARE)).unzip(),
-            false => (whole, request.held_out.iter().map(record).collect()),
-        };
-        let clean = |records: &[Record]| -> Result<(Vec<Record>, Vec<usize>)> {
-            let each = records.par_iter().map(|r| outliers::without_gross_errors(r, model));
-            Ok(each.collect::<Result<Vec<_>>>()?.into_iter().unzip())
-        };
-        let ((fitted, a), (held_out, b)) = (clean(&fitted)?, clean(&held_out)?);
-        Ok(Self { fitted, held_out, gross: a.iter().chain(&b).sum() })
     }
 }
 
@@ -183,16 +157,6 @@ fn empty_report(request: &Request, data: &Data) -> Report {
             warnings,
         },
         provenance: Provenance { version: env!("CARGO_PKG_VERSION").into(), seed: request.seed, inputs_sha256: hashes },
-    }
-}
-
-impl Data {
-    /// Where logs were interrupted.
-    fn warnings(&self) -> impl Iterator<Item = String> + '_ {
-        self.fitted.iter().chain(&self.held_out).filter_map(|r| {
-            let pieces = r.segments(0.0).len();
-            (pieces > 1).then(|| format!("{}: the log is interrupted; it is used in {pieces} pieces", r.name))
-        })
     }
 }
 

@@ -7,7 +7,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 /// Where an effect's values stand among the free ones, those that vanish where it is neutral.
 fn neutral_at_zero(fit: &Fit, effect: &Applied) -> Vec<(usize, f64)> {
     let mut at = 0;
-    for e in fit.model.effects.iter().filter(|e| e.free) {
+    for e in fit.model.free_effects() {
         if e.same_as(effect) {
             let all = e.effect.parameters.values().zip(&e.values).enumerate();
             let kept = all.filter(|(_, (p, _))| !p.periodic).map(|(i, (p, v))| (p.positive, (at + i, *v)));

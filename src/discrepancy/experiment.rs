@@ -6,8 +6,9 @@
 use super::chain::{Variances, eliminate};
 use super::choose::{Choice, Scored};
 use super::envelope::Envelope;
-use super::fit::{Fit, Problem, pose_of};
+use super::fit::Fit;
 use super::manoeuvre::{LENGTH, Manoeuvre, library};
+use super::problem::{Problem, pose_of};
 use super::record::Record;
 use super::relatives::Relative;
 use super::report::{NextExperiment, Verdict};
@@ -48,8 +49,8 @@ impl Known {
 
     /// A step that keeps a positive value positive: it is at most divided or multiplied by five.
     fn held(&self, p: &DVector<f64>, step: &DVector<f64>) -> DVector<f64> {
-        let free = self.model.effects.iter().filter(|e| e.free);
-        let positive: Vec<bool> = free.flat_map(|e| e.effect.parameters.values()).map(|p| p.positive).collect();
+        let positive: Vec<bool> =
+            self.model.free_effects().flat_map(|e| e.effect.parameters.values()).map(|p| p.positive).collect();
         DVector::from_fn(p.len(), |i, _| match positive[i] {
             true => (p[i] + step[i]).max(p[i] / 5.0).min(p[i] * 5.0) - p[i],
             false => step[i],
@@ -188,8 +189,7 @@ impl<'a> Thought<'a> {
     /// By how much the BIC of `other` is expected to exceed that of `truth` after a manoeuvre.
     fn misfit(&self, m: &Manoeuvre, truth: &Known, other: &Known) -> Option<f64> {
         let record = self.driven(m, truth)?;
-        let free: Vec<_> = other.model.effects.iter().filter(|e| e.free).flat_map(Applied::parameters).collect();
-        let equations = other.model.equations(&free).ok()?;
+        let equations = other.model.free_equations().ok()?;
         let records = [record];
         let plan = plan(&records);
         let start = |w: &std::ops::Range<usize>| pose_of(&equations, &records[0].smoothed(w.start));

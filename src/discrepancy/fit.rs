@@ -1,30 +1,13 @@
 //! A model with free effects fitted to all windows at once.
 
-use super::angle::wrapped;
+use super::bounds::Bounds;
 use super::chain::{Eliminated, Variances, eliminate};
-use super::course;
-use super::record::{Channel, Record};
-use super::smooth;
-use super::variances::{self, Free};
-use super::windows::{Linear, Segment, Starts, linearise};
-use crate::effects::Applied;
+use super::problem::Problem;
+use super::variances;
+use super::windows::{Linear, Starts, linearise};
 use crate::error::Result;
 use crate::model::{Equations, Model};
-use crate::motion::visible_state;
 use nalgebra::{DMatrix, DVector};
-
-/// Runs cut into windows, with what is known of their noise.
-#[derive(Clone, Debug)]
-pub struct Problem {
-    /// The runs.
-    pub records: Vec<Record>,
-    /// Their windows.
-    pub plan: Vec<Segment>,
-    /// Which variances are free.
-    pub free: Free,
-    /// Where the variances start.
-    pub variances: Variances,
-}
 
 /// A model fitted to a problem.
 #[derive(Clone, Debug)]
@@ -52,52 +35,6 @@ pub struct Fit {
     /// By how much the deviance would grow without the jumps along, across, in yaw and of trailers: what remains
     /// unexplained; zero where the variances were not estimated.
     pub unexplained: [f64; 4],
-}
-
-impl Problem {
-    /// Cuts runs into windows and estimates their noise; a known standard deviation of position (m) or heading (rad)
-    /// is kept.
-    pub fn new(records: Vec<Record>, position: Option<f64>, heading: Option<f64>) -> Self {
-        let plan = super::windows::plan(&records);
-        let channels = [Channel::Position, Channel::Heading, Channel::Trailer];
-        let known = [position, heading, heading];
-        let present = channels.map(|c| records.iter().any(|r| r.channels().contains(&c)));
-        let noise = [0, 1, 2].map(|k| known[k].unwrap_or_else(|| noise_of(&records, channels[k])).powi(2));
-        let jump = [noise[0], noise[0], noise[1], noise[2]];
-        let free =
-            Free { noise: [0, 1, 2].map(|k| present[k] && known[k].is_none()), jump: [true, true, true, present[2]] };
-        Self { records, plan, free, variances: Variances { noise, jump } }
-    }
-
-    /// How many windows there are.
-    pub fn windows(&self) -> usize {
-        self.plan.iter().map(|s| s.windows.len()).sum()
-    }
-
-    /// Poses at the windows' starts from the measurements alone, as the model's sensor says.
-    pub fn starts(&self, model: &Model) -> Result<Starts> {
-        let equations = model.equations(&[])?;
-        let of_segment = |s: &Segment| course::starts(&equations, &self.records[s.record], &s.windows);
-        Ok(self.plan.iter().map(of_segment).collect())
-    }
-}
-
-/// The median noise of a channel over the runs.
-fn noise_of(records: &[Record], channel: Channel) -> f64 {
-    let mut found: Vec<f64> = Vec::new();
-    for r in records {
-        let columns = r.channels().into_iter().zip(&r.columns).filter(|(c, _)| *c == channel);
-        found.extend(columns.filter_map(|(_, y)| smooth::noise(&r.time[r.rows.clone()], &y[r.rows.clone()])));
-    }
-    found.sort_by(f64::total_cmp);
-    // A column without any noise still has its last digit.
-    found.get(found.len() / 2).copied().unwrap_or(1e-3).max(1e-9)
-}
-
-/// The pose that a measurement says, or the measurement itself where the sensor's formulas cannot be undone.
-pub fn pose_of(equations: &Equations, measured: &[f64]) -> Vec<f64> {
-    let p = vec![0.0; equations.free.len()];
-    visible_state(equations, &p, measured).unwrap_or_else(|_| measured.to_vec())
 }
 
 /// Runs that their spread can be told from.
@@ -130,10 +67,8 @@ impl Problem {
     ///
     /// `None` when the model is undefined along the runs.
     pub fn fit(&self, model: &Model, starts: &Starts, variances: &Variances, effort: Effort) -> Result<Option<Fit>> {
-        let free: Vec<_> = model.effects.iter().filter(|e| e.free).flat_map(|e| e.parameters()).collect();
-        let equations = model.equations(&free)?;
-        let values = model.effects.iter().filter(|e| e.free).flat_map(|e| e.values.iter().copied());
-        let p = DVector::from_iterator(free.len(), values);
+        let equations = model.free_equations()?;
+        let p = DVector::from_vec(model.free_values());
         let bounds = Bounds::of(model);
         let mut v = *variances;
         let Some(mut point) = self.point(&equations, p, starts.clone(), &v) else { return Ok(None) };
@@ -141,10 +76,10 @@ impl Problem {
         if effort.variances {
             // Better variances show a better way down, and the other way round.
             for first_step in [1.0, 0.3, 0.3, 0.3, 0.3, 0.3] {
-                let better = variances::improve(&point.linear, v, self.free, free.len(), first_step);
+                let better = variances::improve(&point.linear, v, self.free, point.p.len(), first_step);
                 let settled = better.close_to(&v);
                 v = better;
-                let Some(e) = eliminate(&point.linear, &v, free.len()) else { return Ok(None) };
+                let Some(e) = eliminate(&point.linear, &v, point.p.len()) else { return Ok(None) };
                 point.eliminated = e;
                 point = self.descend(&equations, point, &v, &bounds, effort);
                 if settled {
@@ -322,43 +257,4 @@ fn promised(e: &Eliminated, delta: &DVector<f64>) -> f64 {
 fn moved(starts: &Starts, by: &[Vec<DVector<f64>>], share: f64) -> Starts {
     let add = |(z, d): (&Vec<f64>, &DVector<f64>)| z.iter().zip(d.iter()).map(|(z, d)| z + share * d).collect();
     starts.iter().zip(by).map(|(s, b)| s.iter().zip(b).map(add).collect()).collect()
-}
-
-/// A positive value below this share of its plausible size is as good as neutral, and a stiff state to integrate.
-const LEAST_SHARE: f64 = 0.04;
-
-/// Whether an effect stands at the edge of its range where it vanishes.
-pub fn vanishes(effect: &Applied) -> bool {
-    let mut values = effect.effect.parameters.values().zip(&effect.values);
-    values.any(|(p, v)| p.positive && *v <= p.size * LEAST_SHARE * 1.001)
-}
-
-/// What values the parameters may take.
-struct Bounds {
-    range: Vec<[f64; 2]>,
-    positive: Vec<bool>,
-    periodic: Vec<bool>,
-}
-
-impl Bounds {
-    fn of(model: &Model) -> Self {
-        let all = || model.effects.iter().filter(|e| e.free).flat_map(|e| e.effect.parameters.values());
-        Self {
-            range: all().map(|p| if p.positive { [p.size * LEAST_SHARE, p.range[1]] } else { p.range }).collect(),
-            positive: all().map(|p| p.positive).collect(),
-            periodic: all().map(|p| p.periodic).collect(),
-        }
-    }
-
-    /// The point a step leads to, held inside: a positive value is at most divided or multiplied by five.
-    fn within(&self, p: &DVector<f64>, step: &DVector<f64>) -> DVector<f64> {
-        DVector::from_fn(p.len(), |i, _| {
-            let target = p[i] + step[i];
-            let target = if self.positive[i] { target.clamp(p[i] / 5.0, p[i] * 5.0) } else { target };
-            if self.periodic[i] {
-                return wrapped(target);
-            }
-            target.clamp(self.range[i][0], self.range[i][1])
-        })
-    }
 }

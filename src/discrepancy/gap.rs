@@ -3,7 +3,7 @@
 use super::angle::wrapped;
 use super::carry;
 use super::course::{Course, heading_at, measured_at};
-use super::fit::pose_of;
+use super::problem::pose_of;
 use super::record::{Channel, Record};
 use super::windows::MARGIN;
 use crate::error::Result;

@@ -2,7 +2,7 @@
 
 use super::angle::wrapped;
 use super::course::{heading_at, measured_at};
-use super::fit::{Problem, pose_of};
+use super::problem::{Problem, pose_of};
 use super::record::Record;
 use super::report::{Disagreement, ResidualPicture};
 use super::windows::{self, Linear, Segment};

@@ -13,12 +13,14 @@
 //! alone. q and σ are estimated with the parameters, so noise, unexplained motion and effects are told apart.
 
 pub mod angle;
+mod bounds;
 pub mod carry;
 pub mod chain;
 pub mod choose;
 pub mod clock;
 pub mod course;
 pub mod crossval;
+mod data;
 pub mod discover;
 pub mod envelope;
 mod evidence;
@@ -31,6 +33,7 @@ pub mod locate;
 pub mod manoeuvre;
 pub mod outliers;
 pub mod picture;
+pub mod problem;
 pub mod record;
 pub mod relatives;
 pub mod report;

@@ -1,7 +1,8 @@
 //! The data behind the report's pictures.
 
 use super::choose::Choice;
-use super::discover::{Data, errors, floor};
+use super::data::Data;
+use super::discover::{errors, floor};
 use super::gap::Predictor;
 use super::record::Record;
 use super::report::{Candidate, GapCurve, PathPicture, Pictures, Report};

@@ -1,7 +1,8 @@
 //! Candidates proposed: what each effect would gain, to first order, from one linearisation of all.
 
 use super::chain::{Eliminated, eliminate};
-use super::fit::{Effort, Fit, Problem};
+use super::fit::{Effort, Fit};
+use super::problem::Problem;
 use super::windows::linearise;
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
@@ -84,10 +85,10 @@ fn keep_best_start(found: &mut Vec<Promise>) {
 
 fn promise(problem: &Problem, base: &Fit, model: &Model, group: &[Applied]) -> Result<Promises> {
     let joint = group.iter().fold(model.clone(), |m, a| m.with_effect(a.clone()));
-    let free: Vec<_> = joint.effects.iter().filter(|e| e.free).flat_map(|e| e.parameters()).collect();
-    let values: Vec<f64> = joint.effects.iter().filter(|e| e.free).flat_map(|e| e.values.iter().copied()).collect();
+    let free = joint.free_parameters();
     let equations = joint.equations(&free)?;
-    let Some(linear) = linearise(&equations, &values, &problem.records, &problem.plan, &base.starts) else {
+    let Some(linear) = linearise(&equations, &joint.free_values(), &problem.records, &problem.plan, &base.starts)
+    else {
         return Ok(Promises::default());
     };
     let Some(e) = eliminate(&linear, &base.variances, free.len()) else { return Ok(Promises::default()) };
@@ -95,7 +96,7 @@ fn promise(problem: &Problem, base: &Fit, model: &Model, group: &[Applied]) -> R
     let position = |s: &crate::formula::Symbol| free.iter().position(|f| f == s);
     let indices = |a: &Applied| a.parameters().iter().filter_map(position).collect::<Vec<usize>>();
     let kept: Vec<usize> =
-        model.effects.iter().filter(|e| e.free && !group.iter().any(|g| g.same_as(e))).flat_map(indices).collect();
+        model.free_effects().filter(|e| !group.iter().any(|g| g.same_as(e))).flat_map(indices).collect();
     let weigh = |together: &[&Applied]| -> Option<Vec<Promise>> {
         let own: Vec<Vec<usize>> = together.iter().map(|a| indices(a)).collect();
         let all: Vec<usize> = kept.iter().chain(own.iter().flatten()).copied().collect();

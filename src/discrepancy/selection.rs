@@ -1,8 +1,10 @@
 //! Effects added to a model one or two at a time, asked again, exchanged and dropped.
 
+use super::bounds::vanishes;
 use super::chain::Variances;
 use super::evidence::{repeats, wald};
-use super::fit::{Effort, Fit, Problem, vanishes};
+use super::fit::{Effort, Fit};
+use super::problem::Problem;
 use super::screen::{self, Promise, Promises};
 use super::unnamed::is_term;
 use crate::effects::{Applied, Effect};
@@ -71,10 +73,6 @@ pub(super) struct Selection<'a> {
     pub drops: bool,
 }
 
-pub(super) fn free_effects(model: &Model) -> Vec<Applied> {
-    model.effects.iter().filter(|e| e.free).cloned().collect()
-}
-
 pub(super) fn without(model: &Model, effect: &Applied) -> Model {
     let mut smaller = model.clone();
     smaller.effects.retain(|e| !e.same_as(effect));
@@ -97,7 +95,7 @@ impl Selection<'_> {
             }
             let Some((added, fit)) = self.next(&found.fit, ranked)? else { break };
             found.steps.push((added, fit.model.clone()));
-            found.fit = if self.drops { self.pruned(fit)? } else { fit };
+            found.fit = if self.drops { self.pruned(fit, self.margin())? } else { fit };
             if self.exchanges {
                 found.fit = self.exchanged(found.fit)?;
             }
@@ -126,8 +124,8 @@ impl Selection<'_> {
 
     /// Effects that could be added to a model.
     fn open(&self, model: &Model) -> Vec<(&Effect, Option<usize>)> {
-        let taken = free_effects(model);
-        let is_taken = |e: &Effect, t: Option<usize>| taken.iter().any(|a| a.effect.id == e.id && a.trailer == t);
+        let is_taken =
+            |e: &Effect, t: Option<usize>| model.free_effects().any(|a| a.effect.id == e.id && a.trailer == t);
         model.applicable(self.library).into_iter().filter(|(e, t)| !is_taken(e, *t)).collect()
     }
 
@@ -223,11 +221,11 @@ impl Selection<'_> {
         self.problem.fit(&without(&fit.model, effect), &fit.starts, &self.given, FULL)
     }
 
-    /// Drops what is no longer needed.
-    fn pruned(&self, mut fit: Fit) -> Result<Fit> {
+    /// Drops what is no longer needed: what is worth no more than a bar beyond BIC.
+    pub fn pruned(&self, mut fit: Fit, bar: f64) -> Result<Fit> {
         loop {
             let mut best: Option<(f64, Fit)> = None;
-            let effects = free_effects(&fit.model);
+            let effects: Vec<Applied> = fit.model.free_effects().cloned().collect();
             // At the edge where it vanishes an effect explains nothing, whatever the numbers say of its neighbourhood.
             if let Some(gone) = effects.iter().find(|e| vanishes(e)) {
                 let Some(smaller) = self.reduced(&fit, gone)? else { return Ok(fit) };
@@ -242,7 +240,7 @@ impl Selection<'_> {
                 let Some(smaller) = self.reduced(&fit, &effect)? else { continue };
                 let n = fit.sample_size.max(smaller.sample_size);
                 let worth = bic(&smaller, n) - bic(&fit, n);
-                if worth <= self.margin() && best.as_ref().is_none_or(|(w, _)| worth < *w) {
+                if worth <= bar && best.as_ref().is_none_or(|(w, _)| worth < *w) {
                     best = Some((worth, smaller));
                 }
             }
@@ -255,11 +253,12 @@ impl Selection<'_> {
 
     /// Puts another effect in the place of a chosen one where that explains the data better.
     fn exchanged(&self, mut fit: Fit) -> Result<Fit> {
-        for effect in free_effects(&fit.model) {
-            if free_effects(&fit.model).len() < 2 {
+        let chosen: Vec<Applied> = fit.model.free_effects().cloned().collect();
+        for effect in &chosen {
+            if fit.model.free_effects().count() < 2 {
                 break;
             }
-            let rivals = self.in_place_of(&fit, &effect)?;
+            let rivals = self.in_place_of(&fit, effect)?;
             let Some((_, rival)) = rivals.into_iter().next() else { continue };
             let Some(rival) = self.refined(&rival)? else { continue };
             let n = fit.sample_size.max(rival.sample_size);

@@ -3,7 +3,7 @@
 use super::fit::Fit;
 use super::locate::Violation;
 use super::picture;
-use super::selection::{Grown, Selection, bic, free_effects};
+use super::selection::{Grown, Selection, bic};
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::{COEFFICIENT, Model, PREFIX};
@@ -32,13 +32,14 @@ pub fn remains(fit: &Fit) -> bool {
 
 /// Whether a term may be asked for: something remains, or suspiciously much was needed.
 fn is_wanted(named: &Fit) -> bool {
-    remains(named) || free_effects(&named.model).len() >= MANY
+    remains(named) || named.model.free_effects().count() >= MANY
 }
 
 /// The search repeated with terms beside the named effects; `None` unless one of them earns its place.
 ///
 /// A term stands for what has no name, so it must do more than a name would: beat the best model of named effects
-/// by BIC and twice the margin, predict the windows left out better, and leave less unexplained.
+/// by BIC and twice the margin, predict the windows left out better, and remove a good share of what is violated at
+/// its place.
 pub(super) fn search(
     selection: &Selection,
     model: &Model,
@@ -67,8 +68,9 @@ pub(super) fn search(
         // A term that leaves the rest unexplained is no reason to give a name up.
         found = Selection { drops: false, ..wider }.grown(&named.fit, progress)?;
     }
-    found.fit = material(&wider, found.fit)?;
-    if !free_effects(&found.fit.model).iter().any(is_term) {
+    // A name that the terms leave nothing to explain goes, even where names were kept.
+    found.fit = wider.pruned(material(&wider, found.fit)?, 0.0)?;
+    if !found.fit.model.free_effects().any(is_term) {
         return Ok(None);
     }
     let n = named.fit.sample_size.max(found.fit.sample_size);
@@ -80,12 +82,13 @@ pub(super) fn search(
 }
 
 fn named_effects(fit: &Fit) -> usize {
-    free_effects(&fit.model).iter().filter(|e| !is_term(e)).count()
+    fit.model.free_effects().filter(|e| !is_term(e)).count()
 }
 
 /// The fit without the terms that remove too small a share of what is violated at their place.
 fn material(selection: &Selection, mut fit: Fit) -> Result<Fit> {
-    for term in free_effects(&fit.model).iter().filter(|e| is_term(e)) {
+    let terms: Vec<Applied> = fit.model.free_effects().filter(|e| is_term(e)).cloned().collect();
+    for term in &terms {
         let Some(smaller) = selection.reduced(&fit, term)? else { continue };
         let violations = |f: &Fit| selection.problem.violations(&f.model, &fit.variances.noise);
         if reduction(&term.effect.place, &violations(&smaller)?, &violations(&fit)?) < MATERIAL {

@@ -2,8 +2,8 @@
 
 use super::choose::{Choice, Scored};
 use super::clock::Drift;
-use super::fit::Problem;
 use super::locate::Violation;
+use super::problem::Problem;
 use super::report::{NextExperiment, Verdict};
 use super::unnamed;
 

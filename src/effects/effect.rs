@@ -85,6 +85,11 @@ fn neutral_start() -> Vec<f64> {
 }
 
 impl Effect {
+    /// Where it may stand behind a tractor with so many trailers: once for each of them, or once for the vehicle.
+    pub fn trailers(&self, n: usize) -> Vec<Option<usize>> {
+        if self.per_trailer { (1..=n).map(Some).collect() } else { vec![None] }
+    }
+
     /// The definitions among `names` that the effect rewrites for a trailer, each with its formula in `it`.
     ///
     /// `None` when one it needs is not there: the effect does not apply to the vehicle.

@@ -28,10 +28,7 @@ pub(super) struct Target {
 pub(super) fn places<'m>(own: &OwnEffect, machines: &'m [Machine]) -> Result<Vec<Place<'m>>> {
     let (mut found, mut reasons) = (Vec::new(), BTreeMap::<String, Vec<&str>>::new());
     for machine in machines {
-        let trailers: Vec<Option<usize>> = match own.effect.per_trailer {
-            true => (1..=machine.model.trailers.len()).map(Some).collect(),
-            false => vec![None],
-        };
+        let trailers = own.effect.trailers(machine.model.trailers.len());
         if trailers.is_empty() {
             reasons.entry("no trailer".into()).or_default().push(&machine.label);
         }

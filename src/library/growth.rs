@@ -33,10 +33,7 @@ fn outgrown(library: &[Effect], machine: &Machine) -> Option<Symbol> {
     let mut parts = machine.definitions.clone();
     let mut degrees: BTreeMap<Symbol, usize> = BTreeMap::new();
     for e in library {
-        let trailers: Vec<Option<usize>> = match e.per_trailer {
-            true => (1..=machine.model.trailers.len()).map(Some).collect(),
-            false => vec![None],
-        };
+        let trailers = e.trailers(machine.model.trailers.len());
         for (name, formula) in trailers.into_iter().filter_map(|t| machine.model.targets(e, t, &names)).flatten() {
             let old = *sizes.get(&name).unwrap_or(&Size::SYMBOL);
             let is_old = |s: &Symbol| s.as_str() == "it" || *s == name;

@@ -5,7 +5,7 @@ use crate::error::Result;
 use crate::formula::{Symbol, Unit};
 use crate::mechanism::Definitions;
 use crate::model::{Model, Trailer, WITH_TRAILERS};
-use crate::vehicles::{self, Vehicle};
+use crate::vehicles;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A model without effects, with the unit of every name that a formula may speak of.
@@ -22,7 +22,7 @@ impl Machine {
     pub fn all() -> Result<Vec<Self>> {
         let mut found = Vec::new();
         for vehicle in vehicles::all() {
-            let alone = sample(vehicle)?;
+            let alone = Model::sample(vehicle)?;
             found.push(Self::of(vehicle.id.clone(), alone.clone())?);
             for (role, input) in &vehicle.inputs {
                 if let Some(other) = &input.instead {
@@ -33,7 +33,7 @@ impl Machine {
             }
         }
         for vehicle in vehicles::all().iter().filter(|v| v.pulls()) {
-            let train = sample(vehicle)?.with_trailers(&[Trailer { length: 1.0, hitch: 1.0 }; 2]);
+            let train = Model::sample(vehicle)?.with_trailers(&[Trailer { length: 1.0, hitch: 1.0 }; 2]);
             found.push(Self::of(format!("{WITH_TRAILERS} behind {}", vehicle.id), train)?);
         }
         Ok(found)
@@ -54,10 +54,4 @@ impl Machine {
     pub fn defined(&self) -> Vec<Symbol> {
         self.definitions.iter().map(|(n, _)| n.clone()).collect()
     }
-}
-
-/// A vehicle with every parameter one: enough for its formulas.
-fn sample(vehicle: &Vehicle) -> Result<Model> {
-    let ones: Vec<(&str, f64)> = vehicle.parameters.keys().map(|name| (name.as_str(), 1.0)).collect();
-    Model::new(&vehicle.id, &ones)
 }

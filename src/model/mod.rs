@@ -8,6 +8,7 @@ mod build;
 mod constraints;
 mod equations;
 mod file;
+mod free;
 mod terms;
 
 pub use constraints::mechanism;
@@ -90,6 +91,15 @@ impl Model {
         })
     }
 
+    /// A vehicle of the catalogue with every parameter one: enough for its formulas.
+    ///
+    /// # Errors
+    /// When the vehicle is not of the catalogue.
+    pub fn sample(vehicle: &Vehicle) -> Result<Self> {
+        let ones: Vec<(&str, f64)> = vehicle.parameters.keys().map(|name| (name.as_str(), 1.0)).collect();
+        Self::new(&vehicle.id, &ones)
+    }
+
     /// The model with trailers behind it.
     pub fn with_trailers(mut self, trailers: &[Trailer]) -> Self {
         self.trailers = trailers.to_vec();
@@ -111,10 +121,7 @@ impl Model {
         let names: Vec<Symbol> = bare.iter().map(|(n, _)| n.clone()).collect();
         let open = |e: &Effect, t: Option<usize>| e.origin.is_none() || self.stays_open(&bare, e, t);
         let fits = |e: &Effect, t: Option<usize>| self.targets(e, t, &names).is_some() && open(e, t);
-        let places = |e: &Effect| -> Vec<Option<usize>> {
-            if e.per_trailer { (1..=self.trailers.len()).map(Some).collect() } else { vec![None] }
-        };
-        let all = library.iter().flat_map(|e| places(e).into_iter().map(move |t| (e, t)));
+        let all = library.iter().flat_map(|e| e.trailers(self.trailers.len()).into_iter().map(move |t| (e, t)));
         all.filter(|(e, t)| fits(e, *t)).collect()
     }
 

@@ -47,7 +47,7 @@ impl Family {
         Some(Self {
             motion: Motion::of(&joint, measured)?,
             own: effects.iter().flat_map(Applied::parameters).collect(),
-            shared: model.effects.iter().filter(|e| e.free).flat_map(Applied::parameters).collect(),
+            shared: model.free_parameters(),
             angles: angles.collect(),
             zeros: zeros(model),
             regular: effects.iter().all(|e| e.effect.states.is_empty() && !kind(e)),

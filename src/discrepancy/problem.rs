@@ -1,0 +1,70 @@
+//! Runs cut into windows, and what is known of their noise.
+
+use super::chain::Variances;
+use super::course;
+use super::record::{Channel, Record};
+use super::smooth;
+use super::variances::Free;
+use super::windows::{Segment, Starts};
+use crate::error::Result;
+use crate::model::{Equations, Model};
+use crate::motion::visible_state;
+
+/// Runs cut into windows, with what is known of their noise.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    /// The runs.
+    pub records: Vec<Record>,
+    /// Their windows.
+    pub plan: Vec<Segment>,
+    /// Which variances are free.
+    pub free: Free,
+    /// Where the variances start.
+    pub variances: Variances,
+}
+
+impl Problem {
+    /// Cuts runs into windows and estimates their noise; a known standard deviation of position (m) or heading (rad)
+    /// is kept.
+    pub fn new(records: Vec<Record>, position: Option<f64>, heading: Option<f64>) -> Self {
+        let plan = super::windows::plan(&records);
+        let channels = [Channel::Position, Channel::Heading, Channel::Trailer];
+        let known = [position, heading, heading];
+        let present = channels.map(|c| records.iter().any(|r| r.channels().contains(&c)));
+        let noise = [0, 1, 2].map(|k| known[k].unwrap_or_else(|| noise_of(&records, channels[k])).powi(2));
+        let jump = [noise[0], noise[0], noise[1], noise[2]];
+        let free =
+            Free { noise: [0, 1, 2].map(|k| present[k] && known[k].is_none()), jump: [true, true, true, present[2]] };
+        Self { records, plan, free, variances: Variances { noise, jump } }
+    }
+
+    /// How many windows there are.
+    pub fn windows(&self) -> usize {
+        self.plan.iter().map(|s| s.windows.len()).sum()
+    }
+
+    /// Poses at the windows' starts from the measurements alone, as the model's sensor says.
+    pub fn starts(&self, model: &Model) -> Result<Starts> {
+        let equations = model.equations(&[])?;
+        let of_segment = |s: &Segment| course::starts(&equations, &self.records[s.record], &s.windows);
+        Ok(self.plan.iter().map(of_segment).collect())
+    }
+}
+
+/// The median noise of a channel over the runs.
+fn noise_of(records: &[Record], channel: Channel) -> f64 {
+    let mut found: Vec<f64> = Vec::new();
+    for r in records {
+        let columns = r.channels().into_iter().zip(&r.columns).filter(|(c, _)| *c == channel);
+        found.extend(columns.filter_map(|(_, y)| smooth::noise(&r.time[r.rows.clone()], &y[r.rows.clone()])));
+    }
+    found.sort_by(f64::total_cmp);
+    // A column without any noise still has its last digit.
+    found.get(found.len() / 2).copied().unwrap_or(1e-3).max(1e-9)
+}
+
+/// The pose that a measurement says, or the measurement itself where the sensor's formulas cannot be undone.
+pub fn pose_of(equations: &Equations, measured: &[f64]) -> Vec<f64> {
+    let p = vec![0.0; equations.free.len()];
+    visible_state(equations, &p, measured).unwrap_or_else(|_| measured.to_vec())
+}

@@ -75,9 +75,10 @@ impl Selection<'_> {
         let mut found = Vec::new();
         for applied in fit.model.free_effects().cloned() {
             let k = applied.values.len();
-            // What runs scatter by counts where it is more than their noise explains.
+            // What runs scatter by counts where it is more than their noise, and what hangs together in it, explains.
             let between = |i: usize| fit.between_runs.as_ref().map_or(0.0, |c| c[(i, i)].sqrt());
-            let spread = |i: usize| fit.covariance.as_ref().map(|c| c[(i, i)].sqrt().max(between(i)));
+            let spread =
+                |i: usize| fit.covariance.as_ref().map(|c| (c[(i, i)] * fit.correlation).sqrt().max(between(i)));
             let std = (at..at + k).map(spread).collect();
             at += k;
             let Some(smaller) = self.reduced(fit, &applied)? else { continue };

@@ -31,7 +31,7 @@ pub struct Drift {
     pub run: String,
     /// By how much the delay changes from the first row to the last, s.
     pub total: f64,
-    /// The deviance that this is worth.
+    /// The deviance that this is worth, as far as it is independent.
     pub gain: f64,
     /// Time between rows, s.
     pub step: f64,
@@ -65,29 +65,29 @@ impl Problem {
         let starts: super::windows::Starts = own().map(|(_, s)| s.clone()).collect();
         let plan = own().map(|(s, _)| super::windows::Segment { record: 0, ..s.clone() }).collect();
         let alone = Problem { records: vec![record.clone()], plan, ..self.clone() };
-        let deviance = |rate: f64| -> Result<f64> {
+        let fitted = |rate: f64| -> Result<(f64, f64)> {
             let mut stretched = alone.clone();
             stretched.records[0].signals = record.signals.stretched(rate);
             let fitted = stretched.fit(&model, &starts, &fit.variances, EFFORT)?;
-            Ok(fitted.map_or(f64::INFINITY, |f| f.deviance))
+            Ok(fitted.map_or((f64::INFINITY, 1.0), |f| (f.deviance, f.correlation)))
         };
         let tried = TRIED / duration(record);
-        let here = deviance(0.0)?;
+        let here = fitted(0.0)?;
         let mut best = (0.0, here);
         for direction in [-tried, tried] {
             let mut rate = direction;
             // Far from where the clocks agree the deviance is flat: so long as it falls, twice as far.
             for _ in 0..MOST_DOUBLINGS {
-                let there = deviance(rate)?;
-                if there >= best.1 {
+                let there = fitted(rate)?;
+                if there.0 >= best.1.0 {
                     break;
                 }
                 best = (rate, there);
                 rate *= 2.0;
             }
         }
-        let (rate, reached) = best;
-        let gain = here - reached;
+        let (rate, (reached, correlation)) = best;
+        let gain = (here.0 - reached) / correlation;
         let total = rate * duration(record);
         Ok(gain.is_finite().then(|| Drift { run: record.name.clone(), total, gain, step: record.step() }))
     }

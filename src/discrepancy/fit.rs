@@ -4,6 +4,7 @@ use super::bounds::Bounds;
 use super::chain::{Eliminated, Variances, eliminate};
 use super::problem::Problem;
 use super::variances;
+use super::whiteness;
 use super::windows::{Linear, Starts, linearise};
 use crate::error::Result;
 use crate::model::{Equations, Model};
@@ -35,6 +36,8 @@ pub struct Fit {
     /// By how much the deviance would grow without the jumps along, across, in yaw and of trailers: what remains
     /// unexplained; zero where the variances were not estimated.
     pub unexplained: [f64; 4],
+    /// How many windows in a row what remains unexplained is alike, at least 1: see [`super::whiteness`].
+    pub correlation: f64,
 }
 
 /// Runs that their spread can be told from.
@@ -88,7 +91,8 @@ impl Problem {
             }
         }
         let unexplained = if effort.variances { self.unexplained(&point, &v) } else { [0.0; 4] };
-        Ok(Some(Fit { unexplained, ..self.finished(model, point, v) }))
+        let correlation = whiteness::of_what_remains(&point.linear, &unexplained);
+        Ok(Some(Fit { unexplained, correlation, ..self.finished(model, point, v) }))
     }
 
     fn point(&self, equations: &Equations, p: DVector<f64>, starts: Starts, v: &Variances) -> Option<Point> {
@@ -172,6 +176,7 @@ impl Problem {
             variances,
             starts: point.starts,
             unexplained: [0.0; 4],
+            correlation: 1.0,
         }
     }
 

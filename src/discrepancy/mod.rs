@@ -44,4 +44,5 @@ pub mod summary;
 pub mod unnamed;
 pub mod variances;
 pub mod verdict;
+pub mod whiteness;
 pub mod windows;

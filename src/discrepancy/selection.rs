@@ -107,14 +107,16 @@ impl Selection<'_> {
     fn next(&self, base: &Fit, ranked: Ranked) -> Result<Option<(String, Fit)>> {
         let fitted = ranked.single.into_iter().filter_map(|(s, fit)| Some((s, fit?)));
         let bar = |s: &Scored| if is_term(&s.applied) { 2.0 * self.margin() } else { self.margin() };
-        let mut good =
-            fitted.filter(|(s, fit)| s.delta_bic > bar(s) && !vanishes(&s.applied) && repeats(fit, &s.applied));
-        let single = good.next().map(|(s, fit)| (s.applied.label(), fit));
-        let pair = self.pair(base, &ranked.pairs, single.as_ref().map(|(_, f)| f))?;
-        let Some((added, fit)) = pair.or(single) else { return Ok(None) };
-        // What does not predict the windows it was not fitted to is no finding.
-        let predicts = self.problem.predicts_better(&fit, base)?;
-        Ok(predicts.then_some((added, fit)))
+        let good = fitted.filter(|(s, fit)| s.delta_bic > bar(s) && !vanishes(&s.applied) && repeats(fit, &s.applied));
+        let singles: Vec<(String, Fit)> = good.map(|(s, fit)| (s.applied.label(), fit)).collect();
+        let pair = self.pair(base, &ranked.pairs, singles.first().map(|(_, f)| f))?;
+        for (added, fit) in pair.into_iter().chain(singles) {
+            // What does not predict the data it was not fitted to is no finding.
+            if self.problem.predicts_better(&fit, base)? {
+                return Ok(Some((added, fit)));
+            }
+        }
+        Ok(None)
     }
 
     /// What a candidate must gain beyond BIC because the library is large.

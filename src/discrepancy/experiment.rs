@@ -28,7 +28,7 @@ const RATE: f64 = 10.0;
 /// Steps of the fit to a manoeuvre.
 const PASSES: usize = 3;
 /// Evidence that separates two effects beyond doubt.
-const ENOUGH: f64 = 12.0;
+const ENOUGH: f64 = 25.0;
 /// A manoeuvre within this share of the best one is as good.
 const ALIKE: f64 = 0.9;
 /// More rivals than these are not thought of at once.

@@ -3,7 +3,7 @@
 use super::evidence::tail;
 use super::fit::Fit;
 use super::problem::Problem;
-use super::selection::{FINALISTS, FULL, MOST, Selection, bic, find};
+use super::selection::{FINALISTS, FULL, MOST, Selection, bic, find, worth};
 use super::unnamed;
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
@@ -78,15 +78,15 @@ impl Selection<'_> {
             // What runs scatter by counts where it is more than their noise, and what hangs together in it, explains.
             let between = |i: usize| fit.between_runs.as_ref().map_or(0.0, |c| c[(i, i)].sqrt());
             let spread =
-                |i: usize| fit.covariance.as_ref().map(|c| (c[(i, i)] * fit.correlation).sqrt().max(between(i)));
+                |i: usize| fit.covariance.as_ref().map(|c| (c[(i, i)] * fit.dependence()).sqrt().max(between(i)));
             let std = (at..at + k).map(spread).collect();
             at += k;
             let Some(smaller) = self.reduced(fit, &applied)? else { continue };
             let n = fit.sample_size.max(smaller.sample_size);
             let gain = (smaller.deviance - fit.deviance).max(0.0);
             let rivals = self.rivals(fit, &applied)?;
-            let delta_bic = bic(&smaller, n) - bic(fit, n);
-            found.push(Chosen { applied, std, delta_bic, p_value: tail(gain, k), rivals });
+            let delta_bic = worth(fit, &smaller, n);
+            found.push(Chosen { applied, std, delta_bic, p_value: tail(gain / fit.dependence(), k), rivals });
         }
         Ok(found)
     }
@@ -94,12 +94,12 @@ impl Selection<'_> {
     /// Effects that explain the data as well in the place of a chosen one.
     fn rivals(&self, fit: &Fit, chosen: &Applied) -> Result<Vec<Applied>> {
         let n = fit.sample_size;
-        let own = bic(fit, n);
-        let near = self.in_place_of(fit, chosen)?.into_iter().filter(|(_, f)| bic(f, n) - own < 4.0 * CLOSE);
+        let behind = |f: &Fit| (bic(f, n) - bic(fit, n)) / fit.dependence();
+        let near = self.in_place_of(fit, chosen)?.into_iter().filter(|(_, f)| behind(f) < 4.0 * CLOSE);
         let mut found = Vec::new();
         for (applied, rough) in near.take(FINALISTS) {
             let full = self.refined(&rough)?.unwrap_or(rough);
-            if bic(&full, n) - own < CLOSE {
+            if behind(&full) < CLOSE {
                 found.extend(find(&full.model, &applied));
             }
         }

@@ -69,7 +69,7 @@ impl Problem {
             let mut stretched = alone.clone();
             stretched.records[0].signals = record.signals.stretched(rate);
             let fitted = stretched.fit(&model, &starts, &fit.variances, EFFORT)?;
-            Ok(fitted.map_or((f64::INFINITY, 1.0), |f| (f.deviance, f.correlation)))
+            Ok(fitted.map_or((f64::INFINITY, 1.0), |f| (f.deviance, f.dependence())))
         };
         let tried = TRIED / duration(record);
         let here = fitted(0.0)?;
@@ -86,8 +86,8 @@ impl Problem {
                 rate *= 2.0;
             }
         }
-        let (rate, (reached, correlation)) = best;
-        let gain = (here.0 - reached) / correlation;
+        let (rate, (reached, dependence)) = best;
+        let gain = (here.0 - reached) / dependence;
         let total = rate * duration(record);
         Ok(gain.is_finite().then(|| Drift { run: record.name.clone(), total, gain, step: record.step() }))
     }

@@ -38,6 +38,8 @@ pub struct Fit {
     pub unexplained: [f64; 4],
     /// How many windows in a row what remains unexplained is alike, at least 1: see [`super::whiteness`].
     pub correlation: f64,
+    /// How many rows in a row the noise is alike, at least 1.
+    pub colour: f64,
 }
 
 /// Runs that their spread can be told from.
@@ -63,6 +65,13 @@ struct Point {
     starts: Starts,
     linear: Vec<Vec<Linear>>,
     eliminated: Eliminated,
+}
+
+impl Fit {
+    /// How many values say what one independent value would: rows that are alike, times windows that are alike.
+    pub fn dependence(&self) -> f64 {
+        self.colour * self.correlation
+    }
 }
 
 impl Problem {
@@ -92,7 +101,8 @@ impl Problem {
         }
         let unexplained = if effort.variances { self.unexplained(&point, &v) } else { [0.0; 4] };
         let correlation = whiteness::of_what_remains(&point.linear, &unexplained);
-        Ok(Some(Fit { unexplained, correlation, ..self.finished(model, point, v) }))
+        let colour = if effort.variances { whiteness::of_noise(&point.linear) } else { 1.0 };
+        Ok(Some(Fit { unexplained, correlation, colour, ..self.finished(model, point, v) }))
     }
 
     fn point(&self, equations: &Equations, p: DVector<f64>, starts: Starts, v: &Variances) -> Option<Point> {
@@ -177,6 +187,7 @@ impl Problem {
             starts: point.starts,
             unexplained: [0.0; 4],
             correlation: 1.0,
+            colour: 1.0,
         }
     }
 

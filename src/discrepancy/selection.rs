@@ -83,6 +83,12 @@ pub(super) fn bic(fit: &Fit, sample_size: f64) -> f64 {
     fit.deviance + fit.p.len() as f64 * sample_size.ln()
 }
 
+/// ΔBIC of a model against a smaller one, its gain of deviance as far as rows are independent.
+pub(super) fn worth(larger: &Fit, smaller: &Fit, sample_size: f64) -> f64 {
+    let more = larger.p.len() as f64 - smaller.p.len() as f64;
+    (smaller.deviance - larger.deviance) / larger.dependence() - more * sample_size.ln()
+}
+
 impl Selection<'_> {
     /// Adds effects until nothing is left above the noise.
     pub fn grown(&self, before: &Fit, progress: &dyn Fn(&str)) -> Result<Grown> {
@@ -94,11 +100,17 @@ impl Selection<'_> {
                 found.candidates = ranked.single.iter().map(|(s, _)| s.clone()).collect();
             }
             let Some((added, fit)) = self.next(&found.fit, ranked)? else { break };
-            found.steps.push((added, fit.model.clone()));
-            found.fit = if self.drops { self.pruned(fit, self.margin())? } else { fit };
+            let model = fit.model.clone();
+            let mut next = if self.drops { self.pruned(fit, self.margin())? } else { fit };
             if self.exchanges {
-                found.fit = self.exchanged(found.fit)?;
+                next = self.exchanged(next)?;
             }
+            if same_effects(&next.model, &found.fit.model) {
+                // Added only to be dropped: round and round would lead nowhere.
+                break;
+            }
+            found.steps.push((added, model));
+            found.fit = next;
         }
         Ok(found)
     }
@@ -172,7 +184,8 @@ impl Selection<'_> {
             let n = base.sample_size.max(full.as_ref().map_or(0.0, |f| f.sample_size));
             let deviance = full.as_ref().or(fit.as_ref()).map_or(promise.deviance, |f| f.deviance);
             let k = promise.applied.values.len() as f64;
-            let delta_bic = base.deviance - deviance - k * n.ln();
+            let dependence = full.as_ref().map_or(1.0, Fit::dependence);
+            let delta_bic = (base.deviance - deviance) / dependence - k * n.ln();
             let fitted = full.as_ref().or(fit.as_ref()).and_then(|f| find(&f.model, &promise.applied));
             let applied = fitted.unwrap_or(promise.applied);
             Ok((Scored { applied, std: promise.std, delta_bic }, full))
@@ -204,8 +217,8 @@ impl Selection<'_> {
                 continue;
             }
             let n = n.max(fit.sample_size);
-            let bar = bic(reached, n) - self.margin() * if single.is_some() { 1.0 } else { 2.0 };
-            if bic(&fit, n) < bar && best.as_ref().is_none_or(|(_, f)| bic(&fit, n) < bic(f, n)) {
+            let bar = self.margin() * if single.is_some() { 1.0 } else { 2.0 };
+            if worth(&fit, reached, n) > bar && best.as_ref().is_none_or(|(_, f)| bic(&fit, n) < bic(f, n)) {
                 best = Some((format!("{} and {}", a.applied.label(), b.applied.label()), fit));
             }
         }
@@ -241,7 +254,7 @@ impl Selection<'_> {
                 }
                 let Some(smaller) = self.reduced(&fit, &effect)? else { continue };
                 let n = fit.sample_size.max(smaller.sample_size);
-                let worth = bic(&smaller, n) - bic(&fit, n);
+                let worth = worth(&fit, &smaller, n);
                 if worth <= bar && best.as_ref().is_none_or(|(w, _)| worth < *w) {
                     best = Some((worth, smaller));
                 }
@@ -287,6 +300,12 @@ impl Selection<'_> {
 /// An effect of a model.
 pub(super) fn find(model: &Model, like: &Applied) -> Option<Applied> {
     model.effects.iter().find(|e| e.same_as(like)).cloned()
+}
+
+/// Whether two models have the same effects free, whatever their values.
+fn same_effects(a: &Model, b: &Model) -> bool {
+    let within = |a: &Model, b: &Model| a.free_effects().all(|e| find(b, e).is_some());
+    within(a, b) && within(b, a)
 }
 
 /// The place of an effect in the library.

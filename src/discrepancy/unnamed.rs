@@ -3,14 +3,13 @@
 use super::fit::Fit;
 use super::locate::Violation;
 use super::picture;
-use super::selection::{Grown, Selection, bic};
+use super::selection::{Grown, Selection, worth};
+use super::whiteness::NOTICEABLE;
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::{COEFFICIENT, Model, PREFIX};
 use crate::picture::number::significant;
 
-/// Deviance that unexplained motion must be worth before terms without a name are tried.
-const NOTICEABLE: f64 = 25.0;
 /// Named effects from which on one simpler term is tried whatever remains.
 const MANY: usize = 2;
 
@@ -27,7 +26,7 @@ pub fn is_term(effect: &Applied) -> bool {
 
 /// Whether motion remains that a fit does not explain.
 pub fn remains(fit: &Fit) -> bool {
-    fit.unexplained.iter().any(|gain| *gain > NOTICEABLE)
+    fit.unexplained.iter().any(|gain| gain / fit.dependence() > NOTICEABLE)
 }
 
 /// Whether a term may be asked for: something remains, or suspiciously much was needed.
@@ -74,7 +73,7 @@ pub(super) fn search(
         return Ok(None);
     }
     let n = named.fit.sample_size.max(found.fit.sample_size);
-    let better = bic(&found.fit, n) + 2.0 * wider.margin() < bic(&named.fit, n);
+    let better = worth(&found.fit, &named.fit, n) > 2.0 * wider.margin();
     let predicts = selection.problem.predicts_better(&found.fit, &named.fit)?;
     found.steps = [&named.steps[..], &found.steps].concat();
     found.candidates.clone_from(&named.candidates);

@@ -9,6 +9,7 @@
 //! and a gain of deviance counts for its τ-th part. With nothing unexplained there is nothing to hang together: τ = 1.
 
 use super::windows::Linear;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// Deviance from which on unexplained motion is more than chance.
 pub const NOTICEABLE: f64 = 25.0;
@@ -61,4 +62,68 @@ pub fn of_what_remains(linear: &[Vec<Linear>], unexplained: &[f64; 4]) -> f64 {
         linear.iter().map(|segment| segment.iter().filter_map(of_window).collect()).collect()
     };
     kinds().map(|c| unexplained[c] * integrated_correlation(&rates(c))).sum::<f64>() / weight
+}
+
+/// Probability that white noise is taken for coloured, at each scale.
+const BY_CHANCE: f64 = 5e-4;
+/// Rows in a block: two, four, … two to this power.
+const SCALES: usize = 6;
+
+/// Squared sums of residuals over blocks of neighbouring rows, for blocks of two, four, eight … rows.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Blocks {
+    squares: [f64; SCALES],
+    count: [usize; SCALES],
+}
+
+/// The blocks of one column that are not full yet.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Run {
+    open: [f64; SCALES],
+    rows: usize,
+}
+
+impl Run {
+    /// Takes the next row's residual and hands over the blocks that it fills.
+    pub fn push(&mut self, residual: f64, to: &mut Blocks) {
+        self.rows += 1;
+        for k in 0..SCALES {
+            self.open[k] += residual;
+            if self.rows % (2 << k) == 0 {
+                to.squares[k] += self.open[k].powi(2);
+                to.count[k] += 1;
+                self.open[k] = 0.0;
+            }
+        }
+    }
+}
+
+/// How many rows in a row the noise of a fit is alike: over blocks of two rows, of four …
+///
+/// τ = Σ (Σ r)² / (n·⟨r²⟩),
+///
+/// the inner sum over the n rows of a block. For white noise this is about one at every scale; the largest that chance
+/// does not explain is taken, each channel by itself. What is slower than a window moves its pose and is not seen here.
+pub fn of_noise(linear: &[Vec<Linear>]) -> f64 {
+    let windows = || linear.iter().flatten();
+    let mut found: f64 = 1.0;
+    for channel in 0..3 {
+        let square = |w: &Linear| w.gram[channel][(w.gram[channel].nrows() - 1, w.gram[channel].nrows() - 1)];
+        let rows: usize = windows().map(|w| w.count[channel]).sum();
+        let mean = windows().map(square).sum::<f64>() / rows as f64;
+        for k in 0..SCALES {
+            let count: usize = windows().map(|w| w.blocks[channel].count[k]).sum();
+            let squares: f64 = windows().map(|w| w.blocks[channel].squares[k]).sum();
+            let tau = squares / (count as f64 * (2 << k) as f64 * mean);
+            if tau > found && tau > by_chance(count as f64) {
+                found = tau;
+            }
+        }
+    }
+    found
+}
+
+/// What the mean square of so many independent standard normal numbers hardly exceeds by chance.
+fn by_chance(count: f64) -> f64 {
+    ChiSquared::new(count).map_or(f64::INFINITY, |d| d.inverse_cdf(1.0 - BY_CHANCE) / count)
 }

@@ -2,6 +2,7 @@
 
 use super::angle::wrapped;
 use super::record::{Channel, Record};
+use super::whiteness::{Blocks, Run};
 use crate::model::Equations;
 use crate::motion::{Arc, Stepper};
 use nalgebra::DMatrix;
@@ -63,6 +64,8 @@ pub struct Linear {
     pub gram: [DMatrix<f64>; 3],
     /// Number of values of each channel.
     pub count: [usize; 3],
+    /// Residuals of neighbouring rows together, for each channel.
+    pub blocks: [Blocks; 3],
     /// δz of this window's start as (δz̃, δp, 1)-columns, δz̃ being the end before the jump against the next start.
     pub back: Option<DMatrix<f64>>,
     /// Axes of the body at the window's end; columns along, across, yaw, trailers.
@@ -119,7 +122,9 @@ fn window_along(
     let visible = visible_of(record);
     let mut gram = [0, 1, 2].map(|_| DMatrix::zeros(k + 1, k + 1));
     let mut count = [0; 3];
+    let mut blocks = [Blocks::default(); 3];
     let channels = record.channels();
+    let mut runs = vec![Run::default(); channels.len()];
     let mut line = vec![0.0; k + 1];
     for i in rows.clone() {
         let y = stepper.outputs(&arc.z);
@@ -131,6 +136,7 @@ fn window_along(
                 line[k] = wrapped(line[k]);
             }
             let kind = *channel as usize;
+            runs[c].push(line[k], &mut blocks[kind]);
             add_square(&mut gram[kind], &line);
             count[kind] += 1;
         }
@@ -153,7 +159,7 @@ fn window_along(
         }
         None => (None, vec![]),
     };
-    Some(Linear { gram, count, back, axes, duration, mismatch })
+    Some(Linear { gram, count, blocks, back, axes, duration, mismatch })
 }
 
 /// How many states the pose and the trailers make.

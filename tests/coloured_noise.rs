@@ -1,0 +1,77 @@
+//! Sensors whose errors wander instead of scattering: filtered poses, satellites. Rows then say less than their number.
+
+mod simulator;
+
+use creepage::discrepancy::discover::{Request, discover};
+use creepage::discrepancy::report::{Report, Verdict};
+use creepage::files::{ModelFile, Run};
+use creepage::{effects, model};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::StandardNormal;
+use simulator::{Hidden, Noise, Scenario, Tractor};
+
+/// Standard deviation of what wanders: m, and half as many rad.
+const WANDERING: f64 = 0.01;
+
+/// What `discover` says of a run whose measured pose wanders by a first-order Markov process with a correlation time, s.
+fn report(scenario: &Scenario, time: f64) -> Report {
+    let folder = tempfile::tempdir().unwrap();
+    let (model, run) = (folder.path().join("model.toml"), folder.path().join("run.csv"));
+    std::fs::write(&model, scenario.model_toml()).unwrap();
+    scenario.run().write_csv(&run).unwrap();
+    let file = ModelFile::read(&model, &model::known(effects::all())).unwrap();
+    let mut run = Run::read(&run, &file).unwrap();
+    let mut random = ChaCha8Rng::seed_from_u64(scenario.seed);
+    let rows = run.time.clone();
+    let mut wander = |column: &mut Vec<f64>, size: f64| {
+        let mut error = random.sample::<f64, _>(StandardNormal);
+        for i in 0..column.len() {
+            if i > 0 {
+                let kept = (-(rows[i] - rows[i - 1]) / time).exp();
+                error = kept * error + (1.0 - kept * kept).sqrt() * random.sample::<f64, _>(StandardNormal);
+            }
+            column[i] += size * error;
+        }
+    };
+    wander(&mut run.x, WANDERING);
+    wander(&mut run.y, WANDERING);
+    wander(run.heading.as_mut().unwrap(), WANDERING / 2.0);
+    let runs = [run];
+    let request =
+        Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[1.0], seed: 5 };
+    discover(&request, &|_| ()).unwrap().report
+}
+
+fn drive(tractor: Tractor, hidden: Vec<Hidden>, seed: u64) -> Scenario {
+    Scenario { hidden, noise: Noise::MOCAP, rate: 50.0, ..Scenario::new(tractor, seed) }
+}
+
+#[test]
+fn where_the_sensor_wanders_and_nothing_is_missing_nothing_is_named() {
+    for (i, time) in [0.1, 1.0].into_iter().enumerate() {
+        for tractor in [Tractor::Unicycle, Tractor::DifferentialDrive, Tractor::Car] {
+            let report = report(&drive(tractor, vec![], 70 + i as u64), time);
+            let ids: Vec<&str> = report.effects.iter().map(|e| e.id.as_str()).collect();
+            assert!(
+                ids.is_empty() && report.unnamed.is_empty(),
+                "{tractor:?}, {time} s: {ids:?} {:?}",
+                report.unnamed
+            );
+        }
+    }
+}
+
+#[test]
+fn what_is_missing_is_named_although_the_sensor_wanders() {
+    let track = Hidden::TrackWidth { scale: 0.05 };
+    for time in [0.1, 1.0] {
+        let report = report(&drive(Tractor::DifferentialDrive, vec![track], 81), time);
+        assert_eq!(report.verdict, Verdict::MissingEffect);
+        let ids: Vec<&str> = report.effects.iter().map(|e| e.id.as_str()).collect();
+        assert_eq!(ids, ["track-width"], "{time} s");
+        let found = &report.effects[0].parameters["scale"];
+        let off = (found.value - 0.05) / found.std.unwrap();
+        assert!(off.abs() < 3.0, "{time} s: {found:?}");
+    }
+}

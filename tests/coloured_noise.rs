@@ -53,11 +53,7 @@ fn where_the_sensor_wanders_and_nothing_is_missing_nothing_is_named() {
         for tractor in [Tractor::Unicycle, Tractor::DifferentialDrive, Tractor::Car] {
             let report = report(&drive(tractor, vec![], 70 + i as u64), time);
             let ids: Vec<&str> = report.effects.iter().map(|e| e.id.as_str()).collect();
-            assert!(
-                ids.is_empty() && report.unnamed.is_empty(),
-                "{tractor:?}, {time} s: {ids:?} {:?}",
-                report.unnamed
-            );
+            assert!(ids.is_empty() && report.unnamed.is_empty(), "{tractor:?}, {time} s: {ids:?} {:?}", report.unnamed);
         }
     }
 }

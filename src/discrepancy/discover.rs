@@ -8,6 +8,7 @@ use super::locate;
 use super::problem::Problem;
 use super::record::Record;
 use super::relatives::{self, Relative, relatives};
+use super::remaining::remaining;
 use super::report::*;
 use super::{experiment, picture, summary, unnamed, verdict};
 use crate::effects::Effect;
@@ -90,6 +91,7 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
         report.unnamed = without_name(&terms, &data, &choice.after, &model)?;
     }
     report.disagreement = locate::disagreements(&before);
+    report.remaining = Some(remaining(&choice.after, &after));
     let horizons = horizons(request);
     report.gap = gaps(&data, &model, &choice, &horizons, request.seed)?;
     report.steps = steps(&data, &choice, &report.gap)?;
@@ -146,6 +148,7 @@ fn empty_report(request: &Request, data: &Data) -> Report {
         effects: vec![],
         unnamed: vec![],
         disagreement: vec![],
+        remaining: None,
         gap: vec![],
         next_experiment: None,
         steps: vec![],
@@ -182,6 +185,7 @@ fn named(chosen: &Chosen, relatives: &[Relative], model: &Model) -> Named {
     let rival = |r: &Relative| Rival { id: r.applied.effect.id.clone(), why: r.why.into() };
     Named {
         id: a.effect.id.clone(),
+        says: a.effect.says.clone(),
         place: a.effect.place.clone(),
         parameters,
         evidence: Evidence { delta_bic: chosen.delta_bic, p_value: chosen.p_value },

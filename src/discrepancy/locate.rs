@@ -127,6 +127,16 @@ impl Violation {
         self.windows.iter().map(|w| w.rates[c].powi(2) - self.noise[c].powi(2)).sum()
     }
 
+    /// Root mean square of a violated rate over all windows of some runs, and of what noise makes of it; `None` where no
+    /// run has the constraint.
+    pub fn rms(all: &[Violation], c: usize) -> Option<(f64, f64)> {
+        let of = || all.iter().filter(|v| c < v.constraints());
+        let count = of().map(|v| v.windows.len()).sum::<usize>() as f64;
+        let rate: f64 = of().flat_map(|v| &v.windows).map(|w| w.rates[c].powi(2)).sum();
+        let noise: f64 = of().map(|v| v.windows.len() as f64 * v.noise[c].powi(2)).sum();
+        (count > 0.0).then(|| ((rate / count).sqrt(), (noise / count).sqrt()))
+    }
+
     /// Sum of squared violations of each constraint in units of their noise.
     fn energy(&self, c: usize) -> f64 {
         self.windows.iter().map(|w| (w.rates[c] / self.noise[c]).powi(2)).sum()
@@ -151,9 +161,23 @@ type Regime = fn(&Window, &Window, &Typical) -> bool;
 struct Typical {
     speed: f64,
     yaw: f64,
+    load: f64,
+    curve: f64,
 }
 
-const REGIMES: [(&str, Regime); 8] = [
+impl Window {
+    /// The lateral acceleration v·ω, m/s², which the tyres carry.
+    fn load(&self) -> f64 {
+        self.speed * self.yaw
+    }
+
+    /// The curvature of the path, 1/m: what a steered wheel asks for. None where the vehicle turns on the spot.
+    fn curve(&self, typical_speed: f64) -> f64 {
+        if self.speed > 0.2 * typical_speed { self.yaw / self.speed } else { 0.0 }
+    }
+}
+
+const REGIMES: [(&str, Regime); 11] = [
     ("left turns", |w, _, t| w.yaw > 0.5 * t.yaw),
     ("right turns", |w, _, t| w.yaw < -0.5 * t.yaw),
     ("turns to both sides", |w, _, t| w.yaw.abs() > 0.5 * t.yaw),
@@ -162,13 +186,22 @@ const REGIMES: [(&str, Regime); 8] = [
     ("slow driving", |w, _, t| w.speed < 0.85 * t.speed),
     ("speeding up", |w, last, t| w.speed - last.speed > 0.08 * t.speed),
     ("slowing down", |w, last, t| w.speed - last.speed < -0.08 * t.speed),
+    ("high lateral load", |w, _, t| w.load().abs() > 1.3 * t.load),
+    ("tight curves", |w, _, t| w.curve(t.speed).abs() > 1.3 * t.curve),
+    ("entering and leaving curves", |w, last, t| (w.curve(t.speed) - last.curve(t.speed)).abs() > 0.5 * t.curve),
 ];
 
 /// The regime in which a constraint is violated most, when one stands out.
 fn regime(v: &Violation, c: usize) -> &'static str {
     let n = v.windows.len() as f64;
     let rms = |f: &dyn Fn(&Window) -> f64| (v.windows.iter().map(f).sum::<f64>() / n).sqrt();
-    let typical = Typical { speed: rms(&|w| w.speed.powi(2)), yaw: rms(&|w| w.yaw.powi(2)) };
+    let speed = rms(&|w| w.speed.powi(2));
+    let typical = Typical {
+        speed,
+        yaw: rms(&|w| w.yaw.powi(2)),
+        load: rms(&|w| w.load().powi(2)),
+        curve: rms(&|w| w.curve(speed).powi(2)),
+    };
     let mean = rms(&|w| w.rates[c].powi(2)).powi(2);
     let mut best = ("the whole run", 1.4);
     for (name, holds) in REGIMES {

@@ -36,6 +36,7 @@ pub mod picture;
 pub mod problem;
 pub mod record;
 pub mod relatives;
+pub mod remaining;
 pub mod report;
 pub mod screen;
 mod selection;

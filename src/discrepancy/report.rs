@@ -18,6 +18,9 @@ pub struct Report {
     pub unnamed: Vec<Unnamed>,
     /// Where model and measurement disagree before anything is added.
     pub disagreement: Vec<Disagreement>,
+    /// What the last model leaves of each constraint.
+    #[serde(default)]
+    pub remaining: Option<Remaining>,
     /// Error of prediction over horizons, before and after.
     pub gap: Vec<Gap>,
     /// What to drive next, when the data cannot tell.
@@ -51,6 +54,9 @@ pub enum Verdict {
 pub struct Named {
     /// Its id in the library.
     pub id: String,
+    /// What the vehicle or its log really does, in words.
+    #[serde(default)]
+    pub says: String,
     /// Where it acts.
     #[serde(rename = "where")]
     pub place: String,
@@ -124,6 +130,37 @@ pub struct Disagreement {
     pub regime: String,
     /// Share of the whole disagreement that lies here.
     pub share_of_gap: f64,
+}
+
+/// What the last model leaves, on the fitted data.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Remaining {
+    /// Standard deviation of a measured coordinate, m.
+    pub position_noise: f64,
+    /// Standard deviation of a measured heading, rad.
+    pub heading_noise: f64,
+    /// How many rows in a row the noise is alike: 1 where it is white.
+    pub rows_alike: f64,
+    /// How many windows in a row what no effect explains is alike: 1 where it is white or nothing.
+    pub windows_alike: f64,
+    /// Constraint by constraint.
+    pub constraints: Vec<RemainingConstraint>,
+}
+
+/// What remains of one constraint.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RemainingConstraint {
+    /// The constraint.
+    #[serde(rename = "where")]
+    pub place: String,
+    /// Unit of the violated rate.
+    pub unit: String,
+    /// Root mean square of the violated rate over windows of a second.
+    pub rms: f64,
+    /// What noise alone makes of it.
+    pub noise: f64,
+    /// Probability of so much unexplained motion by chance.
+    pub p_value: f64,
 }
 
 /// RMS error of prediction over one horizon.

@@ -154,6 +154,7 @@ pub fn report() -> Report {
         effects: vec![cornering_creep()],
         unnamed: vec![],
         disagreement: vec![disagreement("eight-fast.csv", 0.61), disagreement("eight-slow.csv", 0.24)],
+        remaining: Some(remaining()),
         gap: vec![
             gap(1.0, [0.0515, 0.0057, 0.0051]),
             gap(5.0, [0.2395, 0.0097, 0.0087]),
@@ -174,6 +175,7 @@ fn cornering_creep() -> Named {
     let estimate = Estimate { value: 0.10938, std: Some(0.00213), unit: "s".into() };
     Named {
         id: "cornering-creep".into(),
+        says: "a viscous contact holds the vehicle sideways, so it slides outwards in turns".into(),
         place: "traverse constraint".into(),
         parameters: BTreeMap::from([("mass_over_bT".to_string(), estimate)]),
         evidence: Evidence { delta_bic: 8120.0, p_value: 1e-12 },
@@ -185,6 +187,25 @@ fn cornering_creep() -> Named {
 fn disagreement(run: &str, share_of_gap: f64) -> Disagreement {
     let [run, place, regime] = [run, "traverse constraint", "sharp left curve, 0.75 rad/s"].map(String::from);
     Disagreement { run, place, from: 7.5, to: 12.5, regime, share_of_gap }
+}
+
+fn remaining() -> Remaining {
+    let of = |(place, unit): (&str, &str), rms, noise, p_value| RemainingConstraint {
+        place: place.into(),
+        unit: unit.into(),
+        rms,
+        noise,
+        p_value,
+    };
+    let rotation = of(("rotation constraint", "m/s"), 0.00212, 0.00208, 0.31);
+    let traverse = of(("traverse constraint", "m/s"), 0.00243, 0.00239, 0.5);
+    Remaining {
+        position_noise: 0.002,
+        heading_noise: 0.0021,
+        rows_alike: 1.0,
+        windows_alike: 1.0,
+        constraints: vec![rotation, traverse],
+    }
 }
 
 fn data() -> DataSummary {
@@ -211,6 +232,7 @@ pub fn bare(verdict: Verdict) -> Report {
         summary: String::new(),
         effects: vec![],
         disagreement: vec![],
+        remaining: None,
         gap: vec![],
         next_experiment: None,
         steps: vec![],

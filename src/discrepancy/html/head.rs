@@ -96,7 +96,11 @@ fn one_line(effect: &Named) -> Element {
         .iter()
         .map(|(name, e)| format!("{name} = {} {}", with_error(e.value, e.std), e.unit).trim_end().to_string())
         .collect();
-    let line = Element::new("li").child(holding("strong", &effect.id)).text(format!(" {}", values.join(", ")));
+    let line = Element::new("li").child(holding("strong", &effect.id));
+    let line = match effect.says.is_empty() {
+        true => line.text(format!(" {}", values.join(", "))),
+        false => line.text(format!(": {}; {}", effect.says, values.join(", "))),
+    };
     let rivals: Vec<_> = effect.indistinguishable_from.iter().map(|r| format!("{} ({})", r.id, why(r))).collect();
     if rivals.is_empty() {
         return line;

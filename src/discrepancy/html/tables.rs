@@ -15,7 +15,10 @@ pub fn all(report: &Report, pictures: &Pictures) -> Vec<Element> {
             [effects(report), unnamed(report), steps(report), equations(pictures)].into_iter().flatten().collect(),
         ),
         section("Gap", gaps(report)),
-        section("Where model and measurement disagree", disagreement(report).into_iter().collect()),
+        section(
+            "Where model and measurement disagree",
+            [disagreement(report), remaining(report)].into_iter().flatten().collect(),
+        ),
         section("Data", data(report)),
         section("Provenance", provenance(report)),
     ];
@@ -110,6 +113,23 @@ fn disagreement(report: &Report) -> Option<Element> {
     };
     let headings = ["run", "constraint", "#time, s", "what the vehicle did", "#share of the disagreement"];
     table("Before anything is added", &headings, report.disagreement.iter().map(row).collect())
+}
+
+fn remaining(report: &Report) -> Option<Element> {
+    let left = report.remaining.as_ref()?;
+    let row = |c: &crate::discrepancy::report::RemainingConstraint| {
+        let (factor, unit) = prefixed(c.rms.max(c.noise), &c.unit);
+        let number = |x: f64| Cell::Number(format!("{} {unit}", significant(x * factor, 3)));
+        vec![Cell::text(&c.place), number(c.rms), number(c.noise), Cell::Number(probability(c.p_value))]
+    };
+    let white = |n: f64| if n > 1.0 { format!("alike over {}", significant(n, 2)) } else { "white".into() };
+    let caption = format!(
+        "After all that is added; noise {} from row to row, the rest {} from window to window",
+        white(left.rows_alike),
+        white(left.windows_alike)
+    );
+    let headings = ["constraint", "#violated rate, RMS", "#noise alone gives", "#p of the rest by chance"];
+    table(&caption, &headings, left.constraints.iter().map(row).collect())
 }
 
 fn data(report: &Report) -> Vec<Element> {

@@ -1,0 +1,31 @@
+//! What the last model leaves: constraint by constraint, against the noise, and whether it is white.
+
+use super::evidence::tail;
+use super::fit::Fit;
+use super::locate::{CONSTRAINTS, Violation};
+use super::report::{Remaining, RemainingConstraint};
+
+/// What a fit leaves of every constraint on the data it was fitted to.
+///
+/// | symbol | meaning |
+/// |---|---|
+/// | RMS, noise | the violated rate over windows, and what smoothing noise alone makes of it |
+/// | p | probability of so much unexplained motion by chance: half of χ²₁, for a variance is never negative |
+/// | rows, windows alike | integrated correlations, see [`super::whiteness`]: 1 where noise and jumps are white |
+pub fn remaining(fit: &Fit, after: &[Violation]) -> Remaining {
+    let noise = fit.variances.noise.map(f64::sqrt);
+    let constraints = CONSTRAINTS.iter().enumerate().filter_map(|(c, (place, unit))| {
+        let (rms, noise) = Violation::rms(after, c)?;
+        // Half of the weight lies on zero.
+        let gain = fit.unexplained[c] / fit.dependence();
+        let p_value = if gain > 0.0 { 0.5 * tail(gain, 1) } else { 1.0 };
+        Some(RemainingConstraint { place: (*place).into(), unit: (*unit).into(), rms, noise, p_value })
+    });
+    Remaining {
+        position_noise: noise[0],
+        heading_noise: noise[1],
+        rows_alike: fit.colour,
+        windows_alike: fit.correlation,
+        constraints: constraints.collect(),
+    }
+}

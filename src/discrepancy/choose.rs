@@ -1,5 +1,6 @@
 //! Which effects are missing: candidates ranked by evidence on the fitting data alone.
 
+use super::bootstrap;
 use super::evidence::tail;
 use super::fit::Fit;
 use super::problem::Problem;
@@ -13,6 +14,11 @@ pub use super::selection::Scored;
 
 /// A rival whose evidence is this close to the chosen effect's is not told from it.
 const CLOSE: f64 = 6.0;
+
+/// A gain so large that the exact law of chance gains does not matter.
+const BEYOND_DOUBT: f64 = 60.0;
+/// Data sets drawn for the law of chance gains.
+const DRAWS: usize = 99;
 
 /// An effect that was chosen.
 #[derive(Clone, Debug)]
@@ -86,9 +92,19 @@ impl Selection<'_> {
             let gain = (smaller.deviance - fit.deviance).max(0.0);
             let rivals = self.rivals(fit, &applied)?;
             let delta_bic = worth(fit, &smaller, n);
-            found.push(Chosen { applied, std, delta_bic, p_value: tail(gain / fit.dependence(), k), rivals });
+            let p_value = self.p_value(&smaller, &applied, gain / fit.dependence())?;
+            found.push(Chosen { applied, std, delta_bic, p_value, rivals });
         }
         Ok(found)
+    }
+
+    /// Probability of such a gain by chance; where χ² does not hold, from data drawn without the effect.
+    fn p_value(&self, without: &Fit, applied: &Applied, gain: f64) -> Result<f64> {
+        let k = applied.values.len();
+        if bootstrap::is_regular(applied) || gain > BEYOND_DOUBT {
+            return Ok(tail(gain, k));
+        }
+        Ok(self.problem.chance_gains(without, applied, DRAWS, 0)?.p_value(gain))
     }
 
     /// Effects that explain the data as well in the place of a chosen one.

@@ -13,6 +13,7 @@
 //! alone. q and σ are estimated with the parameters, so noise, unexplained motion and effects are told apart.
 
 pub mod angle;
+pub mod bootstrap;
 mod bounds;
 pub mod carry;
 pub mod chain;

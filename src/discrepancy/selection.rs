@@ -119,7 +119,10 @@ impl Selection<'_> {
     fn next(&self, base: &Fit, ranked: Ranked) -> Result<Option<(String, Fit)>> {
         let fitted = ranked.single.into_iter().filter_map(|(s, fit)| Some((s, fit?)));
         let bar = |s: &Scored| if is_term(&s.applied) { 2.0 * self.margin() } else { self.margin() };
-        let good = fitted.filter(|(s, fit)| s.delta_bic > bar(s) && !vanishes(&s.applied) && repeats(fit, &s.applied));
+        // A gain must be large, and large still when what hangs together counts once.
+        let independent = |fit: &Fit| worth(fit, base, base.sample_size.max(fit.sample_size)) > self.margin();
+        let counts = |s: &Scored, fit: &Fit| s.delta_bic > bar(s) && independent(fit);
+        let good = fitted.filter(|(s, fit)| counts(s, fit) && !vanishes(&s.applied) && repeats(fit, &s.applied));
         let singles: Vec<(String, Fit)> = good.map(|(s, fit)| (s.applied.label(), fit)).collect();
         let pair = self.pair(base, &ranked.pairs, singles.first().map(|(_, f)| f))?;
         for (added, fit) in pair.into_iter().chain(singles) {
@@ -184,8 +187,7 @@ impl Selection<'_> {
             let n = base.sample_size.max(full.as_ref().map_or(0.0, |f| f.sample_size));
             let deviance = full.as_ref().or(fit.as_ref()).map_or(promise.deviance, |f| f.deviance);
             let k = promise.applied.values.len() as f64;
-            let dependence = full.as_ref().map_or(1.0, Fit::dependence);
-            let delta_bic = (base.deviance - deviance) / dependence - k * n.ln();
+            let delta_bic = base.deviance - deviance - k * n.ln();
             let fitted = full.as_ref().or(fit.as_ref()).and_then(|f| find(&f.model, &promise.applied));
             let applied = fitted.unwrap_or(promise.applied);
             Ok((Scored { applied, std: promise.std, delta_bic }, full))

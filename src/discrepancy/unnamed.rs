@@ -3,7 +3,7 @@
 use super::fit::Fit;
 use super::locate::Violation;
 use super::picture;
-use super::selection::{Grown, Selection, worth};
+use super::selection::{Grown, Selection, bic, worth};
 use super::whiteness::NOTICEABLE;
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
@@ -73,7 +73,8 @@ pub(super) fn search(
         return Ok(None);
     }
     let n = named.fit.sample_size.max(found.fit.sample_size);
-    let better = worth(&found.fit, &named.fit, n) > 2.0 * wider.margin();
+    let better = bic(&found.fit, n) + 2.0 * wider.margin() < bic(&named.fit, n)
+        && worth(&found.fit, &named.fit, n) > wider.margin();
     let predicts = selection.problem.predicts_better(&found.fit, &named.fit)?;
     found.steps = [&named.steps[..], &found.steps].concat();
     found.candidates.clone_from(&named.candidates);

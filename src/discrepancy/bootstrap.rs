@@ -1,0 +1,152 @@
+//! How much an effect seems to gain where it is not there, for effects of which χ² does not hold.
+//!
+//! Twice the gain of log likelihood of k parameters is χ²ₖ by chance, unless a parameter cannot change its sign (then
+//! half of the chance gains are zero) or the effect's other parameters say nothing where it vanishes (then the best of
+//! many is taken and gains are larger). Both are asked of data drawn from the model without the effect.
+
+use super::carry;
+use super::chain::Variances;
+use super::evidence::tail;
+use super::fit::{Effort, Fit};
+use super::problem::Problem;
+use super::record::Channel;
+use super::windows::Starts;
+use crate::effects::Applied;
+use crate::error::Result;
+use crate::model::{Equations, Model};
+use crate::motion::{Arc, Stepper};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::StandardNormal;
+use rayon::prelude::*;
+
+/// Gains smaller than this are none.
+const NONE: f64 = 0.02;
+const EFFORT: Effort = Effort { passes: 12, enough: 1e-4, variances: false };
+
+/// What chance gains look like.
+#[derive(Clone, Debug)]
+pub struct ChanceGains {
+    /// Number of parameters.
+    k: usize,
+    /// The gains, one for each draw.
+    pub gains: Vec<f64>,
+}
+
+impl ChanceGains {
+    /// Share of draws with any gain at all: one half at an edge.
+    pub fn share(&self) -> f64 {
+        self.some().count() as f64 / self.gains.len().max(1) as f64
+    }
+
+    /// Mean of the gains that are not zero, over that of χ²ₖ: one where χ² holds.
+    pub fn scale(&self) -> f64 {
+        let count = self.some().count();
+        if count == 0 { 1.0 } else { self.some().sum::<f64>() / (count * self.k) as f64 }
+    }
+
+    fn some(&self) -> impl Iterator<Item = f64> + '_ {
+        self.gains.iter().copied().filter(|g| *g > NONE)
+    }
+
+    /// Probability of at least such a gain by chance: counted among the draws, and beyond the largest by χ² of the
+    /// share and scale that the draws show.
+    pub fn p_value(&self, gain: f64) -> f64 {
+        let reached = self.gains.iter().filter(|g| **g >= gain).count();
+        let rarest = 1.0 / (self.gains.len() + 1) as f64;
+        match reached {
+            0 => (self.share() * tail(gain / self.scale(), self.k)).min(rarest),
+            n => (n + 1) as f64 * rarest,
+        }
+    }
+}
+
+/// Whether χ² holds for an effect: no parameter is at an edge where it is neutral, or loses its meaning there.
+pub fn is_regular(effect: &Applied) -> bool {
+    effect.effect.parameters.values().all(|p| !p.positive && !p.periodic)
+}
+
+impl Problem {
+    /// What an effect gains on so many data sets drawn from a fit without it.
+    ///
+    /// # Errors
+    /// When the model's formulas are malformed.
+    pub fn chance_gains(&self, without: &Fit, effect: &Applied, draws: usize, seed: u64) -> Result<ChanceGains> {
+        let equations = without.model.equations(&[])?;
+        let one = |i: usize| -> Result<Option<f64>> {
+            let mut random = ChaCha8Rng::seed_from_u64(seed);
+            random.set_stream(i as u64);
+            let Some((drawn, starts)) = self.drawn(&equations, without, &mut random) else { return Ok(None) };
+            drawn.gain(&without.model, effect, &starts, &without.variances)
+        };
+        let gains: Vec<Option<f64>> = (0..draws).into_par_iter().map(one).collect::<Result<_>>()?;
+        Ok(ChanceGains { k: effect.values.len(), gains: gains.into_iter().flatten().collect() })
+    }
+
+    /// By how much an effect improves the deviance, from wherever a fit of it may begin.
+    fn gain(&self, model: &Model, effect: &Applied, starts: &Starts, v: &Variances) -> Result<Option<f64>> {
+        let Some(bare) = self.fit(model, starts, v, EFFORT)? else { return Ok(None) };
+        let begin = effect.effect.starts().into_iter().chain([effect.values.clone()]);
+        let mut best: f64 = 0.0;
+        for values in begin {
+            let with = model.clone().with_effect(Applied::new(&effect.effect, effect.trailer, values).freed());
+            let Some(fit) = self.fit(&with, &bare.starts, v, EFFORT)? else { continue };
+            // What the poses alone gain on the way is not the effect's.
+            let again = self.fit(model, &fit.starts, v, EFFORT)?;
+            let least = again.map_or(bare.deviance, |a| a.deviance.min(bare.deviance));
+            best = best.max(least - fit.deviance);
+        }
+        Ok(Some(best))
+    }
+
+    /// Measurements as a model with its jumps and its noise would give them, and the poses at the windows' starts.
+    fn drawn(&self, equations: &Equations, fit: &Fit, random: &mut ChaCha8Rng) -> Option<(Problem, Starts)> {
+        let mut drawn = self.clone();
+        let mut starts = Vec::with_capacity(self.plan.len());
+        let v = &fit.variances;
+        for (segment, poses) in self.plan.iter().zip(&fit.starts) {
+            let record = &mut drawn.records[segment.record];
+            let signals = record.signals.clone();
+            let mut stepper = Stepper::new(equations, &signals, &[]);
+            let first = segment.windows[0].start;
+            let hidden = carry::before(equations, &[], &mut stepper, record, first, &poses[0]);
+            let mut arc = Arc { z: [&poses[0][..], &hidden.z].concat(), s: vec![] };
+            let mut of_segment = Vec::with_capacity(poses.len());
+            for (k, rows) in segment.windows.iter().enumerate() {
+                of_segment.push(arc.z[..equations.visible].to_vec());
+                for i in rows.clone() {
+                    let y = stepper.outputs(&arc.z);
+                    for (c, channel) in record.channels().into_iter().enumerate() {
+                        record.columns[c][i] = y[record.output_of(c)] + noise(v, channel) * normal(random);
+                    }
+                    if i + 1 < record.time.len() {
+                        stepper.advance(&mut arc, record.time[i], record.time[i + 1]);
+                    }
+                }
+                if k + 1 < segment.windows.len() {
+                    let duration = record.time[rows.end] - record.time[rows.start];
+                    jump(&mut arc.z[..equations.visible], v, duration, random);
+                }
+            }
+            starts.push(of_segment);
+        }
+        drawn.records.iter().flat_map(|r| &r.columns).flatten().all(|x| x.is_finite()).then_some((drawn, starts))
+    }
+}
+
+fn noise(v: &Variances, channel: Channel) -> f64 {
+    v.noise[channel as usize].sqrt()
+}
+
+/// Moves a pose by what no effect explains: along the body, across it, in yaw, and the trailers'.
+fn jump(pose: &mut [f64], v: &Variances, duration: f64, random: &mut ChaCha8Rng) {
+    let by: Vec<f64> = (0..pose.len()).map(|c| (v.jump[c.min(3)] * duration).sqrt() * normal(random)).collect();
+    let (sin, cos) = pose[2].sin_cos();
+    pose[0] += cos * by[0] - sin * by[1];
+    pose[1] += sin * by[0] + cos * by[1];
+    pose.iter_mut().zip(&by).skip(2).for_each(|(z, by)| *z += by);
+}
+
+fn normal(random: &mut ChaCha8Rng) -> f64 {
+    random.sample(StandardNormal)
+}

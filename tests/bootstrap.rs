@@ -53,7 +53,7 @@ fn where_a_parameter_cannot_change_its_sign_some_gains_are_none() {
     let none = |g: &ChanceGains| g.gains.iter().filter(|g| **g == 0.0).count();
     let (held, regular) = (chance_gains("cornering-creep"), chance_gains("yaw-rate-bias"));
     // Not half of them: of a lag the part that comes late may help where the part in time is of the wrong sign.
-    assert!(none(&held) >= 2 && none(&regular) == 0, "{held:?}");
+    assert!(none(&held) > 0 && none(&regular) == 0, "{held:?}");
 }
 
 #[test]

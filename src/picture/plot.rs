@@ -202,7 +202,7 @@ pub fn frame_svg(size: Size, id: &str, title: &str, description: &str) -> Elemen
 }
 
 /// A marker at a point in pixels.
-fn mark(class: &str, marker: Marker, [x, y]: [f64; 2]) -> Element {
+pub fn mark(class: &str, marker: Marker, [x, y]: [f64; 2]) -> Element {
     let circle = |r: f64, class: &str| {
         Element::new("circle").with("class", format!("mark {class}")).number("cx", x).number("cy", y).number("r", r)
     };

@@ -17,7 +17,7 @@ pub const FIGURE: Figure = Figure {
     draw,
 };
 
-const PANEL: Size = Size { width: 198.0, height: 250.0, margins: [38.0, 8.0, 44.0, 42.0] };
+const PANEL: Size = Size { width: 198.0, height: 238.0, margins: [38.0, 8.0, 32.0, 42.0] };
 /// Lines of constant e_rc and of constant e_tc.
 const ROTATION: [f64; 7] = [-0.5, 0.0, 0.5, 1.0, 1.5, 2.0, 2.5];
 const TRAVERSE: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
@@ -64,7 +64,7 @@ fn draw(options: &Options) -> Result<Drawing> {
     elements.extend(words(&mut map, here));
     let description = "Left the coefficients, right the velocities they give. The line e_rc = 1 on the left becomes one \
                        point on the right; the line v_l = 0 on the right is reached only in that point.";
-    let svg = page::page(FIGURE.name, FIGURE.title, description, 314.0, elements);
+    let svg = page::page(FIGURE.name, FIGURE.title, description, 304.0, elements);
     Ok(Drawing { svg, tables: vec![data], text: String::new() })
 }
 
@@ -76,7 +76,7 @@ fn grid() -> Vec<(&'static str, Vec<[f64; 2]>)> {
 }
 
 fn coefficients(map: &mut Map, here: [f64; 2]) -> Element {
-    let (x, y) = (Axis::linear("", "", [-0.65, 2.65]), Axis::linear("", "", [-1.15, 1.15]));
+    let (x, y) = (Axis::linear("", "", [-0.65, 2.65]), Axis::linear("", "", [-1.15, 1.3]));
     let mut panel = plane::graph(PANEL, x, y);
     for (class, line) in grid() {
         panel.series(class, &line);
@@ -85,6 +85,8 @@ fn coefficients(map: &mut Map, here: [f64; 2]) -> Element {
     panel.markers("crept", Marker::Square, &[[1.0, 0.0]]);
     panel.markers("start", Marker::Circle, &[here]);
     debug_assert!(map.at(1.0, 0.5)[2].abs() < 1e-12);
+    let top = panel.place([1.0, 1.0]);
+    panel.note(maths("crept", [top[0], top[1] - 6.0], "middle", "$e_{rc}$ = 1"));
     captions(&mut panel, "coefficients", ["$e_{rc}$", "$e_{tc}$"]);
     panel.finish("coefficients", "Coefficients", "The grid of coefficients.")
 }
@@ -118,9 +120,9 @@ fn words(map: &mut Map, [e_rc, e_tc]: [f64; 2]) -> Vec<Element> {
         minus(e_rc, 2), minus(e_tc, 2), minus(v_l, 2), minus(v_t, 2), minus(det, 2)
     );
     let lines = [
-        "One-to-one off $e_{rc}$ = 1: the orange line becomes the point 0.".to_string(),
-        "Side slide ($v_{l}$ = 0, dotted) has no coefficients.".into(),
+        "One-to-one but for $e_{rc}$ = 1: the dashed line becomes the point 0.".to_string(),
+        "Side slide, $v_{l}$ = 0 on the right, has no coefficients.".into(),
         here,
     ];
-    lines.iter().zip([270.0, 287.0, 304.0]).map(|(text, y)| maths("", [10.0, y], "start", text)).collect()
+    lines.iter().zip([260.0, 277.0, 294.0]).map(|(text, y)| maths("", [10.0, y], "start", text)).collect()
 }

@@ -17,7 +17,7 @@ const INPUTS: [(&str, f64); 2] = [("wheel_rate", 20.0), ("steering_angle", -0.3)
 const TYRE: f64 = 0.2;
 const CONTACT: [f64; 2] = [0.15, 0.075];
 /// 1/k_g, the relaxation length (E13), m.
-const RELAXATION: f64 = 0.3;
+const RELAXATION: f64 = 0.2;
 
 /// The contact is held by the ground, the rim drifts away sideways: x_c = −θ_c/k_g in a steady turn.
 fn draw(options: &Options) -> Result<Drawing> {
@@ -61,10 +61,10 @@ fn whole(rig: &Rig, wheel: &RigWheel) -> Result<Vec<crate::picture::svg::Element
     let middle = turned([1.3, 0.0], place, heading);
     let velocity = rig.velocity(middle)?;
     s.arrow("velocity", middle, [0, 1].map(|i| middle[i] + 0.17 * velocity[i]));
-    s.text("soft", place, [0.0, 50.0], "middle", "right turn");
+    s.text("soft", place, [0.0, 50.0], "middle", "a turn to the right");
     // From the ring to the enlargement.
     let ring = s.at(polar(wheel.at, 0.55, 0.0));
-    s.add(crate::picture::svg::line("line help", ring, [180.0, ring[1]]));
+    s.add(crate::picture::svg::line("line help", ring, [254.0, ring[1]]));
     Ok(s.finish())
 }
 

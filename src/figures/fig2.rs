@@ -5,7 +5,7 @@ use crate::error::Result;
 use crate::motion::{assembled, driven};
 use crate::picture::sketch::{Sketch, polar};
 use crate::picture::svg::Element;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 
 /// The figure.
 pub const FIGURE: Figure =
@@ -43,7 +43,7 @@ fn draw(options: &Options) -> Result<Drawing> {
         ("mean v_A", d - RADIUS * TURNED, "m/s"),
     ];
     Ok(Drawing {
-        svg: page::page(FIGURE.name, FIGURE.title, description, 262.0, picture(&rolled)),
+        svg: page::page(FIGURE.name, FIGURE.title, description, 276.0, picture(&rolled)),
         tables: vec![Data::quantities(&quantities)],
         text: String::new(),
     })
@@ -52,8 +52,8 @@ fn draw(options: &Options) -> Result<Drawing> {
 fn picture(rolled: &Rolled) -> Vec<Element> {
     let (r, d) = (RADIUS, rolled.d);
     // Both disks and the arrow of the speed fit between the margins whatever the creep.
-    let scale = (372.0 / (d + 2.0 * r + 0.16)).min(265.0);
-    let mut s = Sketch::new([14.0 + r * scale, 214.0], scale);
+    let scale = (372.0 / (d + 2.0 * r + 0.1)).min(296.0);
+    let mut s = Sketch::new([200.0 - 0.5 * scale * (d + 0.06), 216.0], scale);
     let (c, c2) = ([0.0, r], [d, r]);
     s.ground([-r, d + r + 0.1], 0.0);
     s.circle("ghost", c, r);
@@ -85,8 +85,7 @@ fn contact_velocity(s: &mut Sketch, rolled: &Rolled) {
     let v_a = rolled.d - RADIUS * rolled.theta;
     let up = 0.03;
     s.arrow("force", [rolled.d, up], [rolled.d + v_a, up]);
-    let anchor = if v_a < 0.0 { "end" } else { "start" };
-    s.text("force", [rolled.d + v_a, up], [if v_a < 0.0 { -4.0 } else { 4.0 }, 3.0], anchor, "$v_{A}$");
+    s.text("force", [rolled.d + 0.5 * v_a, up], [0.0, -7.0], "middle", "$v_{A}$");
 }
 
 fn names(s: &mut Sketch, rolled: &Rolled, [c, c2, a_1, a_2]: [[f64; 2]; 4]) {
@@ -95,10 +94,13 @@ fn names(s: &mut Sketch, rolled: &Rolled, [c, c2, a_1, a_2]: [[f64; 2]; 4]) {
     s.text("", c, [-6.0, -6.0], "end", "$C$");
     s.text("", c2, [6.0, -7.0], "start", "$C'$");
     s.text("", [0.0, 0.0], [6.0, -6.0], "start", "$A$");
-    s.text("", [rolled.d, 0.0], [6.0, -7.0], "start", "$A'$");
+    let side = if rolled.e < 0.0 { -1.0 } else { 1.0 };
+    s.text("", [rolled.d, 0.0], [6.0 * side, -7.0], if side < 0.0 { "end" } else { "start" }, "$A'$");
+    // Beyond the ends of the arc of θ_rc, outside of the rim.
     for (p, name, angle) in [(a_1, "$A_{1}$", rolled.theta_1), (a_2, "$A_{2}$", rolled.theta)] {
         s.dot(p);
-        let inwards = polar(p, -15.0 / s.scale(), PI + FRAC_PI_2 - angle);
-        s.text("", inwards, [0.0, if rolled.e * (rolled.theta - angle) > 0.0 { 10.0 } else { -1.0 }], "middle", name);
+        let beyond = if (angle - rolled.theta) * side < 0.0 { -0.2 } else { 0.2 };
+        let place = polar(c2, RADIUS + 13.0 / s.scale(), -FRAC_PI_2 - angle - side * beyond);
+        s.text("", place, [0.0, 4.0], "middle", name);
     }
 }

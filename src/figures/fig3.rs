@@ -36,7 +36,7 @@ fn draw(options: &Options) -> Result<Drawing> {
         }
     }
     Ok(Drawing {
-        svg: page::page(FIGURE.name, FIGURE.title, description, 246.0, picture(e, lag)),
+        svg: page::page(FIGURE.name, FIGURE.title, description, 258.0, picture(e, lag)),
         tables: vec![lines],
         text: String::new(),
     })
@@ -52,7 +52,7 @@ fn bend(lag: f64, share: f64) -> f64 {
 }
 
 fn picture(e: f64, lag: f64) -> Vec<Element> {
-    let mut s = Sketch::new([122.0, 118.0], 300.0);
+    let mut s = Sketch::new([122.0, 132.0], 300.0);
     let (c, r) = ([0.0, 0.0], RADIUS);
     s.ground([-1.2 * r, 1.3 * r], -r);
     s.circle("disk", c, r);
@@ -70,7 +70,7 @@ fn picture(e: f64, lag: f64) -> Vec<Element> {
     s.arrow("force", [0.0, -r - 0.035], [0.34 * r * sign, -r - 0.035]);
     s.text("force", [0.34 * r * sign, -r - 0.035], [5.0 * sign, 5.0], if sign > 0.0 { "start" } else { "end" }, "$f_{R}$");
     s.turn("ink", c, r + 0.04, [FRAC_PI_2 + 0.45, FRAC_PI_2 - 0.45]);
-    s.text("", [0.0, r], [-40.0, -4.0], "end", "$ω_{r}$");
+    s.text("", [0.0, r + 0.04], [0.0, -7.0], "middle", "$ω_{r}$");
     let mut out = s.finish();
     out.extend(words(e, lag));
     out

@@ -14,11 +14,13 @@ pub const FIGURE: Figure =
 
 /// v_l, m/s, and ω_z, rad/s: a turn to the right; the time from A to A', s; place and heading at A.
 const SPEED: f64 = 1.0;
-const TURN: f64 = -0.6;
+const TURN: f64 = -0.8;
 const TIME: f64 = 1.3;
 const START: [f64; 3] = [0.75, 0.5, 1.05];
+/// Length of the arrow of v_l, m.
+const TIP: f64 = 0.75;
 /// Length and half width of the body, m.
-const BODY: [f64; 2] = [0.62, 0.16];
+const BODY: [f64; 2] = [0.5, 0.13];
 
 /// The blade's direction constraint is that of the single wheel, whose motion is determined by v_l and ω_z.
 fn path(e: f64, times: &[f64]) -> Result<Vec<Vec<f64>>> {
@@ -49,11 +51,11 @@ fn picture(e: f64, crept: &[Vec<f64>]) -> Result<Vec<Element>> {
     let radius = SPEED / TURN.abs();
     let b = polar(a, radius, phi - FRAC_PI_2);
     let points: Vec<[f64; 2]> = crept.iter().map(|z| [z[0], z[1]]).collect();
-    let circle = crate::picture::sketch::arc(b, radius, [phi + FRAC_PI_2 + 0.25, -0.15]);
+    let circle = crate::picture::sketch::arc(b, radius, [phi + FRAC_PI_2 + 0.3, 0.75]);
     // The drawing is as large as its sheet lets it be, whatever the creep.
-    let [x, y] = plane::ranges(points.iter().chain(&circle).chain(&[[-0.05, -0.05], b]), 0.0);
-    let scale = (350.0 / (x[1] - x[0])).min(260.0 / (y[1] - y[0]));
-    let mut s = Sketch::new([20.0 - scale * x[0], 280.0 + scale * y[0]], scale);
+    let [x, y] = plane::ranges(points.iter().chain(&circle).chain(&[[-0.05, 0.0], [b[0] + 0.2, b[1] - 0.2], [0.0, 1.75]]), 0.0);
+    let scale = (356.0 / (x[1] - x[0])).min(262.0 / (y[1] - y[0]));
+    let mut s = Sketch::new([22.0 - scale * x[0], 280.0 + scale * y[0]], scale);
     axes(&mut s);
     s.line("ideal", &circle);
     s.line("help", &[a, b]);
@@ -62,13 +64,14 @@ fn picture(e: f64, crept: &[Vec<f64>]) -> Result<Vec<Element>> {
     blade(&mut s, a, phi, "body")?;
     blade(&mut s, [last[0], last[1]], last[2], "ghost")?;
     moving_axes(&mut s, a, phi);
-    let tip = 0.5;
+    let tip = TIP;
     s.arrow("velocity", a, polar(a, tip, phi));
     s.arrow("velocity", a, turned([0.0, tip * e], a, phi));
     s.arrow("force", a, turned([tip, tip * e], a, phi));
-    s.angle(a, 0.36 * scale, [phi, phi + creep], "$φ_{tc}$", 12.0);
-    s.line("help", &[a, [a[0] + 0.4, a[1]]]);
-    s.angle(a, 0.2 * scale, [0.0, phi], "$φ$", 9.0);
+    s.line("help", &[turned([tip, 0.0], a, phi), turned([tip, tip * e], a, phi), turned([0.0, tip * e], a, phi)]);
+    s.angle(a, 0.88 * scale, [phi, phi + creep], "$φ_{tc}$", 11.0);
+    s.line("help", &[a, [a[0] + 0.5, a[1]]]);
+    s.angle(a, 0.36 * scale, [0.0, phi], "$φ$", 9.0);
     names(&mut s, [a, b, [last[0], last[1]]], e);
     Ok(s.finish())
 }
@@ -82,9 +85,9 @@ fn axes(s: &mut Sketch) {
 }
 
 fn moving_axes(s: &mut Sketch, a: [f64; 2], phi: f64) {
-    s.line("help", &[a, polar(a, 0.95, phi)]);
+    s.line("help", &[a, polar(a, 1.2, phi)]);
     s.line("help", &[a, polar(a, 0.5, phi + FRAC_PI_2)]);
-    s.text("", polar(a, 0.95, phi), [4.0, -4.0], "middle", "$ξ$");
+    s.text("", polar(a, 1.2, phi), [8.0, 0.0], "middle", "$ξ$");
     s.text("", polar(a, 0.5, phi + FRAC_PI_2), [-6.0, -2.0], "middle", "$η$");
 }
 
@@ -107,14 +110,15 @@ fn names(s: &mut Sketch, [a, b, end]: [[f64; 2]; 3], e: f64) {
     s.dot(a);
     s.dot(b);
     s.dot(end);
-    s.text("", a, [10.0, 14.0], "start", "$A$ = $C$");
+    s.text("", a, [-4.0, 42.0], "start", "$A$ = $C$");
     s.text("", b, [6.0, 12.0], "start", "$B$");
-    s.text("", end, [0.0, -10.0], "middle", "$A'$");
-    s.text("velocity", polar(a, 0.5, phi), [8.0, 6.0], "start", "$v_{l}$");
-    let sideways = turned([0.0, 0.5 * e], a, phi);
-    s.text("velocity", sideways, [if e < 0.0 { 6.0 } else { -6.0 }, 12.0], if e < 0.0 { "start" } else { "end" }, "$v_{t}$");
+    s.text("", end, [-2.0, 32.0], "middle", "$A'$");
+    s.text("velocity", polar(a, TIP, phi), [8.0, 8.0], "start", "$v_{l}$");
+    let sideways = turned([0.0, TIP * e], a, phi);
+    s.text("velocity", sideways, [if e < 0.0 { 6.0 } else { -6.0 }, 10.0], if e < 0.0 { "start" } else { "end" }, "$v_{t}$");
+    s.text("force", turned([TIP, TIP * e], a, phi), [-6.0, -6.0], "end", "$v$");
     let middle = [0, 1].map(|i| 0.5 * (a[i] + b[i]));
-    s.text("", middle, [0.0, 18.0], "middle", "$v_{l}/ω_{z}$");
+    s.text("", middle, [-4.0, 22.0], "middle", "$v_{l}/ω_{z}$");
     s.turn("ink", b, 0.13, [2.6, 0.4]);
     s.text("", b, [18.0, -14.0], "start", "$ω_{z}$");
 }

@@ -82,7 +82,11 @@ fn torsion(angle: f64) -> Vec<Element> {
         let foot = polar(o, share, FRAC_PI_2 + angle);
         s.arrow("force", foot, [foot[0] + (0.17 - 0.3 * share) * sign, foot[1]]);
     }
-    s.text("force", polar(o, -0.3, FRAC_PI_2 + angle), [38.0 * sign, 14.0], "middle", "$f̄_{T}$");
+    // A bar over the letter, drawn: few fonts have it.
+    let foot = s.at(polar(o, -0.3, FRAC_PI_2 + angle));
+    let [x, y] = [foot[0] + 50.0 * sign, foot[1] + 18.0];
+    s.add(maths("force", [x, y], "start", "$f_{T}$"));
+    s.add(crate::picture::svg::line("line force bar", [x + 1.0, y - 12.0], [x + 7.0, y - 12.0]));
     s.dot(o);
     s.text("", o, [-14.0 * sign, 4.0], "middle", "$A$");
     s.text("", [0.0, 0.78], [0.0, -5.0], "middle", "$ξ$");

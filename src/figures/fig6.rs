@@ -1,6 +1,6 @@
 //! Fig. 6: the single wheel on the plane.
 
-use super::{Data, Drawing, Figure, Options, Rig, RigWheel, fixed, page};
+use super::{Data, Drawing, Figure, Options, Rig, RigWheel, fixed, page, plane};
 use crate::error::{Error, Result};
 use crate::motion::{assembled, driven};
 use crate::picture::sketch::{Sketch, polar, turned};
@@ -14,7 +14,7 @@ pub const FIGURE: Figure =
 /// Radius, m, wheel and yaw rate, rad/s, and the time shown, s.
 const RADIUS: f64 = 0.3;
 const RATES: [f64; 2] = [4.0, 0.5];
-const TIME: f64 = 1.5;
+const TIME: f64 = 1.4;
 /// Width of the wheel, m, and seconds of way that an arrow of a velocity shows.
 const WIDTH: f64 = 0.09;
 const SECONDS: f64 = 0.42;
@@ -47,13 +47,18 @@ fn draw(options: &Options) -> Result<Drawing> {
 
 /// The wheel from above, with the way it came.
 fn above(rig: &Rig, wheel: &RigWheel, crept: &[Vec<f64>], ideal: &[Vec<f64>]) -> Result<Vec<Element>> {
-    let mut s = Sketch::new([26.0, 262.0], 132.0);
     let points = |path: &[Vec<f64>]| path.iter().map(|z| [z[0], z[1]]).collect::<Vec<[f64; 2]>>();
     let (at, phi) = (wheel.at, wheel.heading);
-    s.arrow("measure", [0.0, 0.0], [2.6, 0.0]);
-    s.arrow("measure", [0.0, 0.0], [0.0, 1.75]);
-    s.text("", [2.6, 0.0], [4.0, 4.0], "start", "$x$");
-    s.text("", [0.0, 1.75], [0.0, -6.0], "middle", "$y$");
+    // As large as the wheel beside it lets it be, whatever the creep.
+    let tip = [0, 1].map(|i| at[i] + SECONDS * wheel.velocity[i]);
+    let [x, y] = plane::ranges(points(ideal).iter().chain(&points(crept)).chain(&[tip, polar(at, 0.66, phi)]), 0.0);
+    let scale = (222.0 / x[1]).min(226.0 / y[1]).min(122.0);
+    let mut s = Sketch::new([26.0, 266.0], scale);
+    let (right, top) = ([317.0 / scale, 0.0], [0.0, 222.0 / scale]);
+    s.arrow("measure", [0.0, 0.0], right);
+    s.arrow("measure", [0.0, 0.0], top);
+    s.text("", right, [4.0, 4.0], "start", "$x$");
+    s.text("", top, [0.0, -6.0], "middle", "$y$");
     s.text("", [0.0, 0.0], [-7.0, 12.0], "middle", "$O$");
     s.line("ideal", &points(ideal));
     s.line("kept", &points(crept));
@@ -62,15 +67,15 @@ fn above(rig: &Rig, wheel: &RigWheel, crept: &[Vec<f64>], ideal: &[Vec<f64>]) ->
     let radius = wheel.radius.unwrap_or(RADIUS);
     s.wheel("wheel", at, phi, [2.0 * radius, WIDTH]);
     s.line("help", &[at, [at[0] + 0.5, at[1]]]);
-    s.line("help", &[at, polar(at, 0.75, phi)]);
-    s.angle(at, 56.0, [0.0, phi], "$φ$", 9.0);
+    s.line("help", &[at, polar(at, 0.66, phi)]);
+    s.angle(at, 33.0, [0.0, phi], "$φ$", 9.0);
     let (v_l, v_t) = (rig.value("v_l")?, rig.value("v_t")?);
     let tip = |l: f64, t: f64| turned([SECONDS * l, SECONDS * t], at, phi);
     s.arrow("velocity", at, tip(v_l, 0.0));
     s.arrow("velocity", at, tip(0.0, v_t));
     s.arrow("force", at, [0, 1].map(|i| at[i] + SECONDS * wheel.velocity[i]));
     s.line("help", &[tip(v_l, 0.0), tip(v_l, v_t), tip(0.0, v_t)]);
-    s.text("velocity", tip(v_l, 0.0), [8.0, 8.0], "start", "$v_{l}$");
+    s.text("velocity", tip(v_l, 0.0), [8.0, 4.0], "start", "$v_{l}$");
     s.text("velocity", tip(0.0, v_t), [if v_t < 0.0 { 7.0 } else { -7.0 }, 2.0], if v_t < 0.0 { "start" } else { "end" }, "$v_{t}$");
     s.text("force", tip(v_l, v_t), [0.0, -7.0], "middle", "$v$");
     s.dot(at);
@@ -90,11 +95,12 @@ fn aside(rig: &Rig) -> Result<Vec<Element>> {
     s.turn("ink", c, r + 0.07, [FRAC_PI_2 + 0.6, FRAC_PI_2 - 0.6]);
     s.text("", [0.0, 2.0 * r], [0.0, -15.0], "middle", "$θ̇ = ω_{r}$");
     s.dot(c);
-    let scale = 0.35;
+    let scale = 0.3;
+    let magnified = 0.9;
     s.arrow("velocity", c, [scale * rig.value("v_l")?, r]);
     s.text("velocity", [scale * rig.value("v_l")?, r], [3.0, -6.0], "start", "$v_{l}$");
-    let v_a = scale * (rig.value("v_l")? - r * rig.value("theta'")?);
+    let v_a = magnified * (rig.value("v_l")? - r * rig.value("theta'")?);
     s.arrow("force", [0.0, 0.03], [v_a, 0.03]);
-    s.text("force", [v_a, 0.0], [if v_a < 0.0 { -3.0 } else { 3.0 }, -6.0], if v_a < 0.0 { "end" } else { "start" }, "$v_{A}$");
+    s.text("force", [0.5 * v_a, 0.0], [0.0, 21.0], "middle", "$v_{A}$");
     Ok(s.finish())
 }

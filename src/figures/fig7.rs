@@ -85,15 +85,16 @@ fn panel(case: &Case, ranges: [[f64; 2]; 2]) -> Element {
     for (class, path) in [("ideal", &case.ideal), ("crept", &case.plain), ("kept", &case.kept)] {
         panel.pieces(class, &[xy(path)], plane::MOST_POINTS);
     }
+    // Small marks on large ones: all three are seen where they end together.
     for (class, marker, path) in [
-        ("ideal", Marker::Ring, &case.ideal),
         ("crept", Marker::Square, &case.plain),
         ("kept", Marker::Circle, &case.kept),
+        ("ideal", Marker::Ring, &case.ideal),
     ] {
         panel.markers(class, marker, &xy(&path[path.len() - 1..]));
     }
     let [e_rc, e_tc] = case.e.map(|e| e.to_string().replace('-', "−"));
-    plane::name(&mut panel, PANEL, &format!("({})  $e_{{rc}}$ {e_rc}, $e_{{tc}}$ {e_tc}", case.name));
+    plane::name(&mut panel, PANEL, &format!("({}) $e_{{rc}}$ = {e_rc}, $e_{{tc}}$ = {e_tc}", case.name));
     let title = format!("Case ({})", case.name);
     panel.finish(&format!("case-{}", case.name), &title, "The three paths of this case.")
 }

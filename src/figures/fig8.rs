@@ -75,7 +75,7 @@ const ENTRIES: [Entry; 4] = [
         parameters: &[("wheel_radius", 0.32), ("wheelbase", 2.4)],
         inputs: &[("wheel_rate", 5.0), ("steering_angle", 0.4)],
         trailers: 3,
-        at: [282.0, 262.0],
+        at: [282.0, 296.0],
         scale: 29.0,
         heading: 0.45,
         body: [3.0, 0.5, 1.55],
@@ -97,10 +97,13 @@ fn draw(options: &Options) -> Result<Drawing> {
             data.row([entry.title.into(), w.name.clone()].into_iter().chain(cells).chain([angle]));
         }
     }
+    let shown = [e_rc, e_tc].map(|e| fixed(e, 2).replace('-', "−"));
+    let words = format!("Arrows: velocities of contacts, with $e_{{rc}}$ = {}, $e_{{tc}}$ = {}.", shown[0], shown[1]);
+    elements.push(maths("soft", [200.0, 358.0], "middle", &words));
     let description = "Four vehicles from above, wheels where their descriptions have them. An arrow is the velocity of a \
                        wheel's contact, off its heading by the creep.";
     Ok(Drawing {
-        svg: page::page(FIGURE.name, FIGURE.title, description, 394.0, elements),
+        svg: page::page(FIGURE.name, FIGURE.title, description, 368.0, elements),
         tables: vec![data],
         text: String::new(),
     })
@@ -145,7 +148,9 @@ impl Entry {
         let side = [2.0 * radius, WIDTH * radius];
         for wheel in &rig.wheels {
             let pair = self.pair(rig, wheel)?;
-            for w in if pair.is_empty() { vec![wheel.clone()] } else { pair } {
+            // An axle whose wheels are described has a direction of its own, and no wheel.
+            let alone = if wheel.radius.is_some() || wheel.steered { vec![wheel.clone()] } else { vec![] };
+            for w in if pair.is_empty() { alone } else { pair } {
                 s.wheel(if w.steered { "steered" } else { "wheel" }, w.at, w.heading, side);
             }
         }
@@ -174,9 +179,9 @@ impl Entry {
     /// The title and the count of coefficients.
     fn words(&self, model: &Model) -> Vec<Element> {
         let Signature { r, t } = Signature::of(&model.constraints());
-        let power = |letter: &str, n: usize| if n == 1 { letter.into() } else { format!("{letter}^{{{n}}}") };
-        let count = format!("$\u{200a}{}{}$", power("R", r), power("T", t));
-        let (x, y) = if self.trailers > 0 { (58.0, 216.0) } else { (self.at[0], 18.0) };
+        let power = |letter: &str, n: usize| if n == 1 { letter.into() } else { format!("{letter}$^{{{n}}}$") };
+        let count = format!("{}{}", power("R", r), power("T", t));
+        let (x, y) = if self.trailers > 0 { (90.0, 214.0) } else { (self.at[0], 18.0) };
         vec![maths("heading", [x.max(66.0), y], "middle", self.title), maths("", [x.max(66.0), y + 17.0], "middle", &count)]
     }
 }

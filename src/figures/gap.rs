@@ -19,7 +19,7 @@ pub const FIGURE: Figure = Figure {
     draw,
 };
 
-const PANEL: Size = Size { width: 396.0, height: 262.0, margins: [52.0, 104.0, 34.0, 42.0] };
+const PANEL: Size = Size { width: 396.0, height: 286.0, margins: [52.0, 108.0, 50.0, 42.0] };
 
 /// The files of the example `cornering`.
 const MODEL: &str = include_str!("../../examples/runs/cornering/model.toml");
@@ -50,11 +50,11 @@ fn draw(_: &Options) -> Result<Drawing> {
         data.row(row.map(|v| scientific(v, 3)));
     }
     let panel = gap_panel(&found.report, &found.pictures, PANEL, "gap-panel");
-    let mut elements: Vec<_> = panel.into_iter().map(|p| page::placed(p, [2.0, 24.0], PANEL)).collect();
-    elements.push(maths("heading", [10.0, 20.0], "start", &named(&found)));
+    let mut elements: Vec<_> = panel.into_iter().map(|p| page::placed(p, [2.0, 0.0], PANEL)).collect();
+    elements.push(maths("strong", [10.0, 300.0], "start", &named(&found)));
     let description = "Position error of prediction over the horizon on a run that was held out: the model as given, the \
                        patched model, and the floor that noise makes.";
-    let svg = page::page(FIGURE.name, FIGURE.title, description, 290.0, elements);
+    let svg = page::page(FIGURE.name, FIGURE.title, description, 310.0, elements);
     Ok(Drawing { svg, tables: vec![data], text: String::new() })
 }
 

@@ -7,7 +7,7 @@ use crate::motion::{Creep, assembled, driven};
 use crate::picture::axis::Axis;
 use crate::picture::maths::maths;
 use crate::picture::plot::{Marker, Size};
-use crate::picture::sketch::turned;
+use crate::picture::sketch::{rounded, turned};
 use crate::picture::svg::Element;
 
 /// The figure.
@@ -18,8 +18,8 @@ pub const FIGURE: Figure = Figure {
     draw,
 };
 
-const PATHS: Size = Size { width: 216.0, height: 262.0, margins: [32.0, 8.0, 36.0, 40.0] };
-const RADII: Size = Size { width: 180.0, height: 262.0, margins: [38.0, 10.0, 36.0, 40.0] };
+const PATHS: Size = Size { width: 396.0, height: 262.0, margins: [38.0, 10.0, 32.0, 40.0] };
+const RADII: Size = Size { width: 396.0, height: 170.0, margins: [38.0, 14.0, 32.0, 40.0] };
 /// A car with trailers hitched on the axles, m; it drives straight, then turns left by a smooth step of the steering.
 const CAR: [(&str, f64); 2] = [("wheel_radius", 0.3), ("wheelbase", 2.6)];
 const LENGTH: f64 = 2.8;
@@ -27,6 +27,10 @@ const TRAILERS: usize = 5;
 const INPUTS: [(&str, &str); 2] = [("wheel_rate", "8"), ("steering_angle", "0.15*(1 + tanh(2*(t - 5)))")];
 const TIME: f64 = 40.0;
 const STEPS: usize = 200;
+/// The step at which the train is shown; what comes after goes round in circles.
+const SHOWN: usize = 92;
+/// Width of the bodies, m.
+const WIDTH: f64 = 1.5;
 
 /// A train after the drive.
 struct Train {
@@ -34,7 +38,8 @@ struct Train {
     paths: Vec<Vec<[f64; 2]>>,
     /// Radius of each axle's circle at the end, m.
     radii: Vec<f64>,
-    last: Rig,
+    /// The train half way through the drive.
+    shown: Rig,
 }
 
 fn draw(options: &Options) -> Result<Drawing> {
@@ -42,8 +47,8 @@ fn draw(options: &Options) -> Result<Drawing> {
     let times: Vec<f64> = (0..=STEPS).map(|i| TIME * i as f64 / STEPS as f64).collect();
     let [ideal, crept] = [train(0.0, &times)?, train(e, &times)?];
     let mut elements = vec![
-        page::placed(above(&ideal, &crept), [0.0, 2.0], PATHS),
-        page::placed(radii(&ideal, &crept), [218.0, 2.0], RADII),
+        page::placed(above(&ideal, &crept), [2.0, 2.0], PATHS),
+        page::placed(radii(&ideal, &crept), [2.0, 262.0], RADII),
     ];
     let shown = format!("every axle of a trailer creeps, $e_{{tc}}$ = {}", fixed(e, 2).replace('-', "−"));
     elements.extend(key::column(
@@ -51,12 +56,12 @@ fn draw(options: &Options) -> Result<Drawing> {
             key::Entry { class: "ideal", marker: Some(Marker::Ring), text: "without creep" },
             key::Entry { class: "kept", marker: Some(Marker::Circle), text: &shown },
         ],
-        [20.0, 280.0],
+        [40.0, 444.0],
     ));
     let description = "Left: paths of a car's rear axle and of its fifth trailer through a turn to the left, and the \
                        train at the end. Right: the radius of each axle's circle.";
     Ok(Drawing {
-        svg: page::page(FIGURE.name, FIGURE.title, description, 308.0, elements),
+        svg: page::page(FIGURE.name, FIGURE.title, description, 474.0, elements),
         tables: vec![path_table(&times, &ideal, &crept), radius_table(&ideal, &crept)],
         text: String::new(),
     })
@@ -78,10 +83,8 @@ fn train(e: f64, times: &[f64]) -> Result<Train> {
     };
     let rigs = times.iter().zip(&states).map(rig).collect::<Result<Vec<Rig>>>()?;
     let paths = (0..=TRAILERS).map(|i| rigs.iter().map(|r| r.bodies[i].0).collect()).collect();
-    let last = rigs.into_iter().last().ok_or_else(|| crate::Error::run("no time is given"))?;
-    // In a steady turn all axles go round one centre, which is square to the velocity of the car's.
-    let radii = radii_of(&last)?;
-    Ok(Train { paths, radii, last })
+    let radii = rigs.last().map(radii_of).transpose()?.unwrap_or_default();
+    Ok(Train { paths, radii, shown: rigs[SHOWN].clone() })
 }
 
 /// Speed over yaw rate, which all axles share in a steady turn.
@@ -92,21 +95,36 @@ fn radii_of(rig: &Rig) -> Result<Vec<f64>> {
     Ok(speeds.map(|v| v / turn).collect())
 }
 
+/// Bodies and drawbars of a train.
+fn outlines(rig: &Rig) -> Vec<Vec<[f64; 2]>> {
+    let mut found = Vec::new();
+    for (i, (at, heading)) in rig.bodies.iter().enumerate() {
+        let [from, to] = if i == 0 { [-0.6, CAR[1].1 + 0.6] } else { [-0.7, 1.4] };
+        let middle = turned([0.5 * (from + to), 0.0], *at, *heading);
+        let mut outline = rounded(middle, *heading, [to - from, WIDTH], 0.25);
+        outline.push(outline[0]);
+        found.push(outline);
+        if i > 0 {
+            found.push(vec![rig.hitches[i - 1], *at]);
+        }
+    }
+    found
+}
+
 fn above(ideal: &Train, crept: &Train) -> Element {
-    // The last half minute of circles would hide the corner.
-    let shown = |path: &Vec<[f64; 2]>| path[..STEPS / 2].to_vec();
+    // The circles that follow would hide the corner.
+    let shown = |path: &Vec<[f64; 2]>| path[..=SHOWN].to_vec();
     let all: Vec<[f64; 2]> = [ideal, crept].iter().flat_map(|t| [&t.paths[0], &t.paths[TRAILERS]]).flat_map(shown).collect();
-    let mut panel = plane::plane(PATHS, plane::ranges(all.iter(), 0.06));
+    let mut panel = plane::plane(PATHS, plane::ranges(all.iter(), 0.08));
     panel.pieces("hair", &[shown(&ideal.paths[0])], plane::MOST_POINTS);
     panel.pieces("ideal", &[shown(&ideal.paths[TRAILERS])], plane::MOST_POINTS);
     panel.pieces("kept", &[shown(&crept.paths[TRAILERS])], plane::MOST_POINTS);
-    for (class, marker, train) in [("ideal", Marker::Ring, ideal), ("kept", Marker::Circle, crept)] {
-        panel.markers(class, marker, &train.paths[TRAILERS][STEPS / 2 - 1..STEPS / 2]);
+    for (class, marker, train) in [("kept", Marker::Circle, crept), ("ideal", Marker::Ring, ideal)] {
+        panel.markers(class, marker, &train.paths[TRAILERS][SHOWN..=SHOWN]);
     }
-    let rear = crept.paths[0][STEPS / 2 - 1];
-    panel.markers("start", Marker::Square, &[rear]);
-    plane::name(&mut panel, PATHS, "car and fifth trailer");
-    debug_assert!(turned([0.0; 2], crept.last.bodies[0].0, 0.0)[0].is_finite());
+    let bodies = outlines(&crept.shown);
+    panel.pieces("hair", &bodies, 4 * plane::MOST_POINTS);
+    plane::name(&mut panel, PATHS, "rear axle of the car, and axle of the fifth trailer");
     panel.finish("paths", "Paths", "Paths of the car's rear axle and of the fifth trailer.")
 }
 
@@ -116,7 +134,7 @@ fn radii(ideal: &Train, crept: &Train) -> Element {
     let range = plane::ranges(a.iter().chain(&b), 0.08);
     let x = Axis::linear("axle (0: the car's)", "", [-0.2, TRAILERS as f64 + 0.2]);
     let mut panel = plane::graph(RADII, x, Axis::linear("", "", range[1]));
-    for (class, marker, points) in [("ideal", Marker::Ring, &a), ("kept", Marker::Circle, &b)] {
+    for (class, marker, points) in [("kept", Marker::Circle, &b), ("ideal", Marker::Ring, &a)] {
         panel.series(class, points);
         panel.markers(class, marker, points);
     }

@@ -57,7 +57,7 @@ fn draw(options: &Options) -> Result<Drawing> {
     let end = paths[1][times.len() - 1];
     let miss = (end[0] - GOAL[0]).hypot(end[1] - GOAL[1]);
     let mut panel = plane::plane(PANEL, plane::ranges(paths.iter().flatten().chain(&[GOAL]), 0.06));
-    for (class, marker, path) in [("ideal", Marker::Ring, &paths[0]), ("crept", Marker::Square, &paths[1]), ("kept", Marker::Circle, &paths[2])] {
+    for (class, marker, path) in [("measured", Marker::Circle, &paths[2]), ("crept", Marker::Square, &paths[1]), ("ideal", Marker::Ring, &paths[0])] {
         panel.pieces(class, std::slice::from_ref(path), plane::MOST_POINTS);
         if class == "crept" {
             panel.markers(class, marker, &path[path.len() - 1..]);
@@ -66,14 +66,14 @@ fn draw(options: &Options) -> Result<Drawing> {
     let (goal, missed) = (panel.place(GOAL), panel.place(end));
     panel.note(line("line help", goal, missed));
     panel.markers("start", Marker::Circle, &[GOAL]);
-    panel.note(maths("strong", [goal[0] - 4.0, goal[1] - 10.0], "end", "goal"));
+    panel.note(maths("strong", [goal[0] + 10.0, goal[1] - 15.0], "end", "goal"));
     panel.note(maths("", [missed[0] - 8.0, missed[1] + 16.0], "end", &format!("misses by {} m", fixed(miss, 2))));
     let mut elements = vec![page::placed(panel.finish("plan", "Plan", "Three paths to a goal."), [2.0, 2.0], PANEL)];
     elements.extend(key::column(
         &[
             key::Entry { class: "ideal", marker: None, text: "plan on the ideal wheel" },
             key::Entry { class: "crept", marker: Some(Marker::Square), text: "the same rates on the wheel that creeps" },
-            key::Entry { class: "kept", marker: None, text: "plan made with the creep, executed" },
+            key::Entry { class: "measured", marker: None, text: "plan made with the creep, executed" },
         ],
         [20.0, 266.0],
     ));

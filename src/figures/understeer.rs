@@ -18,7 +18,7 @@ pub const FIGURE: Figure = Figure {
 };
 
 const PATHS: Size = Size { width: 198.0, height: 246.0, margins: [34.0, 8.0, 36.0, 40.0] };
-const CURVES: Size = Size { width: 198.0, height: 246.0, margins: [44.0, 8.0, 36.0, 40.0] };
+const CURVES: Size = Size { width: 198.0, height: 246.0, margins: [44.0, 14.0, 36.0, 40.0] };
 /// A car, m; steering to the left, rad; wheel rate, rad/s; time, s.
 const CAR: [(&str, f64); 2] = [("wheel_radius", 0.3), ("wheelbase", 2.6)];
 const STEERING: f64 = 0.25;

@@ -7,6 +7,8 @@ const SMALL: f64 = 0.76;
 /// How far text is lowered or raised, in pixels.
 const LOWERED: f64 = 3.4;
 const RAISED: f64 = -4.6;
+/// Room after a lowered letter, which the halo of the next one would cover.
+const ROOM: f64 = 1.6;
 
 /// A stretch of text in one style.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -65,6 +67,9 @@ fn span(run: &Run, before: Level) -> Element {
     }
     if shift != 0.0 {
         span = span.number("dy", shift);
+    }
+    if before == Level::Sub && run.level == Level::Line && !run.text.starts_with(' ') {
+        span = span.number("dx", ROOM);
     }
     if run.level != Level::Line {
         span = span.with("class", "small");

@@ -197,7 +197,7 @@ pub fn rounded(centre: [f64; 2], heading: f64, [length, width]: [f64; 2], radius
     let quarter = std::f64::consts::FRAC_PI_2;
     let corners = [(along, across, 0.0), (-along, across, 1.0), (-along, -across, 2.0), (along, -across, 3.0)];
     let corner = |(x, y, n): (f64, f64, f64)| {
-        let round = (0..=4).map(move |i| polar([x, y], radius, quarter * (n + 0.25 * f64::from(i))));
+        let round = (0..=8).map(move |i| polar([x, y], radius, quarter * (n + 0.125 * f64::from(i))));
         round.map(|p| turned(p, centre, heading)).collect::<Vec<_>>()
     };
     corners.into_iter().flat_map(corner).collect()

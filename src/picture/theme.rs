@@ -18,7 +18,8 @@ text.tick,text.caption{font-size:12px;fill:var(--soft);font-variant-numeric:tabu
 text.heading{font-weight:600;font-size:14px}
 text.title{font-weight:650;font-size:19px}
 text.strong{font-weight:600}
-text.soft{fill:var(--soft)}
+text.soft,.remark{fill:var(--soft)}
+.remark{font-weight:400}
 .paper{fill:var(--paper)}
 .line.zero{stroke:var(--soft);stroke-width:1}
 .grid{stroke:var(--grid);stroke-width:1}
@@ -53,12 +54,14 @@ const FIGURE: &str = "\
 text{font-family:Helvetica Neue,Arial,Liberation Sans,DejaVu Sans,sans-serif;font-size:12px;paint-order:stroke;stroke-width:3px;stroke-linejoin:round}
 text.heading{font-size:12.5px;font-weight:600}
 text.strong{font-weight:600}
+.remark{font-weight:400}
 .small{font-size:9.3px}
 .line{fill:none;stroke-width:1.5;stroke-linejoin:round;stroke-linecap:round}
 .line.hair,.grid,.line.measure,.leader{stroke-width:.8}
 .line.angle,.axis{stroke-width:1}
 .line.help{stroke-width:1;stroke-dasharray:2 3}
 .line.velocity,.line.force{stroke-width:2}
+.line.bar{stroke-width:1}
 .line.ideal{stroke-width:1.3;stroke-dasharray:9 3 1.5 3;stroke-linecap:butt}
 .line.crept,.line.before{stroke-width:2.6;stroke-dasharray:6 3.5;stroke-linecap:butt}
 .line.kept,.line.after{stroke-width:1.5}
@@ -75,7 +78,7 @@ text.strong{font-weight:600}
 const COLOURS: &str = "\
 .paper{fill:var(--paper)}
 text{fill:var(--ink);stroke:var(--paper)}
-text.tick,text.caption,text.soft{fill:var(--soft)}
+text.tick,text.caption,text.soft,.remark{fill:var(--soft)}
 text.velocity,text.kept{fill:var(--after)}
 text.force,text.crept{fill:var(--before)}
 .line{stroke:var(--ink)}

@@ -1,11 +1,16 @@
-//! The ledger and a report as a person has read and accepted them, numbers rounded so that they stand still.
+//! The ledger, a report and the motion of every vehicle as a person has read and accepted them, numbers rounded so that they stand still.
+
+mod models;
 
 use creepage::claims::{self, Options, ledger};
 use creepage::discrepancy::discover::{Request, discover};
 use creepage::discrepancy::summary::summary_text;
-use creepage::effects;
+use creepage::effects::{self, Applied};
+use creepage::figures::fixed;
 use creepage::files::{ModelFile, Run};
-use creepage::model::known;
+use creepage::formula::Expr;
+use creepage::model::{Model, known};
+use creepage::motion::{Formulas, Integrator, simulate_model};
 use serde_json::Value;
 
 fn reviewed(name: &str, text: &str) {
@@ -56,4 +61,44 @@ fn rounded(value: &mut Value) {
         Value::Object(entries) => entries.values_mut().for_each(rounded),
         _ => {}
     }
+}
+
+/// Inputs of the reviewed drive, by the beginning of their role: smooth, turning to both sides, never alike.
+const INPUTS: [(&str, &str); 5] = [
+    ("wheel_rate_left", "4 + cos(t)"),
+    ("wheel_rate_right", "5 + sin(2*t)"),
+    ("wheel_rate", "4 + sin(t)"),
+    ("yaw_rate", "1/5 + cos(t)/2"),
+    ("steering_angle", "1/10 + sin(2*t)/4"),
+];
+
+/// Where every vehicle that moves, alone and with trailers, is after three seconds with each effect at its usual size.
+#[test]
+fn the_motion_of_every_vehicle() {
+    let mut text = String::from("After 3 s: x, y, heading, headings of trailers; m and rad.\n");
+    for machine in models::machines() {
+        let trailers = if machine.trailers.is_empty() { "" } else { " with two trailers" };
+        text.push_str(&format!("\n{}{trailers}\n", machine.vehicle.id));
+        text.push_str(&line("no effect", &machine));
+        for (effect, trailer) in machine.applicable(effects::all()) {
+            let values = effect.parameters.values().map(|p| p.size).collect();
+            let applied = Applied::new(effect, trailer, values);
+            text.push_str(&line(&applied.label(), &machine.clone().with_effect(applied)));
+        }
+    }
+    reviewed("motion", &text);
+}
+
+fn line(what: &str, model: &Model) -> String {
+    let formula = |role: &String| {
+        let found = INPUTS.iter().find(|(name, _)| role.starts_with(name)).unwrap();
+        Expr::parse(found.1).unwrap()
+    };
+    let inputs = Formulas::new(&model.inputs.iter().map(formula).collect::<Vec<_>>(), &[]).unwrap();
+    let mut start = vec![0.0, 0.0, 0.3];
+    start.extend((1..=model.trailers.len()).map(|i| 0.3 - 0.2 * i as f64));
+    let table = simulate_model(model, &inputs, &[0.0, 3.0], &start, &Integrator::default()).unwrap();
+    // After the time come x, y, heading and the trailers.
+    let end = table.columns[1..=start.len()].iter().map(|c| format!("{:>9}", fixed(c[1], 4)));
+    format!("  {what:<36}{}\n", end.collect::<String>())
 }

@@ -250,8 +250,10 @@ fn figures_are_written_whole_or_not_at_all() {
     assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
     let said = String::from_utf8(made.stdout).unwrap();
     assert!(said.contains("S4   the energy") && said.contains("fig7-ends.csv"), "{said}");
-    let mut names: Vec<_> =
-        std::fs::read_dir(dir.path().join("out")).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    let mut names: Vec<_> = std::fs::read_dir(dir.path().join("out"))
+        .unwrap()
+        .map(|e| e.unwrap().file_name().into_string().unwrap())
+        .collect();
     names.sort();
     assert_eq!(names, ["fig2.csv", "fig2.svg", "fig7-ends.csv", "fig7-paths.csv", "fig7-readings.csv", "fig7.svg"]);
     assert!(figures(&["fig2", "--out", "out", "--quiet"]).stdout.is_empty());

@@ -251,7 +251,10 @@ fn no_schematic_leaves_its_sheet() {
                 for p in points {
                     let (x, y) = p.split_once(' ').unwrap();
                     let (x, y): (f64, f64) = (x.parse().unwrap(), y.parse().unwrap());
-                    assert!((-1.0..401.0).contains(&x) && (-1.0..=height + 1.0).contains(&y), "{name} at e = {e}: {x}, {y}");
+                    assert!(
+                        (-1.0..401.0).contains(&x) && (-1.0..=height + 1.0).contains(&y),
+                        "{name} at e = {e}: {x}, {y}"
+                    );
                 }
             }
         }
@@ -262,7 +265,11 @@ fn no_schematic_leaves_its_sheet() {
 fn every_figure_is_well_formed_and_self_contained() {
     for figure in FIGURES {
         let svg = &DRAWN[figure.name].svg;
-        assert!(svg.contains("<title") && svg.contains("<desc") && svg.contains("prefers-color-scheme:dark"), "{}", figure.name);
+        assert!(
+            svg.contains("<title") && svg.contains("<desc") && svg.contains("prefers-color-scheme:dark"),
+            "{}",
+            figure.name
+        );
         assert!(!svg.contains("NaN") && !svg.contains("var("), "{}", figure.name);
         let outside = svg.replace("http://www.w3.org/2000/svg", "");
         assert!(["http", "href", "url(", "<script"].iter().all(|w| !outside.contains(w)), "{}", figure.name);

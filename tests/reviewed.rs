@@ -43,10 +43,12 @@ fn a_report() {
     reviewed("report-summary", &summary_text(&found.report));
     let patched = found.patched(&file);
     let effects = &patched[patched.find("[[effects]]").unwrap()..];
-    let short = effects.lines().map(|l| l.split_once(" = ").map_or(l.to_string(), |(k, v)| match v.parse::<f64>() {
-        Ok(v) => format!("{k} = {v:.4}"),
-        Err(_) => format!("{k} = {v}"),
-    }));
+    let short = effects.lines().map(|l| {
+        l.split_once(" = ").map_or(l.to_string(), |(k, v)| match v.parse::<f64>() {
+            Ok(v) => format!("{k} = {v:.4}"),
+            Err(_) => format!("{k} = {v}"),
+        })
+    });
     reviewed("report-patched-effects", &short.collect::<Vec<_>>().join("\n"));
 }
 

@@ -50,7 +50,8 @@ impl Map {
 
 fn draw(options: &Options) -> Result<Drawing> {
     let mut map = Map::new()?;
-    let mut data = Data::new("", &["e_rc [1]", "e_tc [1]", "v_l/(r omega) [1]", "v_t/(r omega) [1]", "determinant [1]"]);
+    let mut data =
+        Data::new("", &["e_rc [1]", "e_tc [1]", "v_l/(r omega) [1]", "v_t/(r omega) [1]", "determinant [1]"]);
     for e_rc in ROTATION {
         for e_tc in TRAVERSE {
             data.row([e_rc, e_tc].into_iter().chain(map.at(e_rc, e_tc)).map(|v| fixed(v, 4)));
@@ -117,7 +118,11 @@ fn words(map: &mut Map, [e_rc, e_tc]: [f64; 2]) -> Vec<Element> {
     let [v_l, v_t, det] = map.at(e_rc, e_tc);
     let here = format!(
         "ring: ({}, {}) → ({}, {}), determinant {}",
-        minus(e_rc, 2), minus(e_tc, 2), minus(v_l, 2), minus(v_t, 2), minus(det, 2)
+        minus(e_rc, 2),
+        minus(e_tc, 2),
+        minus(v_l, 2),
+        minus(v_t, 2),
+        minus(det, 2)
     );
     let lines = [
         "One-to-one but for $e_{rc}$ = 1: the dashed line becomes the point 0.".to_string(),

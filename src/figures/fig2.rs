@@ -8,8 +8,12 @@ use crate::picture::svg::Element;
 use std::f64::consts::FRAC_PI_2;
 
 /// The figure.
-pub const FIGURE: Figure =
-    Figure { name: "fig2", title: "the one-dimensional disk and its angle of rotation creep", source: "Fig. 2, (3)–(8)", draw };
+pub const FIGURE: Figure = Figure {
+    name: "fig2",
+    title: "the one-dimensional disk and its angle of rotation creep",
+    source: "Fig. 2, (3)–(8)",
+    draw,
+};
 
 /// Radius, m; angle turned, rad, in a second.
 const RADIUS: f64 = 0.3;
@@ -74,7 +78,10 @@ fn picture(rolled: &Rolled) -> Vec<Element> {
     s.text("", [0.0, 2.0 * r], [0.0, -18.0], "middle", "$ω_{r}$");
     contact_velocity(&mut s, rolled);
     names(&mut s, rolled, [c, c2, a_1, a_2]);
-    let (below, shown) = (-34.0 / scale, format!("$d = rθ(1 − e_{{rc}})$,  $e_{{rc}}$ = {}", super::fixed(rolled.e, 2).replace('-', "−")));
+    let (below, shown) = (
+        -34.0 / scale,
+        format!("$d = rθ(1 − e_{{rc}})$,  $e_{{rc}}$ = {}", super::fixed(rolled.e, 2).replace('-', "−")),
+    );
     s.length([0.0, 0.0], [d, 0.0], below * scale, "");
     s.text("", [0.5 * d, below], [0.0, 15.0], "middle", &shown);
     s.finish()

@@ -68,7 +68,13 @@ fn picture(e: f64, lag: f64) -> Vec<Element> {
     s.angle(c, r * 300.0 + 7.0, [angle_of(2), angle_of(2) + lag], "$θ_{rc}$", 10.0);
     let sign = if lag < 0.0 { -1.0 } else { 1.0 };
     s.arrow("force", [0.0, -r - 0.035], [0.34 * r * sign, -r - 0.035]);
-    s.text("force", [0.34 * r * sign, -r - 0.035], [5.0 * sign, 5.0], if sign > 0.0 { "start" } else { "end" }, "$f_{R}$");
+    s.text(
+        "force",
+        [0.34 * r * sign, -r - 0.035],
+        [5.0 * sign, 5.0],
+        if sign > 0.0 { "start" } else { "end" },
+        "$f_{R}$",
+    );
     s.turn("ink", c, r + 0.04, [FRAC_PI_2 + 0.45, FRAC_PI_2 - 0.45]);
     s.text("", [0.0, r + 0.04], [0.0, -7.0], "middle", "$ω_{r}$");
     let mut out = s.finish();

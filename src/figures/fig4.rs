@@ -53,7 +53,8 @@ fn picture(e: f64, crept: &[Vec<f64>]) -> Result<Vec<Element>> {
     let points: Vec<[f64; 2]> = crept.iter().map(|z| [z[0], z[1]]).collect();
     let circle = crate::picture::sketch::arc(b, radius, [phi + FRAC_PI_2 + 0.3, 0.75]);
     // The drawing is as large as its sheet lets it be, whatever the creep.
-    let [x, y] = plane::ranges(points.iter().chain(&circle).chain(&[[-0.05, 0.0], [b[0] + 0.2, b[1] - 0.2], [0.0, 1.75]]), 0.0);
+    let [x, y] =
+        plane::ranges(points.iter().chain(&circle).chain(&[[-0.05, 0.0], [b[0] + 0.2, b[1] - 0.2], [0.0, 1.75]]), 0.0);
     let scale = (356.0 / (x[1] - x[0])).min(262.0 / (y[1] - y[0]));
     let mut s = Sketch::new([22.0 - scale * x[0], 280.0 + scale * y[0]], scale);
     axes(&mut s);
@@ -113,10 +114,23 @@ fn names(s: &mut Sketch, [a, b, end]: [[f64; 2]; 3], e: f64) {
     s.text("", a, [-4.0, 42.0], "start", "$A$ = $C$");
     s.text("", b, [6.0, 12.0], "start", "$B$");
     s.text("", end, [-2.0, 32.0], "middle", "$A'$");
-    s.text("velocity", polar(a, TIP, phi), [8.0, 8.0], "start", "$v_{l}$");
+    let (aside, anchor) = if e < 0.0 { (-8.0, "end") } else { (8.0, "start") };
+    s.text("velocity", polar(a, TIP, phi), [aside, 8.0], anchor, "$v_{l}$");
     let sideways = turned([0.0, TIP * e], a, phi);
-    s.text("velocity", sideways, [if e < 0.0 { 6.0 } else { -6.0 }, 10.0], if e < 0.0 { "start" } else { "end" }, "$v_{t}$");
-    s.text("force", turned([TIP, TIP * e], a, phi), [-6.0, -6.0], "end", "$v$");
+    s.text(
+        "velocity",
+        sideways,
+        [if e < 0.0 { 6.0 } else { -6.0 }, 10.0],
+        if e < 0.0 { "start" } else { "end" },
+        "$v_{t}$",
+    );
+    s.text(
+        "force",
+        turned([TIP, TIP * e], a, phi),
+        [-0.75 * aside, -6.0],
+        if e < 0.0 { "start" } else { "end" },
+        "$v$",
+    );
     let middle = [0, 1].map(|i| 0.5 * (a[i] + b[i]));
     s.text("", middle, [-4.0, 22.0], "middle", "$v_{l}/ω_{z}$");
     s.turn("ink", b, 0.13, [2.6, 0.4]);

@@ -26,7 +26,10 @@ fn draw(options: &Options) -> Result<Drawing> {
     for (x, text) in [(100.0, "bending, from behind"), (300.0, "torsion, from above")] {
         elements.push(maths("heading", [x, 20.0], "middle", text));
     }
-    let shown = format!("$φ_{{tc}}$ = {} rad.  A schematic: no elastic model, only the angle.", fixed(angle, 2).replace('-', "−"));
+    let shown = format!(
+        "$φ_{{tc}}$ = {} rad.  A schematic: no elastic model, only the angle.",
+        fixed(angle, 2).replace('-', "−")
+    );
     elements.push(maths("soft", [200.0, 232.0], "middle", &shown));
     let description = "Left: the centre of mass C is bent sideways off the contact A. Right: the contact is twisted \
                        against the body. Both by phi_tc.";
@@ -46,7 +49,8 @@ fn bending(angle: f64) -> Vec<Element> {
     s.ground([-0.85, 0.85], 0.0);
     s.line("help", &[[0.0, 0.0], [0.0, 1.15]]);
     // A beam held at its foot, bent at its end.
-    let beam: Vec<[f64; 2]> = (0..=20).map(|i| f64::from(i) / 20.0).map(|h| [aside * h * h * (3.0 - h) / 2.0, h]).collect();
+    let beam: Vec<[f64; 2]> =
+        (0..=20).map(|i| f64::from(i) / 20.0).map(|h| [aside * h * h * (3.0 - h) / 2.0, h]).collect();
     s.line("velocity", &beam);
     let c = [aside, HEIGHT];
     s.wheel("body", c, aside.atan2(-HEIGHT) + FRAC_PI_2, [0.2, 0.2]);
@@ -75,7 +79,15 @@ fn torsion(angle: f64) -> Vec<Element> {
     s.line("velocity", &[polar(o, -0.5, FRAC_PI_2 + angle), polar(o, 0.72, FRAC_PI_2 + angle)]);
     s.angle(o, 66.0, [FRAC_PI_2, FRAC_PI_2 + angle], "$φ_{tc}$", 22.0);
     let sign = if angle < 0.0 { -1.0 } else { 1.0 };
-    s.turn("force", o, 0.44, [-0.5 * sign + if sign > 0.0 { 0.0 } else { 2.0 * FRAC_PI_2 }, 0.6 * sign + if sign > 0.0 { 0.0 } else { 2.0 * FRAC_PI_2 }]);
+    s.turn(
+        "force",
+        o,
+        0.44,
+        [
+            -0.5 * sign + if sign > 0.0 { 0.0 } else { 2.0 * FRAC_PI_2 },
+            0.6 * sign + if sign > 0.0 { 0.0 } else { 2.0 * FRAC_PI_2 },
+        ],
+    );
     s.text("force", [0.48 * sign, 0.0], [4.0 * sign, 4.0], if sign > 0.0 { "start" } else { "end" }, "$τ_{T}$");
     // The friction over the contact's length, behind its middle as seen from the body.
     for share in [-0.3, -0.15, 0.0, 0.15, 0.3] {

@@ -76,7 +76,13 @@ fn above(rig: &Rig, wheel: &RigWheel, crept: &[Vec<f64>], ideal: &[Vec<f64>]) ->
     s.arrow("force", at, [0, 1].map(|i| at[i] + SECONDS * wheel.velocity[i]));
     s.line("help", &[tip(v_l, 0.0), tip(v_l, v_t), tip(0.0, v_t)]);
     s.text("velocity", tip(v_l, 0.0), [8.0, 4.0], "start", "$v_{l}$");
-    s.text("velocity", tip(0.0, v_t), [if v_t < 0.0 { 7.0 } else { -7.0 }, 2.0], if v_t < 0.0 { "start" } else { "end" }, "$v_{t}$");
+    s.text(
+        "velocity",
+        tip(0.0, v_t),
+        [if v_t < 0.0 { 7.0 } else { -7.0 }, 2.0],
+        if v_t < 0.0 { "start" } else { "end" },
+        "$v_{t}$",
+    );
     s.text("force", tip(v_l, v_t), [0.0, -7.0], "middle", "$v$");
     s.dot(at);
     s.text("", [at[0], 0.0], [0.0, 15.0], "middle", "$x$");

@@ -8,8 +8,12 @@ use crate::picture::plot::{Marker, Size};
 use crate::picture::svg::Element;
 
 /// The figure.
-pub const FIGURE: Figure =
-    Figure { name: "fig7", title: "the simulated wheel: ideal, non-conservative, conservative", source: "Fig. 7", draw };
+pub const FIGURE: Figure = Figure {
+    name: "fig7",
+    title: "the simulated wheel: ideal, non-conservative, conservative",
+    source: "Fig. 7",
+    draw,
+};
 
 /// A panel, and where the four are.
 const PANEL: Size = Size { width: 198.0, height: 214.0, margins: [34.0, 6.0, 30.0, 40.0] };
@@ -50,7 +54,13 @@ fn draw(options: &Options) -> Result<Drawing> {
     );
     let judged = readings::table()?;
     Ok(Drawing {
-        svg: page::page(FIGURE.name, FIGURE.title, &description, TOP + 2.0 * PANEL.height, picture(&cases, options.reading)),
+        svg: page::page(
+            FIGURE.name,
+            FIGURE.title,
+            &description,
+            TOP + 2.0 * PANEL.height,
+            picture(&cases, options.reading),
+        ),
         tables: vec![paths(&cases, &times, options.reading), ends()?, judged.data()],
         text: judged.text(),
     })

@@ -11,8 +11,12 @@ use crate::picture::svg::Element;
 use std::f64::consts::FRAC_PI_2;
 
 /// The figure.
-pub const FIGURE: Figure =
-    Figure { name: "fig8", title: "two, three and four wheels, and a car with trailers", source: "Fig. 8, (26)–(28)", draw };
+pub const FIGURE: Figure = Figure {
+    name: "fig8",
+    title: "two, three and four wheels, and a car with trailers",
+    source: "Fig. 8, (26)–(28)",
+    draw,
+};
 
 /// A vehicle of the figure: the catalogue's, with numbers that make it readable.
 struct Entry {
@@ -114,8 +118,7 @@ impl Entry {
     fn model(&self, e_rc: f64, e_tc: f64) -> Result<Model> {
         let trailers: Vec<Trailer> =
             TRAILERS[..self.trailers].iter().map(|&(length, hitch, _)| Trailer { length, hitch }).collect();
-        let mut creeps: Vec<Creep> =
-            vec![("rotation-creep", None, vec![e_rc]), ("traverse-creep", None, vec![e_tc])];
+        let mut creeps: Vec<Creep> = vec![("rotation-creep", None, vec![e_rc]), ("traverse-creep", None, vec![e_tc])];
         if self.inputs.iter().any(|(name, _)| *name == "steering_angle") {
             creeps.push(("front-traverse-creep", None, vec![e_tc]));
         }
@@ -165,7 +168,10 @@ impl Entry {
     /// The two wheels that stand for an axle; none for a single wheel, and for an axle whose wheels are described.
     fn pair(&self, rig: &Rig, wheel: &RigWheel) -> Result<Vec<RigWheel>> {
         if wheel.name.starts_with("trailer") {
-            let one = |side: f64| RigWheel { at: turned([0.0, 0.5 * side * TRACK], wheel.at, wheel.heading), ..wheel.clone() };
+            let one = |side: f64| RigWheel {
+                at: turned([0.0, 0.5 * side * TRACK], wheel.at, wheel.heading),
+                ..wheel.clone()
+            };
             return Ok(vec![one(-1.0), one(1.0)]);
         }
         match (wheel.name.contains("axle"), self.vehicle) {
@@ -182,6 +188,9 @@ impl Entry {
         let power = |letter: &str, n: usize| if n == 1 { letter.into() } else { format!("{letter}$^{{{n}}}$") };
         let count = format!("{}{}", power("R", r), power("T", t));
         let (x, y) = if self.trailers > 0 { (90.0, 214.0) } else { (self.at[0], 18.0) };
-        vec![maths("heading", [x.max(66.0), y], "middle", self.title), maths("", [x.max(66.0), y + 17.0], "middle", &count)]
+        vec![
+            maths("heading", [x.max(66.0), y], "middle", self.title),
+            maths("", [x.max(66.0), y + 17.0], "middle", &count),
+        ]
     }
 }

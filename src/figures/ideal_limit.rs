@@ -127,7 +127,8 @@ fn picture(curves: &[Vec<[f64; 2]>]) -> Vec<Element> {
         panel.markers(entry.class, entry.marker, curve);
     }
     slope(&mut panel, low, high);
-    let mut out = vec![page::placed(panel.finish("limit", "The ideal limit", "Distance over creep."), [2.0, 2.0], PANEL)];
+    let mut out =
+        vec![page::placed(panel.finish("limit", "The ideal limit", "Distance over creep."), [2.0, 2.0], PANEL)];
     let last = |curve: &Vec<[f64; 2]>| decimals(order(curve[curve.len() - 2], curve[curve.len() - 1]), 4);
     let texts: Vec<String> =
         ENTRIES.iter().zip(curves).map(|(e, c)| format!("{}: order {}", e.name, last(c))).collect();

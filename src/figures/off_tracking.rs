@@ -114,7 +114,8 @@ fn outlines(rig: &Rig) -> Vec<Vec<[f64; 2]>> {
 fn above(ideal: &Train, crept: &Train) -> Element {
     // The circles that follow would hide the corner.
     let shown = |path: &Vec<[f64; 2]>| path[..=SHOWN].to_vec();
-    let all: Vec<[f64; 2]> = [ideal, crept].iter().flat_map(|t| [&t.paths[0], &t.paths[TRAILERS]]).flat_map(shown).collect();
+    let all: Vec<[f64; 2]> =
+        [ideal, crept].iter().flat_map(|t| [&t.paths[0], &t.paths[TRAILERS]]).flat_map(shown).collect();
     let mut panel = plane::plane(PATHS, plane::ranges(all.iter(), 0.08));
     panel.pieces("hair", &[shown(&ideal.paths[0])], plane::MOST_POINTS);
     panel.pieces("ideal", &[shown(&ideal.paths[TRAILERS])], plane::MOST_POINTS);

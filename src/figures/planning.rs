@@ -48,7 +48,15 @@ fn draw(options: &Options) -> Result<Drawing> {
     let times: Vec<f64> = (0..=120).map(|i| TIME * f64::from(i) / 120.0).collect();
     let (on_ideal, on_crept) = (planned([0.0; 2])?, planned(e)?);
     let paths = [executed([0.0; 2], on_ideal, &times)?, executed(e, on_ideal, &times)?, executed(e, on_crept, &times)?];
-    let names = ["t [s]", "x planned [m]", "y planned [m]", "x executed [m]", "y executed [m]", "x planned with creep [m]", "y planned with creep [m]"];
+    let names = [
+        "t [s]",
+        "x planned [m]",
+        "y planned [m]",
+        "x executed [m]",
+        "y executed [m]",
+        "x planned with creep [m]",
+        "y planned with creep [m]",
+    ];
     let mut data = Data::new("", &names);
     for (i, t) in times.iter().enumerate().step_by(4) {
         let places = paths.iter().flat_map(|p| p[i]).map(|v| fixed(v, 6));
@@ -57,7 +65,11 @@ fn draw(options: &Options) -> Result<Drawing> {
     let end = paths[1][times.len() - 1];
     let miss = (end[0] - GOAL[0]).hypot(end[1] - GOAL[1]);
     let mut panel = plane::plane(PANEL, plane::ranges(paths.iter().flatten().chain(&[GOAL]), 0.06));
-    for (class, marker, path) in [("measured", Marker::Circle, &paths[2]), ("crept", Marker::Square, &paths[1]), ("ideal", Marker::Ring, &paths[0])] {
+    for (class, marker, path) in [
+        ("measured", Marker::Circle, &paths[2]),
+        ("crept", Marker::Square, &paths[1]),
+        ("ideal", Marker::Ring, &paths[0]),
+    ] {
         panel.pieces(class, std::slice::from_ref(path), plane::MOST_POINTS);
         if class == "crept" {
             panel.markers(class, marker, &path[path.len() - 1..]);
@@ -72,13 +84,22 @@ fn draw(options: &Options) -> Result<Drawing> {
     elements.extend(key::column(
         &[
             key::Entry { class: "ideal", marker: None, text: "plan on the ideal wheel" },
-            key::Entry { class: "crept", marker: Some(Marker::Square), text: "the same rates on the wheel that creeps" },
+            key::Entry {
+                class: "crept",
+                marker: Some(Marker::Square),
+                text: "the same rates on the wheel that creeps",
+            },
             key::Entry { class: "measured", marker: None, text: "plan made with the creep, executed" },
         ],
         [20.0, 266.0],
     ));
     let shown = e.map(|e| fixed(e, 2).replace('-', "−"));
-    elements.push(maths("soft", [390.0, 20.0], "end", &format!("$e_{{rc}}$ = {}, $e_{{tc}}$ = {}", shown[0], shown[1])));
+    elements.push(maths(
+        "soft",
+        [390.0, 20.0],
+        "end",
+        &format!("$e_{{rc}}$ = {}, $e_{{tc}}$ = {}", shown[0], shown[1]),
+    ));
     let description = "Seen from above, in metres: the planned path, the path the creeping wheel takes instead, and the \
                        path of a plan that knows the creep.";
     let svg = page::page(FIGURE.name, FIGURE.title, description, 312.0, elements);

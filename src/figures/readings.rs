@@ -114,14 +114,12 @@ pub struct Judged {
 pub fn table() -> Result<Judged> {
     let facts = Reading::ALL.iter().map(|r| facts(*r)).collect::<Result<Vec<_>>>()?;
     let judge = |s: &Sentence| (s.id, s.says, facts.iter().map(s.holds).collect());
-    Ok(Judged {
-        sentences: SENTENCES.iter().map(judge).collect(),
-        ratios: facts.iter().map(|f| f.ratio).collect(),
-    })
+    Ok(Judged { sentences: SENTENCES.iter().map(judge).collect(), ratios: facts.iter().map(|f| f.ratio).collect() })
 }
 
 fn facts(reading: Reading) -> Result<Facts> {
-    let each = |of: &dyn Fn(f64, f64) -> Result<f64>| CASES.iter().map(|(_, r, t)| of(*r, *t)).collect::<Result<Vec<_>>>();
+    let each =
+        |of: &dyn Fn(f64, f64) -> Result<f64>| CASES.iter().map(|(_, r, t)| of(*r, *t)).collect::<Result<Vec<_>>>();
     let ideal_early = fig7_path(0.0, 0.0, Reading::NonConservative, &[EARLY])?[0];
     let off = |e_rc: f64, e_tc: f64| -> Result<f64> {
         let p = fig7_path(e_rc, e_tc, reading, &[EARLY])?[0];
@@ -146,7 +144,8 @@ fn facts(reading: Reading) -> Result<Facts> {
 impl Judged {
     /// The table for a terminal.
     pub fn text(&self) -> String {
-        let mut out = String::from("What each reading of \"conservative\" makes of the paper's sentences on Fig. 7\n\n");
+        let mut out =
+            String::from("What each reading of \"conservative\" makes of the paper's sentences on Fig. 7\n\n");
         let head: String = Reading::ALL.iter().map(|r| format!("{:>8}", short(*r))).collect();
         let _ = writeln!(out, "  {:<62}{head}", "");
         for (id, says, holds) in &self.sentences {

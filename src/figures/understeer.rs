@@ -39,18 +39,27 @@ fn draw(options: &Options) -> Result<Drawing> {
     let e = options.traverse(-0.08);
     let models = CASES.iter().map(|(_, _, _, front, rear)| car(front * e, rear * e)).collect::<Result<Vec<_>>>()?;
     let times: Vec<f64> = (0..=140).map(|i| TIME * f64::from(i) / 140.0).collect();
-    let path = |m: &Model| driven(m, &[("wheel_rate", "c_0"), ("steering_angle", "c_1")], &[RATE, STEERING], &[0.0; 3], &times);
+    let path = |m: &Model| {
+        driven(m, &[("wheel_rate", "c_0"), ("steering_angle", "c_1")], &[RATE, STEERING], &[0.0; 3], &times)
+    };
     let paths = models.iter().map(path).collect::<Result<Vec<_>>>()?;
     let curves = models.iter().map(curvatures).collect::<Result<Vec<_>>>()?;
-    let mut elements = vec![
-        page::placed(above(&paths), [2.0, 2.0], PATHS),
-        page::placed(curvature(&curves), [200.0, 2.0], CURVES),
-    ];
-    let entry = |(class, marker, text, _, _): &(&'static str, Marker, &'static str, f64, f64)| key::Entry { class, marker: Some(*marker), text };
+    let mut elements =
+        vec![page::placed(above(&paths), [2.0, 2.0], PATHS), page::placed(curvature(&curves), [200.0, 2.0], CURVES)];
+    let entry = |(class, marker, text, _, _): &(&'static str, Marker, &'static str, f64, f64)| key::Entry {
+        class,
+        marker: Some(*marker),
+        text,
+    };
     let entries: Vec<key::Entry> = CASES.iter().map(entry).collect();
     elements.extend(key::column(&entries[..2], [20.0, 262.0]));
     elements.extend(key::column(&entries[2..], [210.0, 262.0]));
-    elements.push(maths("soft", [20.0, 300.0], "start", &format!("$e_{{tc}}$ = {}, left turn with $δ$ = {STEERING} rad", fixed(e, 2).replace('-', "−"))));
+    elements.push(maths(
+        "soft",
+        [20.0, 300.0],
+        "start",
+        &format!("$e_{{tc}}$ = {}, left turn with $δ$ = {STEERING} rad", fixed(e, 2).replace('-', "−")),
+    ));
     let description = "Left: paths of a car with a constant steering angle. Right: curvature over steering angle. A front \
                        axle that creeps outwards turns the car less, a rear axle more.";
     Ok(Drawing {

@@ -10,7 +10,8 @@ use crate::formula::{Expr, Symbol};
 use crate::model::Equations;
 
 /// Data of Fig. 7: SI units, the ideal rates are φ̇ = w and θ̇ = u_0 + g·t.
-pub(super) const DATA: [(&str, f64); 7] = [("r", 0.5), ("m", 1.0), ("I", 0.5), ("J", 1.0), ("w", 1.0), ("u_0", 2.0), ("g", -0.05)];
+pub(super) const DATA: [(&str, f64); 7] =
+    [("r", 0.5), ("m", 1.0), ("I", 0.5), ("J", 1.0), ("w", 1.0), ("u_0", 2.0), ("g", -0.05)];
 
 /// How long Fig. 7 runs, s.
 pub const FIG7_DURATION: f64 = std::f64::consts::TAU;

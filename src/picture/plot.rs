@@ -194,7 +194,11 @@ fn heading_text(heading: &str, remark: &str, width: f64) -> Element {
     let room = (width - 16.0 - width_of(remark, 13.0)) / width_of("m", 14.0);
     let text = label("heading", [2.0, 18.0], "start", cut(heading, room.max(8.0) as usize));
     let remark = Element::new("tspan").with("class", "remark").text(remark);
-    if remark == Element::new("tspan").with("class", "remark").text("") { text } else { text.text("  ").child(remark.with("dx", "6")) }
+    if remark == Element::new("tspan").with("class", "remark").text("") {
+        text
+    } else {
+        text.text("  ").child(remark.with("dx", "6"))
+    }
 }
 
 /// An `<svg>` that scales with the page, with a title and a description.

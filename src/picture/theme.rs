@@ -63,7 +63,7 @@ text.strong{font-weight:600}
 .line.velocity,.line.force{stroke-width:2}
 .line.bar{stroke-width:1}
 .line.ideal{stroke-width:1.3;stroke-dasharray:9 3 1.5 3;stroke-linecap:butt}
-.line.crept,.line.before{stroke-width:2.6;stroke-dasharray:6 3.5;stroke-linecap:butt}
+.line.crept,.line.before{stroke-width:3.1;stroke-dasharray:6 3.5;stroke-linecap:butt}
 .line.kept,.line.after{stroke-width:1.5}
 .line.third{stroke-width:1.8;stroke-dasharray:2.5 2.5;stroke-linecap:butt}
 .line.floor{stroke-width:2;stroke-dasharray:.1 4}

@@ -6,6 +6,7 @@ pub mod describe;
 pub mod discrepancy;
 pub mod effects;
 pub mod error;
+pub mod figures;
 pub mod files;
 pub mod formula;
 pub mod library;

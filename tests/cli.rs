@@ -241,3 +241,34 @@ fn every_command_has_help_with_an_example() {
         assert!(output.status.success() && help.contains("Example"), "{command}: {help}");
     }
 }
+
+#[test]
+fn figures_are_written_whole_or_not_at_all() {
+    let dir = folder(&[]);
+    let figures = |arguments: &[&str]| creepage(dir.path(), &[&["figures"], arguments].concat());
+    let made = figures(&["fig2", "fig7", "--out", "out"]);
+    assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
+    let said = String::from_utf8(made.stdout).unwrap();
+    assert!(said.contains("S4   the energy") && said.contains("fig7-ends.csv"), "{said}");
+    let mut names: Vec<_> = std::fs::read_dir(dir.path().join("out"))
+        .unwrap()
+        .map(|e| e.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    assert_eq!(names, ["fig2.csv", "fig2.svg", "fig7-ends.csv", "fig7-paths.csv", "fig7-readings.csv", "fig7.svg"]);
+    assert!(figures(&["fig2", "--out", "out", "--quiet"]).stdout.is_empty());
+    for (arguments, expect) in [
+        (&["fig77", "--out", "none"][..], "did you mean \"fig7\"?"),
+        (&["fig1", "--e-rc=1.5", "--out", "none"], "e_rc has to lie within"),
+        (&["fig1", "--e-tc=NaN", "--out", "none"], "e_tc has to lie within"),
+        (&["fig7", "--reading", "G", "--out", "none"], "readings: A, A_l, B, C1, C2, D, F"),
+        (&["fig1"], "--out <DIR>"),
+    ] {
+        let output = figures(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(stderr(&output).contains(expect), "{arguments:?}: {}", stderr(&output));
+        assert!(!dir.path().join("none").exists());
+    }
+    let help = String::from_utf8(figures(&["--help"]).stdout).unwrap();
+    assert!(creepage::figures::FIGURES.iter().all(|f| help.contains(f.name)), "{help}");
+}

@@ -2,6 +2,7 @@
 
 mod describe;
 mod discover;
+mod figures;
 mod lists;
 mod own_effects;
 mod progress;
@@ -37,6 +38,7 @@ enum Command {
     Discover(discover::Arguments),
     Simulate(simulate::Arguments),
     Describe(describe::Arguments),
+    Figures(figures::Arguments),
     Vehicles(lists::Vehicles),
     Effects(lists::Effects),
     Verify(verify::Arguments),
@@ -57,6 +59,7 @@ impl Cli {
             Command::Discover(arguments) => discover::run(&arguments, self.common.quiet),
             Command::Simulate(arguments) => simulate::run(&arguments, self.common.quiet),
             Command::Describe(arguments) => describe::run(&arguments),
+            Command::Figures(arguments) => figures::run(&arguments, self.common.quiet),
             Command::Vehicles(arguments) => lists::vehicles(&arguments),
             Command::Effects(arguments) => lists::effects(&arguments),
             Command::Verify(arguments) => verify::run(&arguments, self.common.quiet),

@@ -17,7 +17,7 @@ use super::report::{Pictures, Report};
 use super::summary::verdict_sentence;
 use crate::picture::svg::Element;
 
-pub use story::gap_svg;
+pub use story::{gap_panel, gap_svg};
 
 /// The report as a self-contained page.
 pub fn html(report: &Report, pictures: &Pictures) -> String {

@@ -6,6 +6,7 @@ use super::order;
 use super::sheet::{Numbers, Sheet};
 use crate::error::{Error, Result};
 use std::collections::BTreeMap;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// Rows a run needs.
@@ -46,7 +47,19 @@ impl Run {
     /// Reads a log by the columns of a model file, in one pass.
     pub fn read(path: impl AsRef<Path>, model: &ModelFile) -> Result<Self> {
         let path = path.as_ref();
-        let sheet = Sheet::open(path)?;
+        Self::of(Sheet::open(path)?, path, model)
+    }
+
+    /// A log that is at hand as text; `name` stands for its file.
+    ///
+    /// # Errors
+    /// As [`Run::read`].
+    pub fn parse(name: &str, text: &str, model: &ModelFile) -> Result<Self> {
+        let path = Path::new(name);
+        Self::of(Sheet::new(text.as_bytes(), path)?, path, model)
+    }
+
+    fn of<R: Read>(sheet: Sheet<R>, path: &Path, model: &ModelFile) -> Result<Self> {
         let found = model.columns.resolve(&sheet.header).map_err(|e| sheet.at_header(e))?;
         let mut numbers = sheet.numbers(&wanted(&found))?;
         let warnings = arrange(&mut numbers);

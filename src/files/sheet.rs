@@ -55,7 +55,8 @@ impl Sheet {
 }
 
 impl<R: Read> Sheet<R> {
-    fn new(input: R, path: &Path) -> Result<Self> {
+    /// Reads the header of what a reader gives; errors speak of the path.
+    pub fn new(input: R, path: &Path) -> Result<Self> {
         let mut input = BufReader::with_capacity(BUFFER, Hashing { input, hash: Sha256::new() });
         let start = input.fill_buf().map_err(|e| unreadable(path, &e))?;
         if start.contains(&0) || start.starts_with(b"\xff\xfe") || start.starts_with(b"\xfe\xff") {

@@ -4,17 +4,17 @@
 //! [`Reading`] is one way to do so; A is adopted, the others are kept because the paper's plot was not at
 //! hand to decide (THEORY §3).
 
-use super::{Drive, Formulas, Integrator};
-use crate::effects::{self, Applied};
+use super::{Drive, Formulas, Integrator, assembled};
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
-use crate::model::{Equations, Model};
+use crate::model::Equations;
 
 /// Data of Fig. 7: SI units, the ideal rates are φ̇ = w and θ̇ = u_0 + g·t.
-const DATA: [(&str, f64); 7] = [("r", 0.5), ("m", 1.0), ("I", 0.5), ("J", 1.0), ("w", 1.0), ("u_0", 2.0), ("g", -0.05)];
+pub(super) const DATA: [(&str, f64); 7] =
+    [("r", 0.5), ("m", 1.0), ("I", 0.5), ("J", 1.0), ("w", 1.0), ("u_0", 2.0), ("g", -0.05)];
 
 /// How long Fig. 7 runs, s.
-const DURATION: f64 = std::f64::consts::TAU;
+pub const FIG7_DURATION: f64 = std::f64::consts::TAU;
 
 /// Formulas that the laws share, each using only those after it; the table of [`Reading`] says what they mean.
 /// `side` is 0 where the reading leaves v_t out of |v|, else 1.
@@ -151,7 +151,7 @@ pub struct EndPoint {
 /// assert!(ideal.x.abs() < 1e-11 && (ideal.y - std::f64::consts::PI / 20.0).abs() < 1e-11);
 /// ```
 pub fn fig7_case(e_rc: f64, e_tc: f64, reading: Reading) -> Result<EndPoint> {
-    let path = fig7_path(e_rc, e_tc, reading, &[DURATION])?;
+    let path = fig7_path(e_rc, e_tc, reading, &[FIG7_DURATION])?;
     Ok(path[0])
 }
 
@@ -198,7 +198,7 @@ pub fn fig7_stepwise(e_rc: f64, e_tc: f64, reading: Reading, steps: usize, insta
         return Err(Error::input("a run in steps needs at least one"));
     }
     let (wheel, rates) = (wheel(e_rc, e_tc)?, reading.rates(e_rc, e_tc)?);
-    let time = |i: usize| DURATION * i as f64 / steps as f64;
+    let time = |i: usize| FIG7_DURATION * i as f64 / steps as f64;
     let mut y = vec![0.0; 5];
     for i in 0..steps {
         let (from, to) = (time(i), time(i + 1));
@@ -212,7 +212,7 @@ pub fn fig7_stepwise(e_rc: f64, e_tc: f64, reading: Reading, steps: usize, insta
 }
 
 /// φ̇ and θ̇ at a time.
-fn at(rates: &Formulas, t: f64) -> [f64; 2] {
+pub(super) fn at(rates: &Formulas, t: f64) -> [f64; 2] {
     let (mut value, mut slope) = ([0.0; 2], [0.0; 2]);
     rates.at(t, &mut value, &mut slope);
     value
@@ -223,13 +223,9 @@ fn end_point(y: &[f64]) -> EndPoint {
 }
 
 /// The equations of the catalogue's wheel with its two creeps.
-fn wheel(e_rc: f64, e_tc: f64) -> Result<Equations> {
-    let mut model = Model::new("unicycle", &[("wheel_radius", DATA[0].1)])?;
-    for (id, e) in [("rotation-creep", e_rc), ("traverse-creep", e_tc)] {
-        let effect = effects::named(id).ok_or_else(|| Error::run(format!("the library lacks the effect {id}")))?;
-        model = model.with_effect(Applied::new(effect, None, vec![e]));
-    }
-    model.equations(&[])
+pub(super) fn wheel(e_rc: f64, e_tc: f64) -> Result<Equations> {
+    let creeps = [("rotation-creep", None, vec![e_rc]), ("traverse-creep", None, vec![e_tc])];
+    assembled("unicycle", &[("wheel_radius", DATA[0].1)], &[], &creeps)?.equations(&[])
 }
 
 /// Integrates the wheel's pose, rolling angle and path length.

@@ -2,6 +2,8 @@
 
 mod conservative;
 mod drive;
+mod driven;
+mod energy;
 mod initial;
 mod integrator;
 mod signal;
@@ -10,8 +12,10 @@ mod spline;
 mod stepper;
 mod trajectory;
 
-pub use conservative::{EndPoint, Instant, Reading, fig7_case, fig7_path, fig7_stepwise};
+pub use conservative::{EndPoint, FIG7_DURATION, Instant, Reading, fig7_case, fig7_path, fig7_stepwise};
 pub use drive::{Drive, Formulas};
+pub use driven::{Creep, assembled, driven};
+pub use energy::{Instantaneous, fig7_instants};
 pub use initial::{initial_hidden, visible_state};
 pub use integrator::{Integrator, Method};
 pub use signal::{Signals, Timing};

@@ -17,8 +17,10 @@
 pub mod axis;
 pub mod bars;
 pub mod decimate;
+pub mod maths;
 pub mod number;
 pub mod plot;
+pub mod sketch;
 pub mod svg;
 pub mod theme;
 pub mod ticks;

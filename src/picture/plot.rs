@@ -61,6 +61,8 @@ pub struct Panel {
     inside: Vec<Element>,
     outside: Vec<Element>,
     heading: Option<(String, String)>,
+    /// Pixels between ticks along x, at least.
+    spacing: f64,
 }
 
 /// Points outside the plotting area that still show, in pixels: half a marker.
@@ -71,12 +73,17 @@ const LINE_HEIGHT: f64 = 17.0;
 impl Panel {
     /// An empty panel whose axes already lie along its pixels.
     pub fn new(size: Size, x: Axis, y: Axis) -> Self {
-        Self { size, x, y, inside: Vec::new(), outside: Vec::new(), heading: None }
+        Self { size, x, y, inside: Vec::new(), outside: Vec::new(), heading: None, spacing: 58.0 }
     }
 
     /// Writes a heading and, softer, a remark beside it.
     pub fn heading(&mut self, heading: &str, remark: &str) {
         self.heading = Some((heading.into(), remark.into()));
+    }
+
+    /// The panel with ticks along x no nearer than so many pixels.
+    pub fn with_ticks(self, spacing: f64) -> Self {
+        Self { spacing, ..self }
     }
 
     /// The pixel of a point in the units of the axes.
@@ -170,7 +177,7 @@ impl Panel {
         let [left, right] = self.size.columns();
         let [bottom, top] = self.size.rows();
         let mut out = Vec::new();
-        for tick in self.x.ticks(58.0) {
+        for tick in self.x.ticks(self.spacing) {
             out.push(line("grid", [tick.at, bottom], [tick.at, top]));
             out.push(label("tick", [tick.at, bottom + 18.0], "middle", tick.label));
         }
@@ -186,8 +193,12 @@ impl Panel {
 fn heading_text(heading: &str, remark: &str, width: f64) -> Element {
     let room = (width - 16.0 - width_of(remark, 13.0)) / width_of("m", 14.0);
     let text = label("heading", [2.0, 18.0], "start", cut(heading, room.max(8.0) as usize));
-    let remark = Element::new("tspan").with("style", "font-weight:400;fill:var(--soft)").text(remark);
-    if remark == Element::new("tspan") { text } else { text.text("  ").child(remark.with("dx", "6")) }
+    let remark = Element::new("tspan").with("class", "remark").text(remark);
+    if remark == Element::new("tspan").with("class", "remark").text("") {
+        text
+    } else {
+        text.text("  ").child(remark.with("dx", "6"))
+    }
 }
 
 /// An `<svg>` that scales with the page, with a title and a description.
@@ -202,7 +213,7 @@ pub fn frame_svg(size: Size, id: &str, title: &str, description: &str) -> Elemen
 }
 
 /// A marker at a point in pixels.
-fn mark(class: &str, marker: Marker, [x, y]: [f64; 2]) -> Element {
+pub fn mark(class: &str, marker: Marker, [x, y]: [f64; 2]) -> Element {
     let circle = |r: f64, class: &str| {
         Element::new("circle").with("class", format!("mark {class}")).number("cx", x).number("cy", y).number("r", r)
     };

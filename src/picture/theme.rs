@@ -18,7 +18,8 @@ text.tick,text.caption{font-size:12px;fill:var(--soft);font-variant-numeric:tabu
 text.heading{font-weight:600;font-size:14px}
 text.title{font-weight:650;font-size:19px}
 text.strong{font-weight:600}
-text.soft{fill:var(--soft)}
+text.soft,.remark{fill:var(--soft)}
+.remark{font-weight:400}
 .paper{fill:var(--paper)}
 .line.zero{stroke:var(--soft);stroke-width:1}
 .grid{stroke:var(--grid);stroke-width:1}
@@ -48,6 +49,73 @@ pub fn drawing() -> String {
     format!("{}{SHAPES}", variables())
 }
 
+/// The shapes of a stand-alone figure, without colours; sized for a column of 85 mm, where 12 pixels are 7.2 points.
+const FIGURE: &str = "\
+text{font-family:Helvetica Neue,Arial,Liberation Sans,DejaVu Sans,sans-serif;font-size:12px;paint-order:stroke;stroke-width:3px;stroke-linejoin:round}
+text.heading{font-size:12.5px;font-weight:600}
+text.strong{font-weight:600}
+.remark{font-weight:400}
+.small{font-size:9.3px}
+.line{fill:none;stroke-width:1.5;stroke-linejoin:round;stroke-linecap:round}
+.line.hair,.grid,.line.measure,.leader{stroke-width:.8}
+.line.angle,.axis{stroke-width:1}
+.line.help{stroke-width:1;stroke-dasharray:2 3}
+.line.velocity,.line.force{stroke-width:2}
+.line.bar{stroke-width:1}
+.line.ideal{stroke-width:1.3;stroke-dasharray:9 3 1.5 3;stroke-linecap:butt}
+.line.crept,.line.before{stroke-width:3.1;stroke-dasharray:6 3.5;stroke-linecap:butt}
+.line.kept,.line.after{stroke-width:1.5}
+.line.third{stroke-width:1.8;stroke-dasharray:2.5 2.5;stroke-linecap:butt}
+.line.floor{stroke-width:2;stroke-dasharray:.1 4}
+.line.measured{stroke-width:5}
+.mark{stroke-width:1}
+.mark.start,.mark.ideal{stroke-width:1.3}
+.shape,.disk{stroke-width:1.2;stroke-linejoin:round}
+.ghost{stroke-dasharray:4 3}
+";
+
+/// The colours of a stand-alone figure.
+const COLOURS: &str = "\
+.paper{fill:var(--paper)}
+text{fill:var(--ink);stroke:var(--paper)}
+text.tick,text.caption,text.soft,.remark{fill:var(--soft)}
+text.velocity,text.kept{fill:var(--after)}
+text.force,text.crept{fill:var(--before)}
+.line{stroke:var(--ink)}
+.line.hair,.line.help,.line.measure,.axis,.leader{stroke:var(--soft)}
+.grid{stroke:var(--grid)}
+.line.velocity,.line.kept,.line.after{stroke:var(--after)}
+.line.force,.line.crept,.line.before{stroke:var(--before)}
+.line.third{stroke:var(--good)}
+.line.floor{stroke:var(--floor)}
+.line.measured{stroke:var(--measured)}
+.head,.dot{fill:var(--ink)}
+.head.measure{fill:var(--soft)}
+.head.velocity,.mark.kept,.mark.after{fill:var(--after)}
+.head.force,.mark.crept,.mark.before{fill:var(--before)}
+.mark.third{fill:var(--good)}
+.mark{stroke:var(--paper)}
+.mark.start,.mark.ideal{fill:var(--paper);stroke:var(--ink)}
+.shape,.disk{fill:var(--panel);stroke:var(--ink)}
+.shape.body{stroke:var(--soft)}
+.shape.wheel{fill:var(--measured)}
+.shape.steered{fill:var(--soft)}
+.shape.patch,.band{fill:var(--band)}
+.ghost,.shape.ghost{fill:none;stroke:var(--soft)}
+";
+
+/// The style sheet of a figure that stands in a file of its own.
+///
+/// Colours are written out and not named by variables, so that programs which know no variables (those that turn SVG
+/// into PDF) show the figure in its light colours; they skip the media query.
+pub fn figure() -> String {
+    let coloured = |colours: &str| {
+        let named = colours.split(';').filter_map(|c| c.split_once(':'));
+        named.fold(COLOURS.to_string(), |css, (name, value)| css.replace(&format!("var({name})"), value))
+    };
+    format!("{FIGURE}{}@media screen and (prefers-color-scheme:dark){{\n{}}}\n", coloured(LIGHT), coloured(DARK))
+}
+
 /// The variables alone; dark only on screens that ask for it, so that paper stays white.
 pub fn variables() -> String {
     format!(
@@ -55,4 +123,14 @@ pub fn variables() -> String {
          @media screen and (prefers-color-scheme:dark){{:root{{{DARK}}}}}\n\
          @media print{{:root{{color-scheme:light;{LIGHT}}}}}\n"
     )
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn every_colour_of_a_figure_is_written_out() {
+        let css = super::figure();
+        assert!(!css.contains("var("), "{css}");
+        assert_eq!(css.matches('{').count(), css.matches('}').count());
+    }
 }

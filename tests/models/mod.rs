@@ -81,6 +81,8 @@ pub fn reviewed_as_text() -> Vec<(&'static str, Model)> {
     let model = |id: &'static str, p: &[(&str, f64)]| (id, Model::new(id, p).unwrap());
     vec![
         model("disk", &[("wheel_radius", 0.3)]),
+        model("tricycle", &[("wheel_radius", 0.2), ("wheelbase", 1.1)]),
+        model("four-wheel-car", &[("wheel_radius", 0.3), ("wheelbase", 2.6), ("track_width", 1.5)]),
         model("sleigh", &sleigh),
         model("differential-drive-castor", &castor),
         model("synchro-drive", &[("wheel_radius", 0.1)]),

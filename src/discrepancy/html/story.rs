@@ -64,6 +64,11 @@ pub fn gap_svg(report: &Report, pictures: &Pictures) -> String {
     format!("{drawing}\n")
 }
 
+/// The gap over the horizon alone, on logarithmic axes; none with nothing to draw.
+pub fn gap_panel(report: &Report, pictures: &Pictures, size: Size, id: &str) -> Option<Element> {
+    gap::panel(report, &gap::curve(report, pictures)?, gap::Axes::Log, size, id)
+}
+
 /// What shrank, with its numbers; the verdict where there is no gap.
 fn headline(report: &Report) -> String {
     let Some((gap, (name, v))) = middle(&report.gap).and_then(|g| Some((g, judged(g)?))) else {

@@ -1,0 +1,58 @@
+//! `creepage figures`
+
+use super::print;
+use super::progress::Progress;
+use clap::Args;
+use creepage::Result;
+use creepage::figures::{self, Options};
+use creepage::files::write_all_or_nothing;
+use std::path::PathBuf;
+
+/// Redraw the paper's figures, and some beyond it, as SVG with their data as CSV
+#[derive(Args)]
+#[command(after_help = after_help())]
+pub struct Arguments {
+    /// Figures to draw; all when none is named
+    #[arg(value_name = "NAME")]
+    names: Vec<String>,
+    /// Folder for the files
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Rotation creep of the schematic figures, within ±0.6 [default: each figure's own]
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
+    e_rc: Option<f64>,
+    /// Traverse creep of the schematic figures, within ±0.6 [default: each figure's own]
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
+    e_tc: Option<f64>,
+    /// What Fig. 7 takes "conservative" to mean: A, A_l, B, C1, C2, D or F
+    #[arg(long, value_name = "NAME", default_value = "A")]
+    reading: String,
+}
+
+fn after_help() -> String {
+    format!(
+        "Figures:\n{}\n\n\
+         Examples:\n  creepage figures --out figures\n  creepage figures fig7 --reading B --out figures\n  \
+         creepage figures fig2 fig4 --e-rc=-0.2 --e-tc 0.1 --out figures\n\n\
+         Every figure is NAME.svg with NAME.csv or NAME-*.csv beside it. A figure is 85 mm wide.",
+        figures::list()
+    )
+}
+
+/// Carries out the command.
+pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
+    let options = Options::new(arguments.e_rc, arguments.e_tc, &arguments.reading)?;
+    let progress = Progress::new(quiet);
+    let drawn = figures::draw(&arguments.names, &options, &|name| progress.say(&format!("drawing {name}")))?;
+    drop(progress);
+    let files: Vec<(String, String)> = drawn.iter().flat_map(|(figure, drawing)| drawing.files(figure.name)).collect();
+    let bytes: Vec<(&str, &[u8])> = files.iter().map(|(name, text)| (name.as_str(), text.as_bytes())).collect();
+    write_all_or_nothing(&arguments.out, &bytes)?;
+    if !quiet {
+        let texts: Vec<&str> = drawn.iter().map(|(_, d)| d.text.as_str()).filter(|t| !t.is_empty()).collect();
+        let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
+        texts.iter().for_each(|text| print(&format!("{text}\n")));
+        print(&format!("{} are in {}\n", names.join(", "), arguments.out.display()));
+    }
+    Ok(())
+}

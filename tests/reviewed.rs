@@ -1,0 +1,106 @@
+//! The ledger, a report and the motion of every vehicle as a person has read and accepted them, numbers rounded so that they stand still.
+
+mod models;
+
+use creepage::claims::{self, Options, ledger};
+use creepage::discrepancy::discover::{Request, discover};
+use creepage::discrepancy::summary::summary_text;
+use creepage::effects::{self, Applied};
+use creepage::figures::fixed;
+use creepage::files::{ModelFile, Run};
+use creepage::formula::Expr;
+use creepage::model::{Model, known};
+use creepage::motion::{Formulas, Integrator, simulate_model};
+use serde_json::Value;
+
+fn reviewed(name: &str, text: &str) {
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots"));
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings.bind(|| insta::assert_snapshot!(name, text));
+}
+
+/// What every claim earned; few cases, whose number stands in the text, are enough to see a status change.
+#[test]
+fn the_ledger() {
+    let made = claims::verify(&claims::all(), &Options { cases: 16, seed: 0 }, &|_| {});
+    reviewed("ledger", &ledger::text(&made));
+}
+
+#[test]
+fn a_report() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/runs/cornering");
+    let file = ModelFile::read(format!("{folder}/model.toml"), &known(effects::all())).unwrap();
+    let run = |name: &str| Run::read(format!("{folder}/{name}"), &file).unwrap();
+    let (runs, held_out) = ([run("eights.csv"), run("rosette.csv")], [run("square_held_out.csv")]);
+    let request =
+        Request { file: &file, runs: &runs, held_out: &held_out, library: effects::all(), horizons: &[], seed: 0 };
+    let found = discover(&request, &|_| {}).unwrap();
+    let mut json = serde_json::to_value(&found.report).unwrap();
+    rounded(&mut json);
+    reviewed("report-json", &format!("{json:#}"));
+    reviewed("report-summary", &summary_text(&found.report));
+    let patched = found.patched(&file);
+    let effects = &patched[patched.find("[[effects]]").unwrap()..];
+    let short = effects.lines().map(|l| {
+        l.split_once(" = ").map_or(l.to_string(), |(k, v)| match v.parse::<f64>() {
+            Ok(v) => format!("{k} = {v:.4}"),
+            Err(_) => format!("{k} = {v}"),
+        })
+    });
+    reviewed("report-patched-effects", &short.collect::<Vec<_>>().join("\n"));
+}
+
+/// Every number that is not whole with three digits, one too small to matter as zero.
+fn rounded(value: &mut Value) {
+    match value {
+        Value::Number(n) if !n.is_u64() && !n.is_i64() => {
+            let x = n.as_f64().unwrap();
+            *value = if x.abs() < 1e-12 { Value::from(0.0) } else { format!("{x:.2e}").parse::<f64>().unwrap().into() };
+        }
+        Value::Array(items) => items.iter_mut().for_each(rounded),
+        Value::Object(entries) => entries.values_mut().for_each(rounded),
+        _ => {}
+    }
+}
+
+/// Inputs of the reviewed drive, by the beginning of their role: smooth, turning to both sides, never alike.
+const INPUTS: [(&str, &str); 5] = [
+    ("wheel_rate_left", "4 + cos(t)"),
+    ("wheel_rate_right", "5 + sin(2*t)"),
+    ("wheel_rate", "4 + sin(t)"),
+    ("yaw_rate", "1/5 + cos(t)/2"),
+    ("steering_angle", "1/10 + sin(2*t)/4"),
+];
+
+/// Where every vehicle that moves, alone and with trailers, is after three seconds with each effect at its usual size.
+#[test]
+fn the_motion_of_every_vehicle() {
+    let mut text = String::from("After 3 s: x, y, heading, headings of trailers; m and rad.\n");
+    for machine in models::machines() {
+        let trailers = if machine.trailers.is_empty() { "" } else { " with two trailers" };
+        text.push_str(&format!("\n{}{trailers}\n", machine.vehicle.id));
+        text.push_str(&line("no effect", &machine));
+        for (effect, trailer) in machine.applicable(effects::all()) {
+            let values = effect.parameters.values().map(|p| p.size).collect();
+            let applied = Applied::new(effect, trailer, values);
+            text.push_str(&line(&applied.label(), &machine.clone().with_effect(applied)));
+        }
+    }
+    reviewed("motion", &text);
+}
+
+fn line(what: &str, model: &Model) -> String {
+    let formula = |role: &String| {
+        let found = INPUTS.iter().find(|(name, _)| role.starts_with(name)).unwrap();
+        Expr::parse(found.1).unwrap()
+    };
+    let inputs = Formulas::new(&model.inputs.iter().map(formula).collect::<Vec<_>>(), &[]).unwrap();
+    let mut start = vec![0.0, 0.0, 0.3];
+    start.extend((1..=model.trailers.len()).map(|i| 0.3 - 0.2 * i as f64));
+    let table = simulate_model(model, &inputs, &[0.0, 3.0], &start, &Integrator::default()).unwrap();
+    // After the time come x, y, heading and the trailers.
+    let end = table.columns[1..=start.len()].iter().map(|c| format!("{:>9}", fixed(c[1], 4)));
+    format!("  {what:<36}{}\n", end.collect::<String>())
+}

@@ -89,7 +89,7 @@ impl Run {
         self.rows += 1;
         for k in 0..SCALES {
             self.open[k] += residual;
-            if self.rows % (2 << k) == 0 {
+            if self.rows.is_multiple_of(2 << k) {
                 to.squares[k] += self.open[k].powi(2);
                 to.count[k] += 1;
                 self.open[k] = 0.0;

@@ -146,3 +146,25 @@ fn gross_errors_are_left_out_and_counted() {
     // Good rows beside a gross error may go with it.
     assert!((wrong..=2 * wrong).contains(&dropped), "{dropped} of {wrong}: {:?}", report.data.why_dropped);
 }
+
+/// A drive that spins out for two and a half seconds: the pose goes on sideways at the speed the wheels turn.
+#[test]
+fn a_vehicle_that_slides_is_not_described_by_creep() {
+    let scenario = drive(Tractor::Car, vec![Hidden::TraverseCreep { e_tc: 0.03 }], 37);
+    let mut log = scenario.run();
+    let mut beside = [0.0; 2];
+    for i in 0..log.rows.len() {
+        let truth = log.truth[i].clone();
+        if (30.0..32.5).contains(&truth.t) {
+            let step = log.rows[i][0] - log.rows[i - 1][0];
+            beside[0] += step * truth.v_l.abs() * -truth.heading.sin();
+            beside[1] += step * truth.v_l.abs() * truth.heading.cos();
+        }
+        log.rows[i][1] += beside[0];
+        log.rows[i][2] += beside[1];
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let (found, _) = discovery(&log, &scenario.model_toml(), folder.path());
+    assert_eq!(found.report.verdict, Verdict::UnusableData, "{}", found.report.summary);
+    assert!(found.report.effects.is_empty() && found.report.summary.contains("slides"), "{}", found.report.summary);
+}

@@ -103,6 +103,21 @@ impl Violation {
         [(miss, rms(&|w| w.speed.powi(2))), (yaw, rms(&|w| w.yaw.powi(2)))]
     }
 
+    /// The longest stretch in which the vehicle moves sideways of where its model says by more than a share of its
+    /// speed: the run, when it begins, when it ends, in s.
+    pub fn slide(&self, share: f64) -> Option<(&str, [f64; 2])> {
+        let n = self.windows.len().max(1) as f64;
+        let typical = (self.windows.iter().map(|w| w.speed * w.speed).sum::<f64>() / n).sqrt();
+        let slides = |w: &&Window| {
+            let across = w.rates[1].abs();
+            across > share * w.speed && w.speed > 0.3 * typical && across > 5.0 * self.noise[1]
+        };
+        let stretches = self.windows.split(|w| !slides(&w)).filter(|s| !s.is_empty());
+        let spans = stretches.map(|s| [s[0].span[0], s[s.len() - 1].span[1]]);
+        let longest = spans.max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
+        Some((&self.run, longest))
+    }
+
     /// The pictures of each constraint, before and after.
     pub fn pictures(&self, after: &Violation) -> Vec<ResidualPicture> {
         let rates = |v: &Violation, c: usize| v.windows.iter().map(|w| w.rates[c]).collect::<Vec<f64>>();

@@ -22,6 +22,11 @@ const FEWEST_WINDOWS: usize = 5;
 /// A model that misses more than this share of the motion does not describe it.
 const HOPELESS: f64 = 0.5;
 
+/// A slip angle beyond creep, rad.
+const SLIP_ANGLE: f64 = 0.35;
+/// A stretch of so much slip that is no bump, s.
+const LONG_SLIDE: f64 = 1.5;
+
 /// Unusable or too short before anything is fitted.
 pub fn before_fitting(problem: &Problem) -> Option<Outcome> {
     if !moves(problem) {
@@ -71,7 +76,7 @@ fn moves(problem: &Problem) -> bool {
 
 /// The verdict after the choice.
 pub fn after_fitting(choice: &Choice, after: &[Violation], clocks: &[Drift]) -> Outcome {
-    if let Some(sentence) = hopeless(after).or_else(|| mismatched(clocks)) {
+    if let Some(sentence) = hopeless(after).or_else(|| sliding(after)).or_else(|| mismatched(clocks)) {
         return outcome(Verdict::UnusableData, &sentence, None);
     }
     let without_name = choice.chosen.iter().any(|c| unnamed::is_term(&c.applied));
@@ -107,6 +112,19 @@ fn hopeless(after: &[Violation]) -> Option<String> {
             "The model misses {:.0} % of the motion over one second, whatever is added: clocks, columns or units do not \
              match, or the wheels spin.",
             100.0 * position.min(1.0)
+        )
+    })
+}
+
+/// A vehicle that slides: no coefficient of creep describes slip angles of tens of degrees.
+fn sliding(after: &[Violation]) -> Option<String> {
+    let slides = after.iter().filter_map(|v| v.slide(SLIP_ANGLE.tan()));
+    let (run, [from, to]) = slides.max_by(|(_, a), (_, b)| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
+    (to - from >= LONG_SLIDE).then(|| {
+        format!(
+            "The vehicle slides: in {run} from {from:.1} to {to:.1} s it moves more than {:.0}° beside where its model \
+             points, and creep does not describe that; leave this stretch out.",
+            SLIP_ANGLE.to_degrees()
         )
     })
 }

@@ -276,8 +276,12 @@ impl Selection<'_> {
                 break;
             }
             let rivals = self.in_place_of(&fit, effect)?;
-            let Some((_, rival)) = rivals.into_iter().next() else { continue };
+            let Some((other, rival)) = rivals.into_iter().next() else { continue };
             let Some(rival) = self.refined(&rival)? else { continue };
+            if find(&rival.model, &other).is_some_and(|a| vanishes(&a)) {
+                // What it says there, another effect says with fewer parameters.
+                continue;
+            }
             let n = fit.sample_size.max(rival.sample_size);
             if bic(&rival, n) < bic(&fit, n) - 0.5 {
                 fit = rival;

@@ -110,6 +110,9 @@ fn a_proof_says_where_a_statement_fails_and_never_less() {
     assert_eq!(prove(&machine, &statement(&[("x + x", "2*x"), ("x - x", "0")])), Outcome::Holds { cases: 2 });
     let Outcome::Fails(found) = prove(&machine, &statement(&[("x", "x"), ("x*y", "x")])) else { panic!() };
     assert_eq!(found.values, [("x".to_string(), "1".to_string()), ("y".to_string(), "2".to_string())]);
+    // No identity, and zero wherever a counterexample is looked for.
+    let beyond = prove(&machine, &statement(&[("x*(x - 1)*(x - 2)*(x + 1)*(x + 2)*(x - 3)*(2*x - 1)", "0")]));
+    assert!(matches!(&beyond, Outcome::Fails(c) if c.values.is_empty() && c.says.ends_with("is no identity")));
     // A slip in one equation: only that one is in question.
     assert!(matches!(prove(&machine, &statement(&[("exp(x)", "exp(x)")])), Outcome::Undefined(_)));
 }

@@ -2,7 +2,7 @@
 
 use creepage::claims::{
     Claim, Counterexample, Domain, Fault, Machine, Options, Outcome, Point, Sampling, Statement, Status, at_points,
-    counterexample, domains, near, points, prove, read, simplest, value, value_said, verify, written,
+    counterexample, domains, mutants, near, points, prove, read, simplest, value, value_said, verify, written,
 };
 use creepage::formula::{Exact, Expr, Fun, Scalar, Symbol};
 use proptest::prelude::*;
@@ -333,4 +333,47 @@ fn a_file_states_what_its_claims_are() {
     assert_eq!((earned[0], earned[1], earned[3]), (Status::Proved, Status::Corrected, Status::Open));
     let sound = |i: usize| made.entries[i].shown.iter().all(|s| s.survivors.is_empty() && s.sabotages > 0);
     assert!(made.cases() == 2 && sound(0) && sound(1) && made.kills().1 > 2);
+}
+
+/// The right sides one slip away from a formula.
+fn slips(formula: &str) -> Vec<Expr> {
+    mutants(&statement(&[("y", formula)])).iter().map(|m| m.statement.equations()[0].right.clone()).collect()
+}
+
+#[test]
+fn a_slip_is_made_in_every_part_and_leaves_the_rest() {
+    let parts = [
+        ("b + 2", "b + 3"),
+        ("2 - b", "3 - b"),
+        ("2*b", "3*b"),
+        ("b/2", "b/3"),
+        ("(b + 2)^3", "(b + 3)^3"),
+        ("-(b + 2)", "-(b + 3)"),
+        ("sin(b + 2)", "sin(b + 3)"),
+    ];
+    let functions = ["sin cos", "cos sin", "tan cot", "cot tan", "atan tan", "exp tanh", "sqrt abs"];
+    let calls =
+        functions.map(|pair| pair.split_once(' ').unwrap()).map(|(f, g)| (format!("{f}(b)"), format!("{g}(b)")));
+    for (from, to) in parts.map(|(f, t)| (f.to_string(), t.to_string())).into_iter().chain(calls) {
+        let wanted = Expr::parse(&to).unwrap();
+        let found = slips(&from);
+        assert_eq!(found.iter().filter(|e| **e == wanted).count(), 1, "{from}: {to} not once among {found:?}");
+    }
+    // An index slips to one of the same letter and order.
+    let found = slips("e_1*e_2 + f_2*e_3'");
+    let has = |e: &str| found.contains(&Expr::parse(e).unwrap());
+    assert!(has("e_2*e_2 + f_2*e_3'") && has("e_1*e_1 + f_2*e_3'"), "{found:?}");
+    for other in ["e_1*e_2 + e_2*e_3'", "e_1*e_2 + f_2*e_1", "f_2*e_2 + f_2*e_3'", "e_3'*e_2 + f_2*e_3'"] {
+        assert!(!has(other), "{other}: {found:?}");
+    }
+}
+
+#[test]
+fn beyond_the_normal_form_values_tell_what_a_slip_changes() {
+    let is_slip = |from: &str, to: &str| slips(from).contains(&Expr::parse(to).unwrap());
+    assert!(is_slip("abs(x)/10", "abs(x)/11") && is_slip("9*abs(x)", "10*abs(x)") && is_slip("abs(x)", "-abs(x)"));
+    assert!(!is_slip("9*abs(-x)", "9*abs(x)") && !is_slip("abs(-x)/9", "abs(x)/9"));
+    assert!(is_slip("a*abs(x)", "a/abs(x)") && !is_slip("a*abs(-x)", "a*abs(x)"));
+    // Where nothing has a value nothing is the same.
+    assert!(is_slip("ln(-2 - abs(x))", "ln(-3 - abs(x))"));
 }

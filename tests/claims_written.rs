@@ -125,7 +125,9 @@ NOT EARNED: doubtful
 
 #[test]
 fn a_terminal_without_anything_wrong_says_so() {
-    let text = ledger::text(&made(entries().into_iter().filter(|e| e.is_earned()).collect()));
+    let fine = made(entries().into_iter().filter(Entry::is_earned).collect());
+    assert!(fine.all_earned() && fine.entries.len() == 3 && !made(entries()).all_earned());
+    let text = ledger::text(&fine);
     assert!(text.ends_with("(--cases 40 --seed 3)\nevery stated status is earned\n"), "{text}");
     let none = ledger::text(&made(vec![]));
     assert!(none.contains("sabotages noticed: 0 of 0 (100.0 %)"), "{none}");

@@ -2,7 +2,10 @@
 
 mod support;
 
-use creepage::claims::generated::{Drive, Facing, Generated, Placed, any_drive, loose_vehicles, vehicles};
+use creepage::claims::generated::{
+    Drive, Facing, Generated, Moving, Placed, any_drive, loose_vehicles, moving, vehicles,
+};
+use creepage::claims::written;
 use creepage::formula::{Exact, Fun, Scalar, Symbol};
 use creepage::mechanism::{Constraint, Form, Mechanism, Point};
 use num_rational::BigRational;
@@ -157,6 +160,121 @@ fn rows_have_the_radius_and_the_heading_of_their_wheel() {
         for c in vehicle.mechanism().constraints {
             let wheel = wheels.iter().find(|w| c.name.starts_with(&format!("{},", w.name)));
             knows_its_wheel(&c, wheel.unwrap(), &at)?;
+        }
+        Ok(())
+    });
+}
+
+/// What a constraint's row makes of a motion.
+fn row_of(c: &Constraint, motion: &Moving, at: &Point) -> Exact {
+    let term = |(rate, coefficient): (&Symbol, &creepage::formula::Expr)| {
+        let value = coefficient.eval(&|s: &Symbol| at.value(s)).unwrap_or_else(|| Exact::ratio(0, 0));
+        value.mul(&motion.rate(rate).unwrap_or_else(|| Exact::ratio(0, 0)))
+    };
+    c.ideal_row().terms().iter().map(|(rate, c)| term((rate, c))).fold(Exact::ratio(0, 1), |sum, v| sum.add(&v))
+}
+
+/// The rows come from the description, the contacts from places and rates alone.
+#[test]
+fn rows_say_how_each_contact_moves() {
+    let met = Met::default();
+    check(25, moving(2, 2), |motion| {
+        let (at, mechanism) = (motion.vehicle.point(), motion.vehicle.mechanism());
+        let contacts = motion.contacts();
+        for c in &mechanism.constraints {
+            let found = row_of(c, &motion, &at);
+            let contact = contacts.iter().find(|x| match &c.form {
+                Form::R(_) => x.rolls.as_ref().is_some_and(|r| r.2 == c.creep),
+                Form::T(_) => x.directed.as_ref() == Some(&c.creep),
+            });
+            let contact = contact.unwrap_or_else(|| panic!("no contact has {}", c.creep));
+            let wanted = match (&c.form, &contact.rolls) {
+                (Form::R(_), Some((r, rate, _))) => contact.along.sub(&r.mul(rate)),
+                _ => contact.across.neg(),
+            };
+            prop_assert!(found.equals(&wanted), "{}: {} {}", c.name, found, wanted);
+            met.note(if c.letter() == 'R' { "rolls" } else { "directed" }, true);
+        }
+        let coefficients = contacts.iter().map(|c| usize::from(c.rolls.is_some()) + usize::from(c.directed.is_some()));
+        if motion.vehicle.wheels().is_some() {
+            prop_assert_eq!(coefficients.sum::<usize>(), mechanism.constraints.len());
+        }
+        Ok(())
+    });
+    met.at_least(&[("rolls", 40), ("directed", 60)]);
+}
+
+#[test]
+fn people_are_shown_every_wheel_trailer_and_rate() {
+    let met = Met::default();
+    check(40, moving(2, 2), |motion| {
+        let vehicle = &motion.vehicle;
+        let (at, wheels) = (vehicle.point(), vehicle.wheels().unwrap_or_default());
+        let mut wanted = vec![("drive".to_string(), format!("{:?}", vehicle.drive).to_lowercase())];
+        for w in wheels.iter().filter(|w| w.radius.is_some()) {
+            let [forward, left] = w.place.each_ref().map(written);
+            let place = format!("r {} at ({forward}, {left})", written(w.radius.as_ref().unwrap()));
+            let text = match &w.facing {
+                Facing::Fixed(heading) if heading.as_rational().is_none() => {
+                    met.note("facing", true);
+                    format!("{place} facing {}", written(heading))
+                }
+                _ => place,
+            };
+            prop_assert_eq!(&w.to_string(), &text);
+            wanted.push((w.name.clone(), text));
+        }
+        for i in 1..=vehicle.trailers() {
+            let [d, c] = ["d", "c"].map(|s| written(&at.value(&Symbol::new(&format!("{s}_{i}")))));
+            wanted.push((format!("trailer {i}"), format!("(d {d}, c {c})")));
+        }
+        prop_assert_eq!(&vehicle.shown(), &wanted);
+        let all = motion.shown();
+        prop_assert_eq!(&all[..wanted.len()], &wanted[..]);
+        let names: Vec<&str> = all[wanted.len()..].iter().map(|(n, _)| n.as_str()).collect();
+        prop_assert_eq!(&names[..3], &["v_l", "v_t", "phi'"]);
+        prop_assert!(names.contains(&"delta'"));
+        for (name, value) in all[wanted.len() + 2..].iter() {
+            prop_assert_eq!(motion.rate(&Symbol::new(name)).map(|v| written(&v)), Some(value.clone()));
+        }
+        met.note("trailers", vehicle.trailers() > 1);
+        met.note("bare", wheels.iter().any(|w| w.radius.is_none()));
+        Ok(())
+    });
+    met.at_least(&[("facing", 20), ("trailers", 4), ("bare", 2)]);
+}
+
+/// A realisation is looked for where there is one; where there may be none it is not.
+#[test]
+fn a_regular_vehicle_is_realised() {
+    let met = Met::default();
+    check(40, vehicles(any_drive(), 1, 3), |vehicle| {
+        let found = vehicle.mechanism().realisation(&vehicle.measured(true), &vehicle.point());
+        prop_assert!(!vehicle.is_regular() || found.is_ok(), "{:?}", found);
+        met.note("regular", vehicle.is_regular());
+        Ok(())
+    });
+    met.at_least(&[("regular", 25)]);
+}
+
+#[test]
+fn what_is_measured_names_driven_wheels_castors_and_yaw() {
+    check(30, vehicles(any_drive(), 2, 0), |vehicle| {
+        let names = |yaw| vehicle.measured(yaw).iter().map(ToString::to_string).collect::<BTreeSet<_>>();
+        let driven: &[&str] = match vehicle.drive {
+            Drive::Unicycle | Drive::Car => &["theta_1'"],
+            Drive::Tricycle => &["theta_2'"],
+            Drive::Differential | Drive::Splayed => &["theta_1'", "theta_2'"],
+        };
+        let wheels = vehicle.wheels().unwrap_or_default();
+        let further = wheels.iter().filter(|w| w.k > 10).map(|w| format!("gamma_{}'", w.k));
+        let mut wanted: BTreeSet<String> = driven.iter().map(ToString::to_string).chain(further).collect();
+        wanted.insert("delta'".into());
+        let yaw = || "phi'".to_string();
+        let with_yaw: BTreeSet<String> = wanted.iter().cloned().chain([yaw()]).collect();
+        if !wheels.is_empty() {
+            prop_assert_eq!(names(true), with_yaw.clone());
+            prop_assert_eq!(names(false), if vehicle.drive == Drive::Unicycle { with_yaw } else { wanted });
         }
         Ok(())
     });

@@ -151,3 +151,19 @@ fn a_coefficient_too_small_to_write_is_not_ideal() {
     assert_eq!(RotationMotion::of(2.0, 0.0, None).contact, Some(Way::Forward));
     assert_eq!(RotationMotion::of(1.0, 1.0, None).contact, None);
 }
+
+#[test]
+fn a_contact_that_does_not_move_sideways_is_on_no_side() {
+    for v_t in [0.0, -0.0, f64::NAN] {
+        for v_l in [1.0, 0.0, -1.0] {
+            let motion = TraverseMotion::of(v_l, v_t, None);
+            assert_eq!((motion.of_body, motion.of_travel), (None, None), "{v_l} {v_t}");
+        }
+    }
+}
+
+#[test]
+fn regimes_are_written_by_name() {
+    assert_eq!(format!("{Slipping} {BackwardCreep}"), "slipping backward-creep");
+    assert_eq!(format!("{SideSlip} {LeftCreep}"), "side-slip left-creep");
+}

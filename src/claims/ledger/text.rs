@@ -31,7 +31,7 @@ fn entry(out: &mut String, e: &Entry) {
         let mark = if shown.as_stated && shown.survivors.is_empty() { "+" } else { "!" };
         let gives = evidence.gives.name();
         paragraph(out, &format!("{mark} {gives}: {}: {}", evidence.shows, outcome(evidence, shown)));
-        shown.survivors.iter().for_each(|s| paragraph(out, &format!("  not noticed: {s}")));
+        shown.survivors.iter().for_each(|s| paragraph(out, &format!("not noticed: {s}")));
     }
     if !claim.remark.is_empty() {
         paragraph(out, &claim.remark);

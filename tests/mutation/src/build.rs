@@ -3,6 +3,7 @@
 use crate::Places;
 use crate::listed::{Mutant, list};
 use crate::rewrite::{Fate, SWITCH, rewrite};
+use crate::units::ONE_IN;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -51,12 +52,29 @@ fn copy(at: &Places) {
         let Ok(mut bytes) = std::fs::read(at.root.join(file)) else { continue };
         match file {
             "Cargo.toml" => bytes.extend_from_slice(PROFILE.as_bytes()),
+            "tests/support/mod.rs" => bytes = fewer_cases(&bytes),
             "src/lib.rs" => bytes.extend_from_slice(b"\n#[doc(hidden)]\n#[allow(missing_docs)]\npub mod mutant;\n"),
             _ => {}
         }
         put(&at.copy().join(file), &bytes);
     }
     put(&at.copy().join("src/mutant.rs"), SWITCH.as_bytes());
+}
+
+/// Properties with a share of their cases, the first ones; they stop at the first that fails and keep nothing of it.
+fn fewer_cases(bytes: &[u8]) -> Vec<u8> {
+    let text = String::from_utf8(bytes.to_vec()).unwrap();
+    let share = format!("(cases / std::env::var(\"{ONE_IN}\").map_or(1, |n| n.parse().unwrap())).max(1)");
+    let changes = [
+        ("        cases,\n", format!("        cases: {share},\n")),
+        ("max_shrink_iters: 4000", "max_shrink_iters: 0".into()),
+        ("Some(Box::new(FileFailurePersistence::Direct(REGRESSIONS)))", "None".into()),
+    ];
+    let change = |text: String, (old, new): (&str, String)| {
+        assert!(text.contains(old), "tests/support/mod.rs lacks {old}");
+        text.replace(old, &new)
+    };
+    changes.into_iter().fold(text, change).into_bytes()
 }
 
 /// Writes only what differs, so that cargo sees what is new.

@@ -1,7 +1,7 @@
 //! Which test meets which mutants, and how long it takes.
 
 use crate::Places;
-use crate::units::{End, binaries, run, tests};
+use crate::units::{CLAIM, End, ONE_IN, binaries, claims, run, tests};
 use std::collections::BTreeSet;
 
 /// One test.
@@ -10,6 +10,8 @@ pub struct Test {
     pub binary: String,
     pub path: String,
     pub name: String,
+    /// Properties try one in so many of their cases.
+    pub one_in: u32,
     pub seconds: f64,
     pub met: BTreeSet<u32>,
 }
@@ -20,23 +22,48 @@ pub fn measure(at: &Places, only: &[&str]) {
     let old = at.read("reach.tsv");
     let kept = |l: &&str| !only.is_empty() && !only.iter().any(|o| l.starts_with(&format!("{o}\t")));
     let mut out: String = old.lines().filter(kept).map(|l| format!("{l}\n")).collect();
-    for (binary, path) in binaries(at, only) {
-        for name in tests(at, &path) {
-            let met = at.file("met");
-            let _ = std::fs::remove_file(&met);
-            let (ended, _) = run(at, &path, &[&name], ("MUTANT_REACH", met.to_str().unwrap()), 1000);
-            let (again, took) = run(at, &path, &[&name], ("MUTANT", "1000000"), 1000);
-            if ended != End::Passed || again != End::Passed {
-                println!("left out, does not pass: {binary} {name}");
-                continue;
+    let tested = |(binary, path): (String, String)| {
+        let names = tests(at, &path);
+        (binary, path, names)
+    };
+    let mut all: Vec<_> = binaries(at, only).into_iter().map(tested).collect();
+    if only.is_empty() || only.contains(&CLAIM) {
+        let (path, ids) = claims(at);
+        all.push((CLAIM.into(), path, ids));
+    }
+    for (binary, path, names) in all {
+        for name in names {
+            // What counts its cases does not pass with few.
+            match SHARES.into_iter().find_map(|share| Some((share, alone(at, &path, &name, share)?))) {
+                Some((share, (took, ids))) => {
+                    out += &format!("{binary}\t{path}\t{name}\t{share}\t{took:.4}\t{ids}\n");
+                }
+                None => println!("left out, does not pass or takes long: {binary} {name}"),
             }
-            let text = at.read("met");
-            let ids: BTreeSet<&str> = text.split_whitespace().collect();
-            let ids: Vec<&str> = ids.into_iter().collect();
-            out += &format!("{binary}\t{path}\t{name}\t{:.4}\t{}\n", took.as_secs_f64(), ids.join(" "));
         }
     }
     std::fs::write(at.file("reach.tsv"), out).unwrap();
+}
+
+/// Shares of the cases of a property, tried in turn.
+const SHARES: [u32; 2] = [20, 1];
+
+/// Processor time after which a test is left out, in seconds.
+const LONGEST: u64 = 60;
+
+/// The time that a test takes alone and the mutants that it meets; nothing when it does not pass.
+fn alone(at: &Places, path: &str, name: &str, one_in: u32) -> Option<(f64, String)> {
+    let share = (ONE_IN, one_in.to_string());
+    let run = |variable: (&str, &str), limit| run(at, path, &[name], &[variable, (share.0, &share.1)], limit);
+    let (ended, took) = run(("MUTANT", "1000000"), LONGEST);
+    let met = at.file("met");
+    let _ = std::fs::remove_file(&met);
+    if ended != End::Passed || run(("MUTANT_REACH", met.to_str().unwrap()), 20 * LONGEST).0 != End::Passed {
+        return None;
+    }
+    let text = at.read("met");
+    let ids: BTreeSet<&str> = text.split_whitespace().collect();
+    Some((took.as_secs_f64(), ids.into_iter().collect::<Vec<_>>().join(" ")))
 }
 
 /// What [`measure`] left.
@@ -47,8 +74,9 @@ pub fn read(at: &Places) -> Vec<Test> {
             binary: cells[0].into(),
             path: cells[1].into(),
             name: cells[2].into(),
-            seconds: cells[3].parse().unwrap(),
-            met: cells[4].split_whitespace().map(|i| i.parse().unwrap()).collect(),
+            one_in: cells[3].parse().unwrap(),
+            seconds: cells[4].parse().unwrap(),
+            met: cells[5].split_whitespace().map(|i| i.parse().unwrap()).collect(),
         }
     };
     at.read("reach.tsv").lines().map(line).collect()

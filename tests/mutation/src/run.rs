@@ -2,7 +2,7 @@
 
 use crate::Places;
 use crate::reach::{self, Test};
-use crate::units::{End, run as run_tests};
+use crate::units::{CLAIM, End, ONE_IN, run as run_tests};
 use std::collections::{BTreeMap, HashMap};
 use std::io::Write;
 
@@ -44,6 +44,7 @@ struct Unit<'a> {
     path: &'a str,
     key: String,
     tests: Vec<&'a str>,
+    one_in: u32,
     seconds: f64,
 }
 
@@ -73,21 +74,20 @@ pub fn run(at: &Places, up_to: f64, part: usize, of: usize) {
 
 /// The claims rest on everything: their tests are the last to ask about what lies below them.
 fn is_far(unit: &Unit, source: &str) -> bool {
-    unit.key.starts_with("claims_ledger") && !source.starts_with("src/claims")
+    (unit.key.starts_with("claims_ledger") || unit.key.starts_with(CLAIM)) && !source.starts_with("src/claims")
 }
 
 /// The layers in the order they are wanted in; the paper's claims are mostly data.
 fn priority(file: &str) -> usize {
-    ["src/formula", "src/mechanism", "src/claims/paper"]
-        .iter()
-        .position(|p| file.starts_with(p))
-        .map_or(2, |p| p + p / 2)
+    const ORDER: [&str; 4] = ["src/mechanism", "src/claims/paper", "src/claims", "src/formula"];
+    [0, 2, 1, 3][ORDER.iter().position(|p| file.starts_with(p)).unwrap_or(3)]
 }
 
 fn judge(at: &Places, id: usize, units: &[Unit]) -> (&'static str, String) {
     for unit in units {
         let limit = (10.0 * unit.seconds).max(8.0) as u64;
-        match run_tests(at, unit.path, &unit.tests, ("MUTANT", &id.to_string()), limit).0 {
+        let variables = [("MUTANT", &*id.to_string()), (ONE_IN, &*unit.one_in.to_string())];
+        match run_tests(at, unit.path, &unit.tests, &variables, limit).0 {
             End::Passed => {}
             End::Failed => return ("killed", unit.key.clone()),
             End::TooLong => return ("timeout", unit.key.clone()),
@@ -96,14 +96,21 @@ fn judge(at: &Places, id: usize, units: &[Unit]) -> (&'static str, String) {
     ("alive", String::new())
 }
 
-/// Quick tests of a binary run together, the others alone.
+/// Quick tests of a binary run together, the others alone; many claims a few at a time.
 fn units<'a>(tests: &'a [Test], id: usize, from: f64, up_to: f64) -> Vec<Unit<'a>> {
     const TOGETHER: f64 = 0.1;
-    let mut made: BTreeMap<String, Unit> = BTreeMap::new();
-    for t in tests.iter().filter(|t| from <= t.seconds && t.seconds < up_to && t.met.contains(&(id as u32))) {
-        let key = if t.seconds < TOGETHER { t.binary.clone() } else { format!("{} {}", t.binary, t.name) };
-        let empty = Unit { path: &t.path, key: key.clone(), tests: Vec::new(), seconds: 0.01 };
-        let unit = made.entry(key).or_insert(empty);
+    const MANY: usize = 20;
+    let mut made: BTreeMap<(String, u32), Unit> = BTreeMap::new();
+    let met = |t: &&Test| from <= t.seconds && t.seconds < up_to && t.met.contains(&(id as u32));
+    let claims = tests.iter().filter(met).filter(|t| t.binary == CLAIM).count();
+    for (i, t) in tests.iter().filter(met).enumerate() {
+        let key = match t.binary == CLAIM && claims > MANY && t.seconds < 1.0 {
+            true => format!("{CLAIM} {}", i / 10),
+            false if t.seconds < TOGETHER => t.binary.clone(),
+            false => format!("{} {}", t.binary, t.name),
+        };
+        let empty = Unit { path: &t.path, key: key.clone(), tests: Vec::new(), one_in: t.one_in, seconds: 0.01 };
+        let unit = made.entry((key, t.one_in)).or_insert(empty);
         unit.tests.push(&t.name);
         unit.seconds += t.seconds;
     }

@@ -289,14 +289,19 @@ status = "proved"
 vehicle = "unicycle"
 trailers = 1
 equations = ["vt_1 = e_tc_1*v_1"]
+[[claim]]
+id = "not-so"
+status = "refuted"
+vehicle = "car"
+printed = ["phi' = v_l/L*sin(delta)"]
 "#;
     with_file(text, |path| {
-        let found = creepage(&["verify", "--claims", path, "mine", "train", "--format", "json"]);
+        let found = creepage(&["verify", "--claims", path, "mine", "train", "not-so", "--format", "json"]);
         let json: serde_json::Value = serde_json::from_slice(&found.stdout).unwrap();
         assert_eq!(found.status.code(), Some(0), "{json:#}");
         assert_eq!(
-            (json["claims"][0]["earned"].as_str(), json["claims"][1]["earned"].as_str()),
-            (Some("corrected"), Some("proved"))
+            [0, 1, 2].map(|i| json["claims"][i]["earned"].as_str()),
+            [Some("corrected"), Some("proved"), Some("refuted")]
         );
         let listed = creepage(&["claims", "--claims", path]);
         assert!(String::from_utf8_lossy(&listed.stdout).contains("a car turns by its steering"));

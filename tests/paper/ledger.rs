@@ -58,13 +58,14 @@ fn wrong(e: &Entry) -> Option<String> {
     let value = |(name, value): &(String, String)| format!("#{} $=$ #{}", code(name), code(value));
     let case = found.values.iter().map(value).collect::<Vec<_>>().join(", ");
     let at = if case.is_empty() { "false: ".into() } else { format!("false at {case}: ") };
-    Some(format!("[{printed}; {at}{}]", instead(&found.says)))
+    Some(format!("[{printed}\\; {at}{}]", instead(&found.says)))
 }
 
 /// What is found in a counterexample and what the statement says.
 fn instead(says: &str) -> String {
     match says.split_once(", the statement says ") {
         Some((found, stated)) => match found.split_once(" is ") {
+            Some((name, value)) if stated == "otherwise" => format!("#{} is #{}", code(name), code(value)),
             Some((name, value)) => format!("#{} is #{}, not #{}", code(name), code(value), code(stated)),
             None => format!("#{}", code(says)),
         },

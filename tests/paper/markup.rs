@@ -14,12 +14,13 @@ pub fn string(text: &str) -> String {
 }
 
 /// Names that the program must write in ASCII, and how the paper writes them.
-const RENAMED: [(&str, &str); 10] = [
+const RENAMED: [(&str, &str); 11] = [
     ("vt_1", "v_t_1"),
     ("vt_2", "v_t_2"),
     ("v_1", "v_l_1"),
     ("v_2", "v_l_2"),
     ("i_s", "i"),
+    ("x_by_phi", "x_phi"),
     ("miss_x", "Delta_x"),
     ("miss_y", "Delta_y"),
     ("e_there", "e_h_b"),
@@ -38,7 +39,7 @@ pub fn formula(e: &Expr) -> String {
 }
 
 /// Characters of markup that fill a line of a column.
-const LINE: usize = 105;
+const LINE: usize = 85;
 
 /// A formula over several lines where it is long: its last terms on lines of their own.
 fn broken(e: &Expr) -> String {
@@ -60,7 +61,7 @@ pub fn display(equations: &[Equation]) -> String {
 pub fn inline(text: &str) -> String {
     match Expr::parse(text) {
         Ok(e) if !text.contains('.') => format!("${}$", formula(&e)),
-        _ => format!("[#{}]", string(&text.replace('_', " "))),
+        _ => format!("[#{}]", string(&text.replace(['_', '.'], " "))),
     }
 }
 

@@ -173,6 +173,25 @@ fn latex_cannot_be_misread() {
 }
 
 #[test]
+fn typst_cannot_be_misread() {
+    let table = [
+        ("a*-b", "a thin (-b)"),
+        ("a - -b", "a - (-b)"),
+        ("a*(-b*c/d)", "a thin (-frac(b thin c, d))"),
+        ("2*3^2", "2 dot.op 3^(2)"),
+        ("(a/b)^2", "(frac(a, b))^(2)"),
+        ("-a^2", "-a^(2)"),
+        ("a - (b - c)", "a - (b - c)"),
+        ("atan(abs(x))", "arctan(abs(x))"),
+        ("omega_rear_left''", "dot.double(omega)_\"rear,left\""),
+        ("slip_1 + sign(x)", "\"slip\"_\"1\" + op(\"sgn\")(x)"),
+    ];
+    for (text, typst) in table {
+        assert_eq!(Expr::parse(text).unwrap().typst(), typst, "{text}");
+    }
+}
+
+#[test]
 fn a_name_is_well_formed_exactly_if_it_reads_back_as_itself() {
     let text = prop_oneof!["[a-z_φ][a-z0-9_.]{0,4}'{0,3}", "[ -~]{0,5}", Just("sin".into()), Just("sin'".into())];
     check(2000, text, |text| {

@@ -3,8 +3,8 @@
 use super::print::{Bind, bind, decimal};
 use super::{Expr, Fun, Node, Symbol};
 
-/// Greek names that LaTeX knows under the same name.
-const GREEK: &[&str] = &[
+/// Greek names that LaTeX and Typst know under the same name.
+pub(super) const GREEK: &[&str] = &[
     "alpha", "beta", "gamma", "delta", "epsilon", "eta", "theta", "kappa", "lambda", "mu", "nu", "xi", "pi", "rho",
     "sigma", "tau", "phi", "chi", "psi", "omega", "Delta", "Omega", "Phi", "Psi",
 ];

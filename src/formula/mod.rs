@@ -35,6 +35,7 @@ mod serial;
 mod size;
 mod substitute;
 mod symbol;
+mod typst;
 mod unit;
 
 pub use dual::{Dual, Parts};
@@ -51,4 +52,5 @@ pub use program::Program;
 pub use scalar::Scalar;
 pub use size::Size;
 pub use symbol::Symbol;
+pub use typst::typst_symbol;
 pub use unit::Unit;

@@ -1,15 +1,14 @@
 //! How much an effect seems to gain where it is not there, for effects of which χ² does not hold.
 //!
 //! Twice the gain of log likelihood of k parameters is χ²ₖ by chance, unless a parameter cannot change its sign (then
-//! half of the chance gains are zero) or the effect's other parameters say nothing where it vanishes (then the best of
-//! many is taken and gains are larger). Both are asked of data drawn from the model without the effect.
+//! some of the chance gains are zero) or the effect's other parameters say nothing where it vanishes (then the best of
+//! many is taken and gains are larger). How often and how much is asked of data drawn from the model without the effect.
 
 use super::carry;
 use super::chain::Variances;
 use super::evidence::tail;
 use super::fit::{Effort, Fit};
 use super::problem::Problem;
-use super::record::Channel;
 use super::windows::Starts;
 use crate::effects::Applied;
 use crate::error::Result;
@@ -34,7 +33,7 @@ pub struct ChanceGains {
 }
 
 impl ChanceGains {
-    /// Share of draws with any gain at all: one half at an edge.
+    /// Share of draws with any gain at all: less than one at an edge.
     pub fn share(&self) -> f64 {
         self.some().count() as f64 / self.gains.len().max(1) as f64
     }
@@ -117,7 +116,8 @@ impl Problem {
                 for i in rows.clone() {
                     let y = stepper.outputs(&arc.z);
                     for (c, channel) in record.channels().into_iter().enumerate() {
-                        record.columns[c][i] = y[record.output_of(c)] + noise(v, channel) * normal(random);
+                        record.columns[c][i] =
+                            y[record.output_of(c)] + v.noise[channel as usize].sqrt() * normal(random);
                     }
                     if i + 1 < record.time.len() {
                         stepper.advance(&mut arc, record.time[i], record.time[i + 1]);
@@ -132,10 +132,6 @@ impl Problem {
         }
         drawn.records.iter().flat_map(|r| &r.columns).flatten().all(|x| x.is_finite()).then_some((drawn, starts))
     }
-}
-
-fn noise(v: &Variances, channel: Channel) -> f64 {
-    v.noise[channel as usize].sqrt()
 }
 
 /// Moves a pose by what no effect explains: along the body, across it, in yaw, and the trailers'.

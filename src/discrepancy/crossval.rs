@@ -37,18 +37,9 @@ impl Problem {
     /// # Errors
     /// When the model's formulas are malformed.
     pub fn left_out(&self, fit: &Fit, part: Part) -> Result<Option<Vec<f64>>> {
-        let equations = fit.model.free_equations()?;
-        let Some(linear) = linearise(&equations, &fit.p, &self.records, &self.plan, &fit.starts) else {
-            return Ok(None);
-        };
-        let blocks = self.blocks(linear, part);
-        let folds = blocks.iter().map(|b| b.fold + 1).max().unwrap_or(0);
-        let parts = (0..folds).map(|fold| of_fold(&blocks, fold, &fit.variances, fit.p.len()));
-        Ok(parts.collect())
+        Ok(self.linear(fit)?.and_then(|linear| self.deviances(fit, &linear, part)))
     }
-}
 
-impl Problem {
     /// Whether a model predicts the parts it was not fitted to better than another: all together, and most of those
     /// in which the two differ at all.
     ///
@@ -60,41 +51,42 @@ impl Problem {
     pub fn predicts_better(&self, fit: &Fit, than: &Fit) -> Result<bool> {
         let runs = self.records.len();
         let part = if runs >= FEWEST_RUNS { Part::Run } else { Part::Blocks };
+        let [new, old] = [self.linear(fit)?, self.linear(than)?];
+        let of = |fit: &Fit, linear: &Option<Along>, part: Part| self.deviances(fit, linear.as_ref()?, part);
+        // By how much each part is predicted better; `None` where a part leaves a parameter of the model open.
+        let gains = |part: Part| -> Option<Vec<f64>> {
+            let new = of(fit, &new, part)?;
+            let old = of(than, &old, part).unwrap_or_else(|| vec![f64::INFINITY; new.len()]);
+            Some(old.iter().zip(&new).map(|(old, new)| old - new).collect())
+        };
         // Parameters that are open without a part of the data are no finding.
-        let Some(gains) = self.gains(fit, than, part)? else { return Ok(false) };
-        let (better, worse): (Vec<&f64>, Vec<&f64>) = gains.iter().filter(|g| g.abs() > SAME).partition(|g| **g > 0.0);
-        if total(&gains) <= 0.0 || better.len() <= 2 * worse.len() {
+        let Some(gained) = gains(part) else { return Ok(false) };
+        let (better, worse): (Vec<&f64>, Vec<&f64>) = gained.iter().filter(|g| g.abs() > SAME).partition(|g| **g > 0.0);
+        if total(&gained) <= 0.0 || better.len() <= 2 * worse.len() {
             return Ok(false);
         }
         // A parameter that only one run shows cannot be asked of the others.
-        let between = if (2..FEWEST_RUNS).contains(&runs) { self.gains(fit, than, Part::Run)? } else { None };
-        Ok(between.is_none_or(|gains| total(&gains) > 0.0))
+        let between = if (2..FEWEST_RUNS).contains(&runs) { gains(Part::Run) } else { None };
+        Ok(between.is_none_or(|gained| total(&gained) > 0.0))
     }
 
-    /// By how much each part is predicted better; `None` where a part leaves a parameter of the model open.
-    fn gains(&self, fit: &Fit, than: &Fit, part: Part) -> Result<Option<Vec<f64>>> {
-        let Some(new) = self.left_out(fit, part)? else { return Ok(None) };
-        let Some(old) = self.left_out(than, part)? else { return Ok(Some(vec![f64::INFINITY; new.len()])) };
-        Ok(Some(old.iter().zip(&new).map(|(old, new)| old - new).collect()))
+    /// A fit's model along all windows, where it is defined.
+    fn linear(&self, fit: &Fit) -> Result<Option<Along>> {
+        let equations = fit.model.free_equations()?;
+        Ok(linearise(&equations, &fit.p, &self.records, &self.plan, &fit.starts))
     }
-}
 
-fn total(gains: &[f64]) -> f64 {
-    gains.iter().sum()
-}
+    fn deviances(&self, fit: &Fit, linear: &Along, part: Part) -> Option<Vec<f64>> {
+        let blocks = self.blocks(linear, part);
+        let folds = blocks.iter().map(|b| b.fold + 1).max().unwrap_or(0);
+        (0..folds).map(|fold| of_fold(&blocks, fold, &fit.variances, fit.p.len())).collect()
+    }
 
-/// Windows that stay together, and the part they belong to.
-struct Block {
-    fold: usize,
-    windows: Vec<Linear>,
-}
-
-impl Problem {
     /// Whole runs, or neighbouring windows cut loose from one another.
-    fn blocks(&self, linear: Vec<Vec<Linear>>, part: Part) -> Vec<Block> {
+    fn blocks(&self, linear: &Along, part: Part) -> Vec<Block> {
         if part == Part::Run {
             let whole = self.plan.iter().zip(linear);
-            return whole.map(|(s, windows)| Block { fold: s.record, windows }).collect();
+            return whole.map(|(s, windows)| Block { fold: s.record, windows: windows.clone() }).collect();
         }
         let windows: usize = linear.iter().map(Vec::len).sum();
         let size = (windows / (2 * FOLDS)).clamp(1, BLOCK);
@@ -108,6 +100,19 @@ impl Problem {
         let pieces = linear.iter().flat_map(|windows| windows.chunks(size).map(loose));
         pieces.enumerate().map(|(i, windows)| Block { fold: i % FOLDS, windows }).collect()
     }
+}
+
+/// Windows, segment by segment.
+type Along = Vec<Vec<Linear>>;
+
+fn total(gains: &[f64]) -> f64 {
+    gains.iter().sum()
+}
+
+/// Windows that stay together, and the part they belong to.
+struct Block {
+    fold: usize,
+    windows: Vec<Linear>,
 }
 
 fn of_fold(blocks: &[Block], fold: usize, v: &Variances, parameters: usize) -> Option<f64> {

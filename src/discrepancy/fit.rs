@@ -216,8 +216,7 @@ fn gain(here: &Point, next: &Point, v: &Variances, share: f64) -> f64 {
 /// from the truth no step would be seen to lead down.
 fn misfit(linear: &[Vec<Linear>], v: &Variances) -> f64 {
     let of_window = |w: &Linear| {
-        let last = w.gram[0].nrows() - 1;
-        let noise: f64 = w.gram.iter().zip(v.noise).map(|(g, noise)| g[(last, last)] / noise).sum();
+        let noise: f64 = v.noise.iter().enumerate().map(|(channel, noise)| w.square(channel) / noise).sum();
         let jump = w.mismatch.iter().enumerate().map(|(c, m)| m * m / (v.jump[c.min(3)] * w.duration));
         noise + jump.sum::<f64>()
     };

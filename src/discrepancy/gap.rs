@@ -4,7 +4,7 @@ use super::angle::wrapped;
 use super::carry;
 use super::course::{Course, heading_at, measured_at};
 use super::problem::pose_of;
-use super::record::{Channel, Record};
+use super::record::Record;
 use super::windows::MARGIN;
 use crate::error::Result;
 use crate::model::{Equations, Model};
@@ -172,12 +172,7 @@ fn with_noise(record: &Record, noise: &[f64; 3], rng: &mut ChaCha8Rng) -> Record
     let mut noisy = record.clone();
     let channels = record.channels();
     for (column, channel) in noisy.columns.iter_mut().zip(channels) {
-        let sigma = match channel {
-            Channel::Position => noise[0],
-            Channel::Heading => noise[1],
-            Channel::Trailer => noise[2],
-        }
-        .sqrt();
+        let sigma = noise[channel as usize].sqrt();
         column.iter_mut().for_each(|y| *y += sigma * rng.sample::<f64, _>(StandardNormal));
     }
     noisy

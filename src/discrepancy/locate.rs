@@ -74,7 +74,7 @@ impl Violation {
         let share: f64 = record.smoothing(i).iter().map(|(_, w)| w * w).sum();
         let count = self.windows.len().max(1) as f64;
         let duration = self.windows.iter().map(|w| w.span[1] - w.span[0]).sum::<f64>() / count;
-        let speed = (self.windows.iter().map(|w| w.speed * w.speed).sum::<f64>() / count).sqrt();
+        let speed = self.rms_of(|w| w.speed);
         let [position, heading, trailer] = noise.map(|v| (2.0 * share * v).sqrt() / duration);
         let across = match record.has_heading {
             true => position.hypot((share * noise[1]).sqrt() * speed),
@@ -87,6 +87,12 @@ impl Violation {
         [position, across, heading, trailer.hypot(heading)]
     }
 
+    /// Root mean square of something over the windows.
+    fn rms_of(&self, what: impl Fn(&Window) -> f64) -> f64 {
+        let squares: f64 = self.windows.iter().map(|w| what(w).powi(2)).sum();
+        (squares / self.windows.len().max(1) as f64).sqrt()
+    }
+
     fn constraints(&self) -> usize {
         self.windows.first().map_or(0, |w| w.rates.len().min(4))
     }
@@ -94,20 +100,16 @@ impl Violation {
     /// Root mean square of the violated rates beyond their noise and of the measured motion: along and across in m/s,
     /// yaw in rad/s.
     pub fn against_motion(&self) -> [(f64, f64); 2] {
-        let rms = |f: &dyn Fn(&Window) -> f64| {
-            (self.windows.iter().map(f).sum::<f64>() / self.windows.len().max(1) as f64).sqrt()
-        };
         let beyond = |miss: f64, noise: f64| (miss * miss - noise * noise).max(0.0).sqrt();
-        let miss = beyond(rms(&|w| w.rates[0].powi(2) + w.rates[1].powi(2)), self.noise[0].hypot(self.noise[1]));
-        let yaw = beyond(rms(&|w| w.rates[2].powi(2)), self.noise[2]);
-        [(miss, rms(&|w| w.speed.powi(2))), (yaw, rms(&|w| w.yaw.powi(2)))]
+        let miss = beyond(self.rms_of(|w| w.rates[0].hypot(w.rates[1])), self.noise[0].hypot(self.noise[1]));
+        let yaw = beyond(self.rms_of(|w| w.rates[2]), self.noise[2]);
+        [(miss, self.rms_of(|w| w.speed)), (yaw, self.rms_of(|w| w.yaw))]
     }
 
     /// The longest stretch in which the vehicle moves sideways of where its model says by more than a share of its
     /// speed: the run, when it begins, when it ends, in s.
     pub fn slide(&self, share: f64) -> Option<(&str, [f64; 2])> {
-        let n = self.windows.len().max(1) as f64;
-        let typical = (self.windows.iter().map(|w| w.speed * w.speed).sum::<f64>() / n).sqrt();
+        let typical = self.rms_of(|w| w.speed);
         let slides = |w: &&Window| {
             let across = w.rates[1].abs();
             across > share * w.speed && w.speed > 0.3 * typical && across > 5.0 * self.noise[1]
@@ -208,16 +210,10 @@ const REGIMES: [(&str, Regime); 11] = [
 
 /// The regime in which a constraint is violated most, when one stands out.
 fn regime(v: &Violation, c: usize) -> &'static str {
-    let n = v.windows.len() as f64;
-    let rms = |f: &dyn Fn(&Window) -> f64| (v.windows.iter().map(f).sum::<f64>() / n).sqrt();
-    let speed = rms(&|w| w.speed.powi(2));
-    let typical = Typical {
-        speed,
-        yaw: rms(&|w| w.yaw.powi(2)),
-        load: rms(&|w| w.load().powi(2)),
-        curve: rms(&|w| w.curve(speed).powi(2)),
-    };
-    let mean = rms(&|w| w.rates[c].powi(2)).powi(2);
+    let speed = v.rms_of(|w| w.speed);
+    let typical =
+        Typical { speed, yaw: v.rms_of(|w| w.yaw), load: v.rms_of(Window::load), curve: v.rms_of(|w| w.curve(speed)) };
+    let mean = v.rms_of(|w| w.rates[c]).powi(2);
     let mut best = ("the whole run", 1.4);
     for (name, holds) in REGIMES {
         let inside: Vec<f64> = v

@@ -108,9 +108,8 @@ pub fn of_noise(linear: &[Vec<Linear>]) -> f64 {
     let windows = || linear.iter().flatten();
     let mut found: f64 = 1.0;
     for channel in 0..3 {
-        let square = |w: &Linear| w.gram[channel][(w.gram[channel].nrows() - 1, w.gram[channel].nrows() - 1)];
         let rows: usize = windows().map(|w| w.count[channel]).sum();
-        let mean = windows().map(square).sum::<f64>() / rows as f64;
+        let mean = windows().map(|w| w.square(channel)).sum::<f64>() / rows as f64;
         for k in 0..SCALES {
             let count: usize = windows().map(|w| w.blocks[channel].count[k]).sum();
             let squares: f64 = windows().map(|w| w.blocks[channel].squares[k]).sum();

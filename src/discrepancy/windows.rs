@@ -76,6 +76,14 @@ pub struct Linear {
     pub mismatch: Vec<f64>,
 }
 
+impl Linear {
+    /// Sum of the squared residuals of a channel.
+    pub fn square(&self, channel: usize) -> f64 {
+        let last = self.gram[channel].nrows() - 1;
+        self.gram[channel][(last, last)]
+    }
+}
+
 /// The model along all windows; `None` where it is undefined.
 pub fn linearise(
     equations: &Equations,

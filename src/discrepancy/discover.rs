@@ -1,12 +1,11 @@
 //! The main job in one line: runs → choice → gap → report.
 
-use super::choose::{Choice, Chosen, choose};
+use super::choose::{Chosen, choose};
 use super::data::Data;
 use super::fit::Fit;
-use super::gap::{Errors, Predictor};
+use super::judged::Judged;
 use super::locate;
 use super::problem::Problem;
-use super::record::Record;
 use super::relatives::{self, Relative, relatives};
 use super::remaining::remaining;
 use super::report::*;
@@ -15,7 +14,6 @@ use crate::effects::Effect;
 use crate::error::{Error, Result};
 use crate::files::{EffectEntry, ModelFile, Run};
 use crate::model::Model;
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Why a row whose pose no smooth motion passes through is left out.
@@ -92,15 +90,15 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
     }
     report.disagreement = locate::disagreements(&before);
     report.remaining = Some(remaining(&choice.after, &after));
-    let horizons = horizons(request);
-    report.gap = gaps(&data, &model, &choice, &horizons, request.seed)?;
-    report.steps = steps(&data, &choice, &report.gap)?;
+    let judged = Judged::of(&data, &model, &choice, request.seed)?;
+    report.gap = judged.gaps(&horizons(request));
+    report.steps = judged.steps(&choice, &report.gap)?;
     report.summary = found.sentence.unwrap_or_else(|| summary::verdict_sentence(&report));
     let added = match report.verdict {
         Verdict::UnusableData => vec![],
         _ => choice.chosen.iter().map(|c| c.applied.entry()).collect(),
     };
-    let mut pictures = picture::pictures(&data, &model, &choice, &report, request.seed)?;
+    let mut pictures = picture::pictures(&data, &choice, &report, &judged);
     for (b, a) in before.iter().zip(&after) {
         pictures.residuals.extend(b.pictures(a));
     }
@@ -220,53 +218,4 @@ fn horizons(request: &Request) -> Vec<f64> {
     h.sort_by(f64::total_cmp);
     h.dedup();
     h
-}
-
-/// Errors over all records of a kind.
-pub(super) fn errors(records: &[Record], model: &Model, horizon: f64) -> Result<Errors> {
-    let each = records.par_iter().map(|r| Ok(Predictor::new(model, r)?.errors(horizon)));
-    Ok(each.collect::<Result<Vec<_>>>()?.into_iter().fold(Errors::default(), Errors::joined))
-}
-
-/// The noise floor over all records of a kind.
-pub(super) fn floor(records: &[Record], choice: &Choice, horizon: f64, seed: u64) -> Result<Errors> {
-    let of = |(i, r): (usize, &Record)| {
-        let predictor = Predictor::new(&choice.after.model, r)?;
-        Ok(predictor.floor(horizon, &choice.after.variances.noise, seed.wrapping_add(i as u64)))
-    };
-    let each: Vec<Errors> = records.par_iter().enumerate().map(of).collect::<Result<_>>()?;
-    Ok(each.into_iter().fold(Errors::default(), Errors::joined))
-}
-
-fn gaps(data: &Data, model: &Model, choice: &Choice, horizons: &[f64], seed: u64) -> Result<Vec<Gap>> {
-    let mut found = Vec::new();
-    for &horizon in horizons {
-        let compare = |records: &[Record]| -> Result<Option<BeforeAfter>> {
-            let (before, after) = (errors(records, model, horizon)?, errors(records, &choice.after.model, horizon)?);
-            Ok((before.windows() > 0).then(|| BeforeAfter {
-                position_rms_before: before.position_rms(),
-                position_rms_after: after.position_rms(),
-                heading_rms_before: before.heading_rms(),
-                heading_rms_after: after.heading_rms(),
-            }))
-        };
-        let (fit, held_out) = (compare(&data.fitted)?, compare(&data.held_out)?);
-        if fit.is_none() && held_out.is_none() {
-            continue;
-        }
-        let judged = if held_out.is_some() { &data.held_out } else { &data.fitted };
-        let floor = floor(judged, choice, horizon, seed)?;
-        let noise_floor = Floor { position_rms: floor.position_rms(), heading_rms: floor.heading_rms() };
-        found.push(Gap { horizon_s: horizon, fit, held_out, noise_floor });
-    }
-    Ok(found)
-}
-
-/// The fitting data's gap after each addition.
-fn steps(data: &Data, choice: &Choice, gaps: &[Gap]) -> Result<Vec<Step>> {
-    let Some(horizon) = summary::middle(gaps).map(|g| g.horizon_s) else { return Ok(vec![]) };
-    let step = |(added, model): &(String, Model)| {
-        Ok(Step { added: added.clone(), gap_after: errors(&data.fitted, model, horizon)?.position_rms() })
-    };
-    choice.steps.iter().map(step).collect()
 }

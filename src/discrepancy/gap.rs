@@ -5,6 +5,7 @@ use super::carry;
 use super::course::{Course, heading_at, measured_at};
 use super::problem::pose_of;
 use super::record::Record;
+use super::smooth;
 use super::windows::MARGIN;
 use crate::error::Result;
 use crate::model::{Equations, Model};
@@ -128,36 +129,63 @@ impl<'a> Predictor<'a> {
         errors
     }
 
-    /// What [`Predictor::errors`] would give if this model were true, by drawing measurement noise.
+    /// What [`Predictor::errors`] would give at each horizon if this model were true, by drawing measurement noise.
     ///
     /// Noise enters twice: at the restart, whose smoothed pose it shifts and turns, and at the end. A model of
     /// a vehicle on a plane moves rigidly with its start, so no trajectory has to be integrated anew.
-    pub fn floor(&self, horizon: f64, noise: &[f64; 3], seed: u64) -> Errors {
-        let windows = self.windows(horizon);
-        // A heading that is taken from the path inherits the noise of its positions.
-        let courses: Vec<Option<Course>> = windows
-            .iter()
-            .map(|(from, _)| (!self.record.has_heading).then(|| heading_at(&self.equations, self.record, *from)))
-            .collect();
-        let ends: Vec<[f64; 2]> = windows.iter().map(|(from, to)| displacement(&self.outputs(*from, *to))).collect();
-        let mut errors = Errors::default();
-        let draws = (2000 / windows.len().max(1)).clamp(4, 200);
+    pub fn floors(&self, horizons: &[f64], noise: &[f64; 3], seed: u64) -> Vec<Errors> {
+        let each: Vec<Vec<Restart>> = horizons.iter().map(|h| self.restarts(*h)).collect();
+        let draws = |restarts: &Vec<Restart>| (2000 / restarts.len().max(1)).clamp(4, 200);
+        let mut errors = vec![Errors::default(); horizons.len()];
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        for _ in 0..draws {
+        for draw in 0..each.iter().map(draws).max().unwrap_or(0) {
             let noisy = with_noise(self.record, noise, &mut rng);
-            for (((from, to), d), course) in windows.iter().zip(&ends).zip(&courses) {
-                let (clean, shifted) = (self.record.smoothed(*from), noisy.smoothed(*from));
-                let moved = |i: usize| [0, 1].map(|c| noisy.columns[c][i] - self.record.columns[c][i]);
-                let turn = course.as_ref().map_or(shifted[2] - clean[2], |c| c.error(moved));
-                let turn = wrapped(turn);
-                let (sin, cos) = turn.sin_cos();
-                let turned = [(cos - 1.0) * d[0] - sin * d[1], sin * d[0] + (cos - 1.0) * d[1]];
-                let end = |c: usize| noisy.columns[c][*to] - self.record.columns[c][*to];
-                let error = [0, 1].map(|c| shifted[c] - clean[c] + turned[c] - end(c));
-                errors.add(error, self.record.has_heading.then(|| turn - end(2)));
+            for (restarts, errors) in each.iter().zip(&mut errors).filter(|(r, _)| draw < draws(r)) {
+                restarts.iter().for_each(|r| r.add_error(self.record, &noisy, errors));
             }
         }
         errors
+    }
+
+    /// The windows of a horizon with what noise acts on.
+    fn restarts(&self, horizon: f64) -> Vec<Restart> {
+        let restart = |(from, to): (usize, usize)| {
+            let smoothing = self.record.smoothing(from);
+            Restart {
+                to,
+                clean: self.record.columns.iter().map(|c| smooth::value(c, &smoothing)).collect(),
+                smoothing,
+                displacement: displacement(&self.outputs(from, to)),
+                course: (!self.record.has_heading).then(|| heading_at(&self.equations, self.record, from)),
+            }
+        };
+        self.windows(horizon).into_iter().map(restart).collect()
+    }
+}
+
+/// A window as noise sees it.
+struct Restart {
+    to: usize,
+    /// The measurements smoothed around its start, and the weights of the smoothing.
+    clean: Vec<f64>,
+    smoothing: Vec<(usize, f64)>,
+    /// How far the model moves in it.
+    displacement: [f64; 2],
+    /// A heading that is taken from the path inherits the noise of its positions.
+    course: Option<Course>,
+}
+
+impl Restart {
+    fn add_error(&self, record: &Record, noisy: &[Vec<f64>], errors: &mut Errors) {
+        let shift = |c: usize| smooth::value(&noisy[c], &self.smoothing) - self.clean[c];
+        let moved = |i: usize| [0, 1].map(|c| noisy[c][i] - record.columns[c][i]);
+        let turn = wrapped(self.course.as_ref().map_or_else(|| shift(2), |c| c.error(moved)));
+        let (sin, cos) = turn.sin_cos();
+        let d = self.displacement;
+        let turned = [(cos - 1.0) * d[0] - sin * d[1], sin * d[0] + (cos - 1.0) * d[1]];
+        let end = |c: usize| noisy[c][self.to] - record.columns[c][self.to];
+        let error = [0, 1].map(|c| shift(c) + turned[c] - end(c));
+        errors.add(error, record.has_heading.then(|| turn - end(2)));
     }
 }
 
@@ -168,10 +196,10 @@ fn displacement(path: &[Vec<f64>]) -> [f64; 2] {
     }
 }
 
-fn with_noise(record: &Record, noise: &[f64; 3], rng: &mut ChaCha8Rng) -> Record {
-    let mut noisy = record.clone();
-    let channels = record.channels();
-    for (column, channel) in noisy.columns.iter_mut().zip(channels) {
+/// The measured columns with noise added.
+fn with_noise(record: &Record, noise: &[f64; 3], rng: &mut ChaCha8Rng) -> Vec<Vec<f64>> {
+    let mut noisy = record.columns.clone();
+    for (column, channel) in noisy.iter_mut().zip(record.channels()) {
         let sigma = noise[channel as usize].sqrt();
         column.iter_mut().for_each(|y| *y += sigma * rng.sample::<f64, _>(StandardNormal));
     }

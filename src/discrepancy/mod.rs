@@ -30,6 +30,7 @@ pub mod fit;
 pub mod gap;
 pub mod html;
 pub mod identity;
+mod judged;
 pub mod locate;
 pub mod manoeuvre;
 pub mod outliers;

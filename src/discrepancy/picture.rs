@@ -2,26 +2,23 @@
 
 use super::choose::Choice;
 use super::data::Data;
-use super::discover::{errors, floor};
 use super::gap::Predictor;
+use super::judged::{Judged, Predictors};
 use super::record::Record;
-use super::report::{Candidate, GapCurve, PathPicture, Pictures, Report};
+use super::report::{Candidate, PathPicture, Pictures, Report};
 use crate::effects::Applied;
-use crate::error::Result;
 use crate::model::Model;
 
-/// Horizons of the curve, s.
-const CURVE: [f64; 12] = [0.2, 0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0, 45.0];
-/// Windows a point of the curve needs.
-const FEWEST_WINDOWS: usize = 2;
 /// Runs that are drawn.
 const MOST_RUNS: usize = 6;
 
-pub(super) fn pictures(data: &Data, model: &Model, choice: &Choice, report: &Report, seed: u64) -> Result<Pictures> {
-    let held_out = data.held_out.iter().map(|r| (r, true));
-    let fitted = data.fitted.iter().map(|r| (r, false));
-    let paths = held_out.take(MOST_RUNS / 2).chain(fitted).take(MOST_RUNS);
-    let paths = paths.map(|(r, held_out)| path(r, held_out, model, &choice.after.model)).collect::<Result<_>>()?;
+pub(super) fn pictures(data: &Data, choice: &Choice, report: &Report, judged: &Judged) -> Pictures {
+    let drawn = |records: &[Record], [before, after]: &[Predictors; 2], held_out: bool| -> Vec<PathPicture> {
+        let each = records.iter().zip(before.each()).zip(after.each());
+        each.map(|((r, before), after)| path(r, held_out, before, after)).take(MOST_RUNS).collect()
+    };
+    let held_out = drawn(&data.held_out, &judged.held_out, true).into_iter().take(MOST_RUNS / 2);
+    let paths = held_out.chain(drawn(&data.fitted, &judged.fitted, false)).take(MOST_RUNS).collect();
     let rivals: Vec<&Applied> = choice.chosen.iter().flat_map(|c| &c.rivals).collect();
     let candidates = choice.candidates.iter().map(|s| Candidate {
         id: s.applied.label(),
@@ -29,29 +26,13 @@ pub(super) fn pictures(data: &Data, model: &Model, choice: &Choice, report: &Rep
         chosen: choice.chosen.iter().any(|c| c.applied.same_as(&s.applied)),
         rival: rivals.iter().any(|r| r.same_as(&s.applied)),
     });
-    Ok(Pictures {
+    Pictures {
         paths,
-        gap: curve(data, model, choice, seed)?,
+        gap: judged.curve(),
         residuals: vec![],
         candidates: candidates.collect(),
         equations: report.effects.iter().map(|e| (e.place.clone(), e.equation.clone())).collect(),
-    })
-}
-
-fn curve(data: &Data, model: &Model, choice: &Choice, seed: u64) -> Result<GapCurve> {
-    let mut curve = GapCurve::default();
-    let enough = |records: &[Record], h: f64| errors(records, model, h).map(|e| e.windows() >= FEWEST_WINDOWS);
-    let records = if enough(&data.held_out, 1.0)? { &data.held_out } else { &data.fitted };
-    for h in CURVE {
-        if !enough(records, h)? {
-            continue;
-        }
-        curve.horizon.push(h);
-        curve.before.push(errors(records, model, h)?.position_rms());
-        curve.after.push(errors(records, &choice.after.model, h)?.position_rms());
-        curve.floor.push(floor(records, choice, h, seed)?.position_rms());
     }
-    Ok(curve)
 }
 
 /// The measured path of a run.
@@ -66,16 +47,15 @@ pub(super) fn measured_path(record: &Record, held_out: bool) -> PathPicture {
 }
 
 /// Measured and predicted paths; the models are restarted so rarely that a gap shows, and at least once a picture.
-fn path(record: &Record, held_out: bool, before: &Model, after: &Model) -> Result<PathPicture> {
+fn path(record: &Record, held_out: bool, before: &Predictor, after: &Predictor) -> PathPicture {
     let duration = record.time[record.rows.end - 1] - record.time[record.rows.start];
     let horizon = if duration > 70.0 { 30.0 } else { (duration - 1.5).clamp(1.0, 30.0) };
-    let pieces = |model: &Model| -> Result<Vec<Vec<[f64; 2]>>> {
-        let p = Predictor::new(model, record)?;
+    let pieces = |p: &Predictor| -> Vec<Vec<[f64; 2]>> {
         let xy = |y: Vec<f64>| [y[0], y[1]];
         let piece = |(from, to): (usize, usize)| p.outputs(from, to).into_iter().map(xy).collect();
-        Ok(p.windows(horizon).into_iter().map(piece).collect())
+        p.windows(horizon).into_iter().map(piece).collect()
     };
-    Ok(PathPicture { before: pieces(before)?, after: pieces(after)?, ..measured_path(record, held_out) })
+    PathPicture { before: pieces(before), after: pieces(after), ..measured_path(record, held_out) }
 }
 
 /// What an effect says, as equations: each definition it rewrites, and the rates of its states.

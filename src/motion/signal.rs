@@ -91,8 +91,22 @@ impl Signals {
 
     /// Values and slopes of all channels at a time.
     pub fn at(&self, t: f64, value: &mut [f64], slope: &mut [f64]) {
+        self.in_interval(self.interval(t), t, value, slope);
+    }
+
+    /// As [`Signals::at`], looked for first in the interval of the last call, which is updated.
+    pub(super) fn at_near(&self, near: &mut usize, t: f64, value: &mut [f64], slope: &mut [f64]) {
+        let inside = |i: usize| i + 1 < self.knots.len() && self.knots[i] <= t && t < self.knots[i + 1];
+        if !inside(*near) {
+            *near = if inside(*near + 1) { *near + 1 } else { self.interval(t) };
+        }
+        self.in_interval(*near, t, value, slope);
+    }
+
+    /// The interval that holds a time; beyond the ends the outermost.
+    fn interval(&self, t: f64) -> usize {
         let after = self.knots.partition_point(|k| *k <= t);
-        self.in_interval(after.clamp(1, self.knots.len().max(2) - 1) - 1, t, value, slope);
+        after.clamp(1, self.knots.len().max(2) - 1) - 1
     }
 
     /// As [`Signals::at`] for a time in a known interval, or beyond the ends of the log.

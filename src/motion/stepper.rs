@@ -21,6 +21,8 @@ pub struct Stepper<'a> {
     workspace: Workspace,
     delay: f64,
     delay_slopes: Vec<f64>,
+    /// The interval of the signals that was looked up last.
+    interval: usize,
     value: Vec<f64>,
     slope: Vec<f64>,
     stage: Stage,
@@ -54,6 +56,7 @@ impl<'a> Stepper<'a> {
             workspace,
             delay: delay[0],
             delay_slopes: delay[1..].to_vec(),
+            interval: 0,
             value: vec![0.0; channels],
             slope: vec![0.0; channels],
             stage: Stage::default(),
@@ -67,7 +70,7 @@ impl<'a> Stepper<'a> {
 
     /// The inputs that act at a time.
     pub fn inputs(&mut self, t: f64) -> &[f64] {
-        self.signals.at(t - self.delay, &mut self.value, &mut self.slope);
+        self.signals.at_near(&mut self.interval, t - self.delay, &mut self.value, &mut self.slope);
         &self.value
     }
 
@@ -106,7 +109,7 @@ impl<'a> Stepper<'a> {
         let n = self.equations.n();
         let turning = rate.z[2].abs() / TURN_PER_STEP;
         if arc.s.is_empty() {
-            self.signals.at(t - self.delay, &mut self.value, &mut self.slope);
+            self.signals.at_near(&mut self.interval, t - self.delay, &mut self.value, &mut self.slope);
             self.equations.rates_and_jacobian(&mut self.workspace, &arc.z, &self.value);
         }
         let f = self.equations.last_jacobian(&self.workspace);
@@ -137,7 +140,7 @@ impl<'a> Stepper<'a> {
     /// z′ and S′.
     fn rate(&mut self, at: &Arc, t: f64, rate: &mut Arc) {
         let n = self.equations.n();
-        self.signals.at(t - self.delay, &mut self.value, &mut self.slope);
+        self.signals.at_near(&mut self.interval, t - self.delay, &mut self.value, &mut self.slope);
         rate.z.resize(n, 0.0);
         rate.s.clear();
         rate.s.resize(at.s.len(), 0.0);

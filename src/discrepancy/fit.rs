@@ -84,7 +84,7 @@ impl Problem {
         let bounds = Bounds::of(model);
         let mut v = *variances;
         let Some(mut point) = self.point(&equations, p, starts.clone(), &v) else { return Ok(None) };
-        point = self.descend(&equations, point, &v, &bounds, effort);
+        point = self.descend(&equations, point, &v, &bounds, effort, false);
         if effort.variances {
             // Better variances show a better way down, and the other way round.
             for first_step in [1.0, 0.3, 0.3, 0.3, 0.3, 0.3] {
@@ -93,7 +93,8 @@ impl Problem {
                 v = better;
                 let Some(e) = eliminate(&point.linear, &v, point.p.len()) else { return Ok(None) };
                 point.eliminated = e;
-                point = self.descend(&equations, point, &v, &bounds, effort);
+                // What is promised here can be believed: the model has been followed down to this point.
+                point = self.descend(&equations, point, &v, &bounds, effort, true);
                 if settled {
                     break;
                 }
@@ -113,8 +114,16 @@ impl Problem {
 
     /// Levenberg–Marquardt steps of parameters and poses; a step that leads uphill is damped and, since no damping of
     /// the parameters shortens what the poses do, taken by a share.
-    fn descend(&self, equations: &Equations, mut here: Point, v: &Variances, bounds: &Bounds, effort: Effort) -> Point {
-        let (mut damping, mut share, mut settled) = (1e-6, 1.0, false);
+    fn descend(
+        &self,
+        equations: &Equations,
+        mut here: Point,
+        v: &Variances,
+        bounds: &Bounds,
+        effort: Effort,
+        mut settled: bool,
+    ) -> Point {
+        let (mut damping, mut share) = (1e-6, 1.0);
         for _ in 0..effort.passes {
             let Some(delta) = step(&here.eliminated, damping) else { return here };
             if settled && promised(&here.eliminated, &delta) < effort.enough {

@@ -6,6 +6,7 @@ use crate::model::{Equations, Workspace};
 use crate::motion::assembled;
 use crate::picture::axis::Axis;
 use crate::picture::maths::maths;
+use crate::picture::number::decimals;
 use crate::picture::plot::{Marker, Panel, Size};
 use crate::picture::svg::Element;
 
@@ -114,15 +115,14 @@ fn captions(panel: &mut Panel, title: &str, [x, y]: [&str; 2]) {
 }
 
 fn words(map: &mut Map, [e_rc, e_tc]: [f64; 2]) -> Vec<Element> {
-    let minus = |x: f64, d: usize| fixed(x, d).replace('-', "−");
     let [v_l, v_t, det] = map.at(e_rc, e_tc);
     let here = format!(
         "ring: ({}, {}) → ({}, {}), determinant {}",
-        minus(e_rc, 2),
-        minus(e_tc, 2),
-        minus(v_l, 2),
-        minus(v_t, 2),
-        minus(det, 2)
+        decimals(e_rc, 2),
+        decimals(e_tc, 2),
+        decimals(v_l, 2),
+        decimals(v_t, 2),
+        decimals(det, 2)
     );
     let lines = [
         "One-to-one but for $e_{rc}$ = 1: the dashed line becomes the point 0.".to_string(),

@@ -3,6 +3,7 @@
 use super::{Data, Drawing, Figure, Options, page};
 use crate::error::Result;
 use crate::motion::{assembled, driven};
+use crate::picture::number::decimals;
 use crate::picture::sketch::{Sketch, polar};
 use crate::picture::svg::Element;
 use std::f64::consts::FRAC_PI_2;
@@ -78,10 +79,7 @@ fn picture(rolled: &Rolled) -> Vec<Element> {
     s.text("", [0.0, 2.0 * r], [0.0, -18.0], "middle", "$ω_{r}$");
     contact_velocity(&mut s, rolled);
     names(&mut s, rolled, [c, c2, a_1, a_2]);
-    let (below, shown) = (
-        -34.0 / scale,
-        format!("$d = rθ(1 − e_{{rc}})$,  $e_{{rc}}$ = {}", super::fixed(rolled.e, 2).replace('-', "−")),
-    );
+    let (below, shown) = (-34.0 / scale, format!("$d = rθ(1 − e_{{rc}})$,  $e_{{rc}}$ = {}", decimals(rolled.e, 2)));
     s.length([0.0, 0.0], [d, 0.0], below * scale, "");
     s.text("", [0.5 * d, below], [0.0, 15.0], "middle", &shown);
     s.finish()

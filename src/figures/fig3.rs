@@ -4,6 +4,7 @@ use super::{Data, Drawing, Figure, Options, fixed, page};
 use crate::error::Result;
 use crate::motion::{assembled, driven};
 use crate::picture::maths::maths;
+use crate::picture::number::decimals;
 use crate::picture::sketch::{Sketch, polar};
 use crate::picture::svg::Element;
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -84,12 +85,11 @@ fn picture(e: f64, lag: f64) -> Vec<Element> {
 
 /// What is beside the disk.
 fn words(e: f64, lag: f64) -> Vec<Element> {
-    let number = |x: f64, d: usize| fixed(x, d).replace('-', "−");
     let lines = [
         ("force", "$τ_{R}$ turns the hub".to_string()),
         ("force", "$f_{R}$ holds the rim".to_string()),
-        ("", format!("$e_{{rc}} = f_{{R}}/(b_{{R}} r ω_{{r}})$ = {}", number(e, 2))),
-        ("", format!("$θ_{{rc}} = e_{{rc}} θ$ = {} rad", number(lag, 2))),
+        ("", format!("$e_{{rc}} = f_{{R}}/(b_{{R}} r ω_{{r}})$ = {}", decimals(e, 2))),
+        ("", format!("$θ_{{rc}} = e_{{rc}} θ$ = {} rad", decimals(lag, 2))),
         ("soft", "for $θ$ = 1 rad".to_string()),
         ("soft", "A schematic: no elastic".to_string()),
         ("soft", "model, only the angle.".to_string()),

@@ -1,9 +1,10 @@
 //! Fig. 5: bending and torsion of the sleigh. No elastic model exists; the angle is φ_tc.
 
-use super::{Data, Drawing, Figure, Options, fixed, page};
+use super::{Data, Drawing, Figure, Options, page};
 use crate::error::Result;
 use crate::motion::{assembled, driven};
 use crate::picture::maths::maths;
+use crate::picture::number::decimals;
 use crate::picture::sketch::{Sketch, polar, rounded};
 use crate::picture::svg::Element;
 use std::f64::consts::FRAC_PI_2;
@@ -26,10 +27,7 @@ fn draw(options: &Options) -> Result<Drawing> {
     for (x, text) in [(100.0, "bending, from behind"), (300.0, "torsion, from above")] {
         elements.push(maths("heading", [x, 20.0], "middle", text));
     }
-    let shown = format!(
-        "$φ_{{tc}}$ = {} rad.  A schematic: no elastic model, only the angle.",
-        fixed(angle, 2).replace('-', "−")
-    );
+    let shown = format!("$φ_{{tc}}$ = {} rad.  A schematic: no elastic model, only the angle.", decimals(angle, 2));
     elements.push(maths("soft", [200.0, 232.0], "middle", &shown));
     let description = "Left: the centre of mass C is bent sideways off the contact A. Right: the contact is twisted \
                        against the body. Both by phi_tc.";

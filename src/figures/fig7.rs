@@ -4,6 +4,7 @@ use super::readings::{self, CASES};
 use super::{Data, Drawing, Figure, Options, fixed, key, page, plane};
 use crate::error::Result;
 use crate::motion::{EndPoint, FIG7_DURATION, Reading, fig7_case, fig7_path};
+use crate::picture::number::plain;
 use crate::picture::plot::{Marker, Size};
 use crate::picture::svg::Element;
 
@@ -103,7 +104,7 @@ fn panel(case: &Case, ranges: [[f64; 2]; 2]) -> Element {
     ] {
         panel.markers(class, marker, &xy(&path[path.len() - 1..]));
     }
-    let [e_rc, e_tc] = case.e.map(|e| e.to_string().replace('-', "−"));
+    let [e_rc, e_tc] = case.e.map(plain);
     plane::name(&mut panel, PANEL, &format!("({}) $e_{{rc}}$ = {e_rc}, $e_{{tc}}$ = {e_tc}", case.name));
     let title = format!("Case ({})", case.name);
     panel.finish(&format!("case-{}", case.name), &title, "The three paths of this case.")

@@ -6,6 +6,7 @@ use crate::error::Result;
 use crate::model::{Model, Trailer};
 use crate::motion::{Creep, assembled};
 use crate::picture::maths::maths;
+use crate::picture::number::decimals;
 use crate::picture::sketch::{Sketch, rounded, turned};
 use crate::picture::svg::Element;
 use std::f64::consts::FRAC_PI_2;
@@ -101,7 +102,7 @@ fn draw(options: &Options) -> Result<Drawing> {
             data.row([entry.title.into(), w.name.clone()].into_iter().chain(cells).chain([angle]));
         }
     }
-    let shown = [e_rc, e_tc].map(|e| fixed(e, 2).replace('-', "−"));
+    let shown = [e_rc, e_tc].map(|e| decimals(e, 2));
     let words = format!("Arrows: velocities of contacts, with $e_{{rc}}$ = {}, $e_{{tc}}$ = {}.", shown[0], shown[1]);
     elements.push(maths("soft", [200.0, 358.0], "middle", &words));
     let description = "Four vehicles from above, wheels where their descriptions have them. An arrow is the velocity of a \

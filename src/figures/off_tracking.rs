@@ -6,6 +6,7 @@ use crate::model::{Model, Trailer};
 use crate::motion::{Creep, assembled, driven};
 use crate::picture::axis::Axis;
 use crate::picture::maths::maths;
+use crate::picture::number::decimals;
 use crate::picture::plot::{Marker, Size};
 use crate::picture::sketch::{rounded, turned};
 use crate::picture::svg::Element;
@@ -50,7 +51,7 @@ fn draw(options: &Options) -> Result<Drawing> {
         page::placed(above(&ideal, &crept), [2.0, 2.0], PATHS),
         page::placed(radii(&ideal, &crept), [2.0, 262.0], RADII),
     ];
-    let shown = format!("every axle of a trailer creeps, $e_{{tc}}$ = {}", fixed(e, 2).replace('-', "−"));
+    let shown = format!("every axle of a trailer creeps, $e_{{tc}}$ = {}", decimals(e, 2));
     elements.extend(key::column(
         &[
             key::Entry { class: "ideal", marker: Some(Marker::Ring), text: "without creep" },

@@ -4,6 +4,7 @@ use super::{Data, Drawing, Figure, Options, fixed, key, page, plane};
 use crate::error::Result;
 use crate::motion::{assembled, driven};
 use crate::picture::maths::maths;
+use crate::picture::number::decimals;
 use crate::picture::plot::{Marker, Size};
 use crate::picture::svg::line;
 
@@ -93,7 +94,7 @@ fn draw(options: &Options) -> Result<Drawing> {
         ],
         [20.0, 266.0],
     ));
-    let shown = e.map(|e| fixed(e, 2).replace('-', "−"));
+    let shown = e.map(|e| decimals(e, 2));
     elements.push(maths(
         "soft",
         [390.0, 20.0],

@@ -6,6 +6,7 @@ use crate::model::Model;
 use crate::motion::{assembled, driven};
 use crate::picture::axis::Axis;
 use crate::picture::maths::maths;
+use crate::picture::number::decimals;
 use crate::picture::plot::{Marker, Size};
 use crate::picture::svg::Element;
 
@@ -58,7 +59,7 @@ fn draw(options: &Options) -> Result<Drawing> {
         "soft",
         [20.0, 300.0],
         "start",
-        &format!("$e_{{tc}}$ = {}, left turn with $δ$ = {STEERING} rad", fixed(e, 2).replace('-', "−")),
+        &format!("$e_{{tc}}$ = {}, left turn with $δ$ = {STEERING} rad", decimals(e, 2)),
     ));
     let description = "Left: paths of a car with a constant steering angle. Right: curvature over steering angle. A front \
                        axle that creeps outwards turns the car less, a rear axle more.";

@@ -70,7 +70,15 @@ fn places_for(std: f64) -> usize {
 }
 
 /// A number with a fixed count of decimals and a true minus sign.
+///
+/// ```
+/// use creepage::picture::number::decimals;
+/// assert_eq!([decimals(-0.126, 2), decimals(-0.001, 2), decimals(f64::NAN, 2)], ["−0.13", "0.00", "–"]);
+/// ```
 pub fn decimals(x: f64, places: usize) -> String {
+    if !x.is_finite() {
+        return "–".into();
+    }
     minus(&format!("{x:.places$}"))
 }
 

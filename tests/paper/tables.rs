@@ -5,11 +5,12 @@ use super::markup::{formula, head, rows, string};
 use creepage::discrepancy::discover::{Discovery, Request, discover};
 use creepage::discrepancy::identity::{Measured, Relation, relation};
 use creepage::effects::{self, Applied};
-use creepage::figures::{fixed, readings};
+use creepage::figures::readings;
 use creepage::files::{ModelFile, Run};
 use creepage::formula::Expr;
 use creepage::model::{Model, known};
 use creepage::motion::{Reading, fig7_case};
+use creepage::picture::number::{self, decimals};
 use std::sync::LazyLock;
 
 pub fn file() -> String {
@@ -43,14 +44,14 @@ fn holonomy() -> String {
 }
 
 /// A number for a table, with a true minus.
-fn number(x: f64, decimals: usize) -> String {
-    string(&fixed(x, decimals).replace('-', "−"))
+fn number(x: f64, places: usize) -> String {
+    string(&decimals(x, places))
 }
 
 fn ends() -> String {
     let row = |(name, e_rc, e_tc): &(&str, f64, f64)| {
         let [plain, kept] = [Reading::NonConservative, Reading::A].map(|r| fig7_case(*e_rc, *e_tc, r).unwrap());
-        let coefficient = |e: f64| string(&e.to_string().replace('-', "−"));
+        let coefficient = |e: f64| string(&number::plain(e));
         let mut cells = vec![string(&format!("({name})")), coefficient(*e_rc), coefficient(*e_tc)];
         cells.extend([plain.x, plain.y, kept.x, kept.y, kept.phi].map(|v| number(v, 4)));
         cells

@@ -1,15 +1,15 @@
 //! The ledger, a report and the motion of every vehicle as a person has read and accepted them, numbers rounded so that they stand still.
 
+#[path = "support/cornering.rs"]
+mod cornering;
 mod models;
 
 use creepage::claims::{self, Options, ledger};
-use creepage::discrepancy::discover::{Request, discover};
 use creepage::discrepancy::summary::summary_text;
 use creepage::effects::{self, Applied};
 use creepage::figures::fixed;
-use creepage::files::{ModelFile, Run};
 use creepage::formula::Expr;
-use creepage::model::{Model, known};
+use creepage::model::Model;
 use creepage::motion::{Formulas, Integrator, simulate_model};
 use serde_json::Value;
 
@@ -30,13 +30,7 @@ fn the_ledger() {
 
 #[test]
 fn a_report() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/runs/cornering");
-    let file = ModelFile::read(format!("{folder}/model.toml"), &known(effects::all())).unwrap();
-    let run = |name: &str| Run::read(format!("{folder}/{name}"), &file).unwrap();
-    let (runs, held_out) = ([run("eights.csv"), run("rosette.csv")], [run("square_held_out.csv")]);
-    let request =
-        Request { file: &file, runs: &runs, held_out: &held_out, library: effects::all(), horizons: &[], seed: 0 };
-    let found = discover(&request, &|_| {}).unwrap();
+    let (file, found) = cornering::discovered();
     let mut json = serde_json::to_value(&found.report).unwrap();
     rounded(&mut json);
     // The same on every machine, wherever the package lies.

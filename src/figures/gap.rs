@@ -28,10 +28,7 @@ const ROSETTE: &str = include_str!("../../examples/runs/cornering/rosette.csv");
 const SQUARE: &str = include_str!("../../examples/runs/cornering/square_held_out.csv");
 
 /// The example `cornering` through the whole workflow: what `creepage discover` does.
-///
-/// # Errors
-/// When the bundled files cannot be read.
-pub fn discovered() -> Result<Discovery> {
+fn discovered() -> Result<Discovery> {
     let file = ModelFile::parse(MODEL, "model.toml", &known(effects::all()))?;
     let run = |name: &str, text: &str| Run::parse(name, text, &file);
     let runs = [run("eights.csv", EIGHTS)?, run("rosette.csv", ROSETTE)?];

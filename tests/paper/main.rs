@@ -2,6 +2,8 @@
 //!
 //! `PAPER=write cargo test --release --test paper` writes `paper/generated/` anew.
 
+#[path = "../support/cornering.rs"]
+mod cornering;
 mod equations;
 #[path = "../../examples/trust/interval.rs"]
 #[allow(dead_code)] // the benchmark uses the rest

@@ -1,14 +1,14 @@
 //! Tables that are no claims.
 
+use super::cornering;
 use super::ledger::said;
 use super::markup::{formula, head, rows, string};
-use creepage::discrepancy::discover::{Discovery, Request, discover};
+use creepage::discrepancy::discover::Discovery;
 use creepage::discrepancy::identity::{Measured, Relation, relation};
 use creepage::effects::{self, Applied};
 use creepage::figures::readings;
-use creepage::files::{ModelFile, Run};
 use creepage::formula::Expr;
-use creepage::model::{Model, known};
+use creepage::model::Model;
 use creepage::motion::{Reading, fig7_case};
 use creepage::picture::number::{self, decimals};
 use std::sync::LazyLock;
@@ -102,14 +102,6 @@ fn relatives() -> String {
 
 /// The bundled run through the whole workflow.
 pub fn found() -> &'static Discovery {
-    static FOUND: LazyLock<Discovery> = LazyLock::new(|| {
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/runs/cornering");
-        let file = ModelFile::read(format!("{folder}/model.toml"), &known(effects::all())).unwrap();
-        let run = |name: &str| Run::read(format!("{folder}/{name}"), &file).unwrap();
-        let (runs, held_out) = ([run("eights.csv"), run("rosette.csv")], [run("square_held_out.csv")]);
-        let request =
-            Request { file: &file, runs: &runs, held_out: &held_out, library: effects::all(), horizons: &[], seed: 0 };
-        discover(&request, &|_| {}).unwrap()
-    });
+    static FOUND: LazyLock<Discovery> = LazyLock::new(|| cornering::discovered().1);
     &FOUND
 }

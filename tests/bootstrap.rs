@@ -1,5 +1,7 @@
 //! The law of chance gains: χ² where it holds, and what data drawn without an effect show where it does not.
 
+#[path = "support/read_back.rs"]
+mod read_back;
 mod simulator;
 
 use creepage::discrepancy::bootstrap::{ChanceGains, is_regular};
@@ -7,8 +9,8 @@ use creepage::discrepancy::fit::Effort;
 use creepage::discrepancy::problem::Problem;
 use creepage::discrepancy::record::Record;
 use creepage::effects::{self, Applied};
-use creepage::files::{ModelFile, Run};
-use creepage::model::{self, Model};
+use creepage::model::Model;
+use read_back::read_back;
 use simulator::{Noise, Scenario, Tractor};
 
 const DRAWS: usize = 40;
@@ -21,12 +23,7 @@ fn effect(id: &str) -> Applied {
 /// Chance gains of an effect on a drive of a wheel that misses nothing.
 fn chance_gains(id: &str) -> ChanceGains {
     let scenario = Scenario { noise: Noise::MOCAP, duration: 20.0, rate: 10.0, ..Scenario::new(Tractor::Unicycle, 31) };
-    let folder = tempfile::tempdir().unwrap();
-    let (path, log) = (folder.path().join("model.toml"), folder.path().join("run.csv"));
-    std::fs::write(&path, scenario.model_toml()).unwrap();
-    scenario.run().write_csv(&log).unwrap();
-    let file = ModelFile::read(&path, &model::known(effects::all())).unwrap();
-    let run = Run::read(&log, &file).unwrap();
+    let (file, run) = read_back(&scenario.model_toml(), &scenario.run().to_csv(9));
     let model = Model::from_file(&file, effects::all(), &run.roles).unwrap();
     let problem = Problem::new(vec![Record::of_run(&run, file.input_timing, 0)], None, None);
     let starts = problem.starts(&model).unwrap();

@@ -1,14 +1,16 @@
 //! Sensors whose errors wander instead of scattering: filtered poses, satellites. Rows then say less than their number.
 
+#[path = "support/read_back.rs"]
+mod read_back;
 mod simulator;
 
 use creepage::discrepancy::discover::{Request, discover};
 use creepage::discrepancy::report::{Report, Verdict};
-use creepage::files::{ModelFile, Run};
-use creepage::{effects, model};
+use creepage::effects;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
+use read_back::read_back;
 use simulator::{Hidden, Noise, Scenario, Tractor};
 
 /// Standard deviation of what wanders: m, and half as many rad.
@@ -16,12 +18,7 @@ const WANDERING: f64 = 0.01;
 
 /// What `discover` says of a run whose measured pose wanders by a first-order Markov process with a correlation time, s.
 fn report(scenario: &Scenario, time: f64) -> Report {
-    let folder = tempfile::tempdir().unwrap();
-    let (model, run) = (folder.path().join("model.toml"), folder.path().join("run.csv"));
-    std::fs::write(&model, scenario.model_toml()).unwrap();
-    scenario.run().write_csv(&run).unwrap();
-    let file = ModelFile::read(&model, &model::known(effects::all())).unwrap();
-    let mut run = Run::read(&run, &file).unwrap();
+    let (file, mut run) = read_back(&scenario.model_toml(), &scenario.run().to_csv(9));
     let mut random = ChaCha8Rng::seed_from_u64(scenario.seed);
     let rows = run.time.clone();
     let mut wander = |column: &mut Vec<f64>, size: f64| {

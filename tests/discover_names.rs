@@ -1,11 +1,13 @@
 //! `discover` names what was hidden, measures it, mends the gap, and names nothing where nothing is hidden.
 
+#[path = "support/read_back.rs"]
+mod read_back;
 mod simulator;
 
 use creepage::discrepancy::discover::{Discovery, Request, discover};
 use creepage::discrepancy::report::{Report, Verdict};
-use creepage::files::{ModelFile, Run};
-use creepage::{effects, model};
+use creepage::effects;
+use read_back::read_back;
 use simulator::{Hidden, Noise, Scenario, Tractor};
 
 /// A short drive before motion capture.
@@ -14,12 +16,8 @@ fn drive(tractor: Tractor, hidden: Vec<Hidden>, seed: u64) -> Scenario {
 }
 
 fn discovery(scenario: &Scenario) -> Discovery {
-    let folder = tempfile::tempdir().unwrap();
-    let (model, run) = (folder.path().join("model.toml"), folder.path().join("run.csv"));
-    std::fs::write(&model, scenario.model_toml()).unwrap();
-    scenario.run().write_csv(&run).unwrap();
-    let file = ModelFile::read(&model, &model::known(effects::all())).unwrap();
-    let runs = [Run::read(&run, &file).unwrap()];
+    let (file, run) = read_back(&scenario.model_toml(), &scenario.run().to_csv(9));
+    let runs = [run];
     let request =
         Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[1.0, 5.0], seed: 7 };
     discover(&request, &|_| ()).unwrap()

@@ -1,5 +1,7 @@
 //! The fit's linear algebra against plain least squares, its Jacobians against differences.
 
+#[path = "support/read_back.rs"]
+mod read_back;
 mod simulator;
 
 use creepage::discrepancy::carry;
@@ -9,10 +11,10 @@ use creepage::discrepancy::record::{Channel, Record};
 use creepage::discrepancy::variances;
 use creepage::discrepancy::windows::{Linear, Starts, linearise};
 use creepage::effects::{self, Applied};
-use creepage::files::{ModelFile, Run};
-use creepage::model::{self, Equations, Model};
+use creepage::model::{Equations, Model};
 use creepage::motion::{Arc, Stepper};
 use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen};
+use read_back::read_back;
 use simulator::{Hidden, Noise, Scenario, Tractor};
 use std::f64::consts::TAU;
 
@@ -28,12 +30,7 @@ struct Case {
 impl Case {
     /// Effects by id with the values the model is linearised at.
     fn new(scenario: &Scenario, effects: &[(&str, &[f64])]) -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        let (path, log) = (folder.path().join("model.toml"), folder.path().join("run.csv"));
-        std::fs::write(&path, scenario.model_toml()).unwrap();
-        scenario.run().write_csv(&log).unwrap();
-        let file = ModelFile::read(&path, &model::known(effects::all())).unwrap();
-        let run = Run::read(&log, &file).unwrap();
+        let (file, run) = read_back(&scenario.model_toml(), &scenario.run().to_csv(9));
         let mut model = Model::from_file(&file, effects::all(), &run.roles).unwrap();
         for (id, values) in effects {
             model = model.with_effect(Applied::new(effects::named(id).unwrap(), None, values.to_vec()).freed());

@@ -1,5 +1,7 @@
 //! Driving what `next_experiment` advises tells apart what the runs before did not.
 
+#[path = "support/read_back.rs"]
+mod read_back;
 mod simulator;
 
 use creepage::discrepancy::discover::{Request, discover};
@@ -9,11 +11,12 @@ use creepage::discrepancy::record::Record;
 use creepage::discrepancy::report::{NextExperiment, Report};
 use creepage::effects::{self, Applied};
 use creepage::files::{ModelFile, Run};
-use creepage::model::{self, Model};
+use creepage::model::Model;
 use creepage::motion::{Integrator, Signals, Timing, simulate_model};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
+use read_back::read_back;
 use simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
 
 /// A hidden effect, and a drive on which another one explains as much.
@@ -80,12 +83,7 @@ fn setting(case: &Case, seed: u64) -> Setting {
     let hidden = vec![case.hidden];
     let start = Scenario::new(case.tractor, seed);
     let scenario = Scenario { hidden, profile, duration: 20.0, noise: case.noise, ..start };
-    let folder = tempfile::tempdir().unwrap();
-    let (model, run) = (folder.path().join("model.toml"), folder.path().join("run.csv"));
-    std::fs::write(&model, scenario.model_toml()).unwrap();
-    scenario.run().write_csv(&run).unwrap();
-    let file = ModelFile::read(&model, &model::known(effects::all())).unwrap();
-    let first = Run::read(&run, &file).unwrap();
+    let (file, first) = read_back(&scenario.model_toml(), &scenario.run().to_csv(9));
     let values: Vec<f64> = case.hidden.parameters().into_iter().map(|(_, v)| v).collect();
     let effect = effects::named(case.hidden.id().unwrap()).unwrap();
     let truth = Model::from_file(&file, effects::all(), &first.roles).unwrap();

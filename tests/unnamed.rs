@@ -1,26 +1,25 @@
 //! Laws that no effect of the library has: `discover` gives an equation, never a wrong name.
 
+#[path = "support/read_back.rs"]
+mod read_back;
 mod simulator;
 
 use creepage::discrepancy::discover::{Discovery, Request, discover};
 use creepage::discrepancy::report::Verdict;
-use creepage::files::{ModelFile, Run};
+use creepage::files::ModelFile;
 use creepage::formula::Unit;
 use creepage::model::Model;
 use creepage::{effects, model, vehicles};
+use read_back::read_back;
 use simulator::{Hidden, Log, Noise, Scenario, Tractor};
-use std::path::Path;
 
 fn drive(tractor: Tractor, hidden: Vec<Hidden>, seed: u64) -> Scenario {
     Scenario { hidden, duration: 60.0, noise: Noise::MOCAP, ..Scenario::new(tractor, seed) }
 }
 
-fn discovery(log: &Log, model_text: &str, folder: &Path) -> (Discovery, ModelFile) {
-    let (model, run) = (folder.join("model.toml"), folder.join("run.csv"));
-    std::fs::write(&model, model_text).unwrap();
-    log.write_csv(&run).unwrap();
-    let file = ModelFile::read(&model, &model::known(effects::all())).unwrap();
-    let runs = [Run::read(&run, &file).unwrap()];
+fn discovery(log: &Log, model_text: &str) -> (Discovery, ModelFile) {
+    let (file, run) = read_back(model_text, &log.to_csv(9));
+    let runs = [run];
     let request =
         Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[1.0], seed: 7 };
     (discover(&request, &|_| ()).unwrap(), file)
@@ -48,15 +47,14 @@ fn rates(file: &ModelFile, scenario: &Scenario, log: &Log) -> Vec<[f64; 3]> {
 /// effect, and a patched model in which nothing more is found.
 #[track_caller]
 fn unnamed(scenario: &Scenario, c: usize) {
-    let folder = tempfile::tempdir().unwrap();
     let log = scenario.run();
-    let (found, file) = discovery(&log, &scenario.model_toml(), folder.path());
+    let (found, file) = discovery(&log, &scenario.model_toml());
     let report = &found.report;
     let ids: Vec<&str> = report.effects.iter().map(|e| e.id.as_str()).collect();
     assert_eq!((report.verdict, ids.len()), (Verdict::UnnamedEffect, 0), "{ids:?} {:?}", report.unnamed);
     assert!(report.unnamed[0].held_out_reduction > 0.5, "{:?}", report.unnamed);
     let believed = rates(&file, scenario, &log);
-    let (again, patched) = discovery(&log, &found.patched(&file), folder.path());
+    let (again, patched) = discovery(&log, &found.patched(&file));
     assert_eq!(again.report.verdict, Verdict::NoMissingEffect, "{:?}", again.report.unnamed);
     let corrected = rates(&patched, scenario, &log);
     let (mut error, mut size) = (0.0, 0.0);
@@ -124,8 +122,7 @@ fn clocks_that_do_not_match_are_no_effect() {
         let high = (low + 1).min(n - 1);
         inputs.iter().for_each(|c| row[*c] = original[low][*c] * (1.0 - share) + original[high][*c] * share);
     }
-    let folder = tempfile::tempdir().unwrap();
-    let (found, _) = discovery(&log, &scenario.model_toml(), folder.path());
+    let (found, _) = discovery(&log, &scenario.model_toml());
     assert_eq!(found.report.verdict, Verdict::UnusableData, "{}", found.report.summary);
     assert!(found.report.effects.is_empty() && found.report.summary.contains("clocks"), "{}", found.report.summary);
 }
@@ -137,8 +134,7 @@ fn gross_errors_are_left_out_and_counted() {
     let mut log = scenario.run();
     (40..log.rows.len()).step_by(190).for_each(|i| log.rows[i][1] += 0.8);
     let wrong = (40..log.rows.len()).step_by(190).count();
-    let folder = tempfile::tempdir().unwrap();
-    let (found, _) = discovery(&log, &scenario.model_toml(), folder.path());
+    let (found, _) = discovery(&log, &scenario.model_toml());
     let report = &found.report;
     assert_eq!(report.verdict, Verdict::MissingEffect);
     assert!(["traverse-creep", "heading-misalignment"].contains(&report.effects[0].id.as_str()));
@@ -163,8 +159,7 @@ fn a_vehicle_that_slides_is_not_described_by_creep() {
         log.rows[i][1] += beside[0];
         log.rows[i][2] += beside[1];
     }
-    let folder = tempfile::tempdir().unwrap();
-    let (found, _) = discovery(&log, &scenario.model_toml(), folder.path());
+    let (found, _) = discovery(&log, &scenario.model_toml());
     assert_eq!(found.report.verdict, Verdict::UnusableData, "{}", found.report.summary);
     assert!(found.report.effects.is_empty() && found.report.summary.contains("slides"), "{}", found.report.summary);
 }

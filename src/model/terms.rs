@@ -104,12 +104,7 @@ impl Model {
         let mut found = Vec::new();
         for target in TARGETS.iter().filter(|t| !self.vehicle.held.contains(&t.definition.into())) {
             let symbols = Symbols::of(target, &definitions);
-            for speed in &SPEED {
-                found.extend(YAW.iter().map(|yaw| term(target, &[speed, yaw], &symbols, &bare)));
-            }
-            for heading in &HEADING {
-                found.extend(SPEED[..2].iter().map(|speed| term(target, &[speed, heading], &symbols, &bare)));
-            }
+            found.extend(products().map(|factors| term(target, &factors, &symbols, &bare)));
         }
         if self.vehicle.inputs.contains_key("steering_angle") {
             let symbols = Symbols { v: Expr::sym("v_l"), w: Expr::sym("phi'") };
@@ -135,13 +130,15 @@ const STEERED: Target = Target { definition: "delta", name: "steering", place: "
 
 /// The id of every term that some vehicle has.
 pub fn ids() -> Vec<String> {
-    let products = |target: &Target| -> Vec<String> {
-        let yaw = SPEED.iter().flat_map(|v| YAW.iter().map(move |w| [v, w]));
-        let heading = HEADING.iter().flat_map(|h| SPEED[..2].iter().map(move |v| [v, h]));
-        yaw.chain(heading).map(|f| id(target, &f)).collect()
-    };
     let steering = STEERING.iter().map(|power| id(&STEERED, &[power]));
-    TARGETS.iter().flat_map(products).chain(steering).collect()
+    TARGETS.iter().flat_map(|target| products().map(|f| id(target, &f))).chain(steering).collect()
+}
+
+/// What the coefficient of a term may stand before.
+fn products() -> impl Iterator<Item = [&'static Factor; 2]> {
+    let yaw = SPEED.iter().flat_map(|v| YAW.iter().map(move |w| [v, w]));
+    let heading = HEADING.iter().flat_map(|h| SPEED[..2].iter().map(move |v| [v, h]));
+    yaw.chain(heading)
 }
 
 /// Smallest and largest coefficient.

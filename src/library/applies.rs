@@ -1,5 +1,6 @@
 //! The vehicles that an effect applies to.
 
+use super::alone;
 use super::machine::Machine;
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
@@ -65,11 +66,8 @@ fn obstacle(e: &Effect, trailer: Option<usize>, machine: &Machine) -> Option<Str
     if let Some(role) = e.needs.iter().find(|role| !model.vehicle.inputs.contains_key(*role)) {
         return Some(format!("no input {role}"));
     }
-    let one = |(key, formula): (&String, &Expr)| Effect {
-        changes: [(key.clone(), formula.clone())].into(),
-        ..Effect::default()
-    };
-    if let Some((key, _)) = e.changes.iter().find(|change| one(*change).targets(&names, trailer).is_none()) {
+    let is_missing = |(key, formula): &(&String, &Expr)| alone(key, formula).targets(&names, trailer).is_none();
+    if let Some((key, _)) = e.changes.iter().find(is_missing) {
         return Some(format!("no definition of {key}"));
     }
     let targets = e.targets(&names, trailer).unwrap_or_default();
@@ -95,8 +93,7 @@ impl<'m> Place<'m> {
         let names = machine.defined();
         let sizes = e.parameters.values().map(|p| p.size).collect();
         let targets = e.changes.iter().flat_map(|(key, formula)| {
-            let alone = Effect { changes: [(key.clone(), formula.clone())].into(), ..Effect::default() };
-            let found = alone.targets(&names, trailer).unwrap_or_default();
+            let found = alone(key, formula).targets(&names, trailer).unwrap_or_default();
             found.into_iter().map(|(name, _)| Target { name, key: key.clone() }).collect::<Vec<_>>()
         });
         Self { machine, targets: targets.collect(), applied: Applied::new(e, trailer, sizes) }

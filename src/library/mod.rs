@@ -15,6 +15,7 @@ mod units;
 use crate::effects::{self, Effect};
 use crate::error::Result;
 use crate::files::{EffectsFile, OwnEffect};
+use crate::formula::Expr;
 use crate::model::known;
 use machine::Machine;
 use std::path::Path;
@@ -75,6 +76,11 @@ fn distinct(own: &OwnEffect, library: &[Effect]) -> Result<()> {
             .error(format!("\"{id}\" and \"{}\" on a trailer would share the names of their parameters", e.id))
             .help("give yours another id")),
     }
+}
+
+/// An effect with one change and nothing else.
+fn alone(key: &str, formula: &Expr) -> Effect {
+    Effect { changes: [(key.to_string(), formula.clone())].into(), ..Effect::default() }
 }
 
 fn check(own: &OwnEffect, machines: &[Machine]) -> Result<()> {

@@ -1,10 +1,11 @@
 //! Names in a user's formulas.
 
+use super::alone;
 use super::applies::Place;
 use super::machine::Machine;
 use crate::error::Result;
 use crate::files::{FormulaText, OwnEffect, advice};
-use crate::formula::Symbol;
+use crate::formula::{Expr, Symbol};
 use std::collections::BTreeMap;
 
 /// That some vehicle knows every name.
@@ -12,13 +13,8 @@ pub(super) fn check(own: &OwnEffect, machines: &[Machine]) -> Result<()> {
     check_needs(own, machines)?;
     let defined = common(machines.iter().flat_map(Machine::defined));
     for (key, (spot, _)) in &own.changes {
-        let stands = |trailer: Option<usize>| {
-            let alone = crate::effects::Effect {
-                changes: [(key.clone(), crate::formula::Expr::int(0))].into(),
-                ..Default::default()
-            };
-            alone.targets(&defined, trailer).is_some()
-        };
+        let only = alone(key, &Expr::int(0));
+        let stands = |trailer: Option<usize>| only.targets(&defined, trailer).is_some();
         if !stands(None) && !stands(Some(1)) {
             let names: Vec<&str> = defined.iter().map(Symbol::as_str).collect();
             let error = spot.error(format!("no vehicle defines \"{key}\""));

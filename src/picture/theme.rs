@@ -49,9 +49,14 @@ pub fn drawing() -> String {
     format!("{}{SHAPES}", variables())
 }
 
-/// The shapes of a stand-alone figure, without colours; sized for a column of 85 mm, where 12 pixels are 7.2 points.
+/// The letters of a stand-alone figure, sized for a column of 85 mm, where 12 pixels are 7.2 points.
+const LETTERS: &str = "font-family:Helvetica Neue,Arial,Liberation Sans,DejaVu Sans,sans-serif;font-size:12px;";
+/// Shape and colour of what keeps letters apart from lines behind them.
+const HALO: [&str; 2] = ["paint-order:stroke;stroke-width:3px;stroke-linejoin:round", ";stroke:var(--paper)"];
+const NO_HALO: [&str; 2] = ["stroke:none", ""];
+
+/// The shapes of a stand-alone figure, without colours.
 const FIGURE: &str = "\
-text{font-family:Helvetica Neue,Arial,Liberation Sans,DejaVu Sans,sans-serif;font-size:12px;paint-order:stroke;stroke-width:3px;stroke-linejoin:round}
 text.heading{font-size:12.5px;font-weight:600}
 text.strong{font-weight:600}
 .remark{font-weight:400}
@@ -76,8 +81,6 @@ text.strong{font-weight:600}
 
 /// The colours of a stand-alone figure.
 const COLOURS: &str = "\
-.paper{fill:var(--paper)}
-text{fill:var(--ink);stroke:var(--paper)}
 text.tick,text.caption,text.soft,.remark{fill:var(--soft)}
 text.velocity,text.kept{fill:var(--after)}
 text.force,text.crept{fill:var(--before)}
@@ -109,11 +112,22 @@ text.force,text.crept{fill:var(--before)}
 /// Colours are written out and not named by variables, so that programs which know no variables (those that turn SVG
 /// into PDF) show the figure in its light colours; they skip the media query.
 pub fn figure() -> String {
+    sheet(HALO)
+}
+
+/// A figure's file for a program that draws the halo of a letter over the letter before, as Typst does: without halo.
+pub fn without_halo(svg: &str) -> String {
+    svg.replacen(&figure(), &sheet(NO_HALO), 1)
+}
+
+fn sheet([shape, colour]: [&str; 2]) -> String {
+    let grounds = format!(".paper{{fill:var(--paper)}}\ntext{{fill:var(--ink){colour}}}\n{COLOURS}");
     let coloured = |colours: &str| {
         let named = colours.split(';').filter_map(|c| c.split_once(':'));
-        named.fold(COLOURS.to_string(), |css, (name, value)| css.replace(&format!("var({name})"), value))
+        named.fold(grounds.clone(), |css, (name, value)| css.replace(&format!("var({name})"), value))
     };
-    format!("{FIGURE}{}@media screen and (prefers-color-scheme:dark){{\n{}}}\n", coloured(LIGHT), coloured(DARK))
+    let (light, dark) = (coloured(LIGHT), coloured(DARK));
+    format!("text{{{LETTERS}{shape}}}\n{FIGURE}{light}@media screen and (prefers-color-scheme:dark){{\n{dark}}}\n")
 }
 
 /// The variables alone; dark only on screens that ask for it, so that paper stays white.
@@ -132,5 +146,12 @@ mod tests {
         let css = super::figure();
         assert!(!css.contains("var("), "{css}");
         assert_eq!(css.matches('{').count(), css.matches('}').count());
+    }
+
+    #[test]
+    fn letters_without_halo_have_no_outline_at_all() {
+        let plain = super::without_halo(&format!("<style>{}</style>", super::figure()));
+        assert!(plain.contains("font-size:12px;stroke:none}") && !plain.contains("paint-order"), "{plain}");
+        assert_eq!(plain.matches("text{fill:#").count(), 2, "{plain}");
     }
 }

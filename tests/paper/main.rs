@@ -16,6 +16,7 @@ mod text;
 mod trust;
 
 use creepage::figures::{Options, draw};
+use creepage::picture::theme::without_halo;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -35,8 +36,10 @@ fn paper(path: &str) -> PathBuf {
 static GENERATED: LazyLock<BTreeMap<String, String>> = LazyLock::new(|| {
     let names: Vec<String> = FIGURES.iter().map(ToString::to_string).collect();
     let drawn = draw(&names, &Options::default(), &|_| {}).unwrap();
-    let mut files: BTreeMap<String, String> =
-        drawn.into_iter().map(|(figure, drawing)| (format!("{}.svg", figure.name), printed(&drawing.svg))).collect();
+    let mut files: BTreeMap<String, String> = drawn
+        .into_iter()
+        .map(|(figure, drawing)| (format!("{}.svg", figure.name), without_halo(&drawing.svg)))
+        .collect();
     files.insert("ledger.typ".into(), ledger::file());
     files.insert("equations.typ".into(), equations::file());
     files.insert("numbers.typ".into(), numbers::file());
@@ -44,14 +47,6 @@ static GENERATED: LazyLock<BTreeMap<String, String>> = LazyLock::new(|| {
     files.insert("trust.typ".into(), trust::file());
     files
 });
-
-/// A figure for Typst, which draws the halo of a letter over its neighbour: letters without halo.
-fn printed(svg: &str) -> String {
-    let halo = "paint-order:stroke;stroke-width:3px;stroke-linejoin:round";
-    assert!(svg.contains(halo), "text of figures has no halo any more");
-    let lit = svg.replace(halo, "stroke:none").replace("text{fill:#1b1f24;stroke:#ffffff}", "text{fill:#1b1f24}");
-    lit.replace("text{fill:#e6edf3;stroke:#0d1117}", "text{fill:#e6edf3}")
-}
 
 #[test]
 fn nothing_generated_for_the_paper_is_stale() {

@@ -23,7 +23,6 @@ mod kinship;
 mod latex;
 mod meaning;
 mod page;
-mod passive;
 mod realised;
 mod regime;
 mod signature;

@@ -1,7 +1,7 @@
 //! Which coefficients of creep make the motion of a model, given what it measures.
 
+use super::Signature;
 use super::structure::Found;
-use super::{Signature, passive};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Mechanism, Point, Realisation};
 use crate::model::{Model, trailer_heading};
@@ -75,7 +75,7 @@ impl Realised {
         let is_train = mechanism.coordinates.contains(&trailer_heading(1));
         let formula = |r: &usize| {
             let is_small = found.canonical().len() <= SOLVED && !is_train;
-            let formula = is_small.then(|| passive::coefficient(mechanism, found, *r)).flatten()?;
+            let formula = is_small.then(|| mechanism.passive_coefficient_ahead(found, *r)).flatten()?;
             Some(formula).filter(|f| f.to_string().len() <= LONGEST)
         };
         Self {

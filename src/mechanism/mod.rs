@@ -17,6 +17,7 @@ mod heading;
 mod integrals;
 mod linear;
 mod nonholonomy;
+mod passive;
 mod point;
 mod proof;
 mod realisation;

@@ -1,7 +1,7 @@
 //! Which coefficients of creep make a motion what it is, given what is measured: the signature RᵏTᵐ by ranks.
 
 use super::linear::{Echelon, dot};
-use super::{Form, Mechanism, Point, Row, solve};
+use super::{Form, Mechanism, Point, Row};
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
 use num_rational::BigRational;
@@ -130,27 +130,12 @@ impl Mechanism {
     }
 
     /// The part of each row that its coefficient multiplies; a row is linear in it.
-    fn slopes(&self) -> Vec<Row> {
+    pub(super) fn slopes(&self) -> Vec<Row> {
         let slope = |c: &super::Constraint| {
             let at = |e: i64| c.row().substitute(&|s| (*s == c.creep).then(|| Expr::int(e)));
             at(1).plus(&Expr::int(-1), &at(0))
         };
         self.constraints.iter().map(slope).collect()
-    }
-
-    /// The coefficient of a passive constraint as a formula of the canonical coefficients and the measured rates.
-    ///
-    /// `None` when the velocities cannot be solved for, or the coefficient is not passive.
-    pub fn passive_coefficient(&self, found: &Realisation, constraint: usize) -> Option<Expr> {
-        if !found.passive.contains(&constraint) {
-            return None;
-        }
-        let rows: Vec<Row> = found.canonical().iter().map(|r| self.constraints[*r].row()).collect();
-        let velocities = solve::together(&rows, &found.unknown)?;
-        let velocity = |s: &Symbol| velocities.iter().find(|(u, _)| u == s).map(|(_, v)| v.clone());
-        let along = |row: &Row| row.expr().substitute(&velocity);
-        let slope = self.slopes().swap_remove(constraint);
-        Some(-&(&along(&self.constraints[constraint].ideal_row()) / &along(&slope)))
     }
 }
 

@@ -1,28 +1,37 @@
 //! Formulas of passive coefficients, as short as they get.
 
+use super::{Mechanism, Realisation, Row, solve};
 use crate::formula::{Expr, Fun, Node, Polynomial, Symbol};
-use crate::mechanism::{Mechanism, Realisation, Row, solve};
 
-/// The coefficient of a constraint from those of the canonical set and the measured rates, for a vehicle alone.
-///
-/// The velocities are solved for in axes along the body, where heading zero is: no coefficient depends on it. `None`
-/// where they cannot be solved for.
-pub(super) fn coefficient(mechanism: &Mechanism, found: &Realisation, constraint: usize) -> Option<Expr> {
-    let rows: Vec<Row> = found.canonical().iter().map(|r| ahead(&mechanism.constraints[*r].row())).collect();
-    let velocities = Velocities::of(solve::together(&rows, &found.unknown)?);
-    let own = &mechanism.constraints[constraint];
-    let at = |e: i64| ahead(&own.row().substitute(&|s| (*s == own.creep).then(|| Expr::int(e))));
-    // The row is linear in its coefficient: e = -row(0)/(row(1) - row(0)).
-    let ideal = at(0);
-    let slope = at(1).plus(&Expr::int(-1), &ideal);
-    let top = Polynomial::of(&-&velocities.along(&ideal));
-    let bottom = Polynomial::of(&velocities.along(&slope));
-    if bottom.is_zero() {
-        return None;
+impl Mechanism {
+    /// The coefficient of a passive constraint as a formula of the canonical coefficients and the measured rates.
+    ///
+    /// `None` when the velocities cannot be solved for, or the coefficient is not passive.
+    pub fn passive_coefficient(&self, found: &Realisation, constraint: usize) -> Option<Expr> {
+        self.passive(found, constraint, Row::clone)
     }
-    let (top, bottom) = without_common_symbols(top, bottom);
-    let (top, bottom) = top.cancelled(&bottom);
-    Some(&top.expr() / &bottom.expr())
+
+    /// The same for a vehicle alone, whose coefficients do not depend on its heading `phi`: taken where it is zero.
+    pub fn passive_coefficient_ahead(&self, found: &Realisation, constraint: usize) -> Option<Expr> {
+        self.passive(found, constraint, ahead)
+    }
+
+    fn passive(&self, found: &Realisation, constraint: usize, seen: fn(&Row) -> Row) -> Option<Expr> {
+        if !found.passive.contains(&constraint) {
+            return None;
+        }
+        let rows: Vec<Row> = found.canonical().iter().map(|r| seen(&self.constraints[*r].row())).collect();
+        let velocities = Velocities::of(solve::together(&rows, &found.unknown)?);
+        // The row is linear in its coefficient: e = -row(0)/(row(1) - row(0)).
+        let top = Polynomial::of(&-&velocities.along(&seen(&self.constraints[constraint].ideal_row())));
+        let bottom = Polynomial::of(&velocities.along(&seen(&self.slopes().swap_remove(constraint))));
+        if bottom.is_zero() {
+            return None;
+        }
+        let (top, bottom) = without_common_symbols(top, bottom);
+        let (top, bottom) = top.cancelled(&bottom);
+        Some(&top.expr() / &bottom.expr())
+    }
 }
 
 /// Both divided by every symbol that stands in all their terms.

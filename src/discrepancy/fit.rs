@@ -126,10 +126,11 @@ impl Problem {
         let (mut damping, mut share) = (1e-6, 1.0);
         for _ in 0..effort.passes {
             let Some(delta) = step(&here.eliminated, damping) else { return here };
+            // What lies beyond a bound promises nothing.
+            let delta = bounds.within(&here.p, &delta) - &here.p;
             if settled && promised(&here.eliminated, &delta) < effort.enough {
                 break;
             }
-            let delta = bounds.within(&here.p, &delta) - &here.p;
             let corrections = here.eliminated.corrections(&here.linear, &delta);
             let target = bounds.within(&here.p, &(delta * share));
             let next = self.point(equations, target, moved(&here.starts, &corrections, share), v);

@@ -180,8 +180,10 @@ impl Selection<'_> {
     /// by what they promise, and have no fit.
     fn ranked(&self, base: &Fit) -> Result<Ranked> {
         let finish = |(i, (promise, fit)): (usize, (Promise, Option<Fit>))| -> Result<_> {
+            // At the edge where it vanishes an effect is not chosen, and is stiff to integrate.
+            let gone = |fit: &Fit| find(&fit.model, &promise.applied).is_some_and(|a| vanishes(&a));
             let full = match &fit {
-                Some(fit) if i < FINALISTS => self.refined(fit)?,
+                Some(fit) if i < FINALISTS && !gone(fit) => self.refined(fit)?,
                 _ => None,
             };
             let n = base.sample_size.max(full.as_ref().map_or(0.0, |f| f.sample_size));
@@ -214,6 +216,9 @@ impl Selection<'_> {
                 continue;
             }
             let Some(rough) = screen::settled(self.problem, base, &base.model, &[a, b], SCREEN)? else { continue };
+            if rough.model.free_effects().any(vanishes) {
+                continue;
+            }
             let Some(fit) = self.refined(&rough)? else { continue };
             if ![a, b].iter().all(|p| repeats(&fit, &p.applied)) {
                 continue;

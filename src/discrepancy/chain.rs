@@ -51,59 +51,111 @@ const WEAK: f64 = 1e-9;
 /// With M the quadratic form in (δz, δp, 1) of everything up to a window's end, a jump w = G·a, a ~ N(0, 1),
 /// turns it into M − M_z·G(1 + Gᵀ·M_zz·G)⁻¹Gᵀ·M_z: regular for q = 0 as for q → ∞.
 pub fn eliminate(segments: &[Vec<Linear>], v: &Variances, parameters: usize) -> Option<Eliminated> {
-    let mut total = Eliminated {
-        form: DMatrix::zeros(parameters + 1, parameters + 1),
-        log_determinant: 0.0,
-        jump_determinant: 0.0,
-        parts: Vec::with_capacity(segments.len()),
-        tails: Vec::with_capacity(segments.len()),
-    };
+    let mut total = Eliminated::nothing(parameters);
     for windows in segments {
-        eliminate_segment(windows, v, parameters, &mut total)?;
+        let mut chain = Chain::new(v, parameters, true);
+        windows.iter().try_for_each(|w| chain.push(w))?;
+        total.add(chain)?;
     }
     Some(total)
 }
 
-fn eliminate_segment(windows: &[Linear], v: &Variances, parameters: usize, total: &mut Eliminated) -> Option<()> {
-    let size = windows.first()?.gram[0].nrows();
-    let m = size - 1 - parameters;
-    let mut form: DMatrix<f64> = DMatrix::zeros(size, size);
-    (0..m).for_each(|i| form[(i, i)] = WEAK);
-    let mut jumps = Vec::with_capacity(windows.len());
-    for window in windows {
-        for (gram, noise) in window.gram.iter().zip(v.noise) {
-            form += gram / noise;
-        }
-        let Some(back) = &window.back else { continue };
-        form = carried(&form, back, m);
-        let spread = jump_spread(window, v, m);
-        let towards = spread.tr_mul(&form.rows(0, m));
-        let inner = DMatrix::identity(m, m) + towards.columns(0, m) * &spread;
-        let inner = Cholesky::new(inner)?;
-        let gain = inner.solve(&towards);
-        form = symmetric(form - towards.tr_mul(&gain));
-        let determinant = log_determinant(&inner);
-        total.log_determinant += determinant;
-        total.jump_determinant += determinant;
-        jumps.push(spread * gain);
-    }
-    let poses = Cholesky::new(form.view((0, 0), (m, m)).into_owned())?;
-    let right = form.view((0, m), (m, parameters + 1)).into_owned();
-    let solved = poses.solve(&right);
-    let part = form.view((m, m), (parameters + 1, parameters + 1)) - right.tr_mul(&solved);
-    total.form += &part;
-    total.parts.push(part);
-    total.log_determinant += log_determinant(&poses);
-    total.tails.push(Tail { jumps, last: -solved });
-    Some(())
+/// The windows of a segment joined one after another.
+pub struct Chain<'v> {
+    v: &'v Variances,
+    parameters: usize,
+    /// M, once the first window has come.
+    form: Option<DMatrix<f64>>,
+    log_determinant: f64,
+    /// Whether poses will be asked for: then every window leaves something behind.
+    backward: bool,
+    jumps: Vec<DMatrix<f64>>,
 }
 
-/// The form in terms of the end of the window instead of its start.
+impl<'v> Chain<'v> {
+    /// A chain without windows.
+    pub fn new(v: &'v Variances, parameters: usize, backward: bool) -> Self {
+        Self { v, parameters, form: None, log_determinant: 0.0, backward, jumps: vec![] }
+    }
+
+    /// Joins the next window.
+    pub fn push(&mut self, window: &Linear) -> Option<()> {
+        let size = window.gram[0].nrows();
+        let m = size - 1 - self.parameters;
+        let mut form = self.form.take().unwrap_or_else(|| weak(size, m));
+        for (gram, noise) in window.gram.iter().zip(self.v.noise) {
+            form.zip_apply(gram, |f, g| *f += g / noise);
+        }
+        if let Some(back) = &window.back {
+            form = carried(&form, back, m);
+            let spread = jump_spread(window, self.v, m);
+            let towards = spread.tr_mul(&form.rows(0, m));
+            let inner = DMatrix::identity(m, m) + towards.columns(0, m) * &spread;
+            let inner = Cholesky::new(inner)?;
+            let gain = inner.solve(&towards);
+            form.gemm_tr(-1.0, &towards, &gain, 1.0);
+            form = symmetric(form);
+            self.log_determinant += log_determinant(&inner);
+            if self.backward {
+                self.jumps.push(spread * gain);
+            }
+        }
+        self.form = Some(form);
+        Some(())
+    }
+}
+
+impl Eliminated {
+    /// Of no segments.
+    pub fn nothing(parameters: usize) -> Self {
+        Self {
+            form: DMatrix::zeros(parameters + 1, parameters + 1),
+            log_determinant: 0.0,
+            jump_determinant: 0.0,
+            parts: vec![],
+            tails: vec![],
+        }
+    }
+
+    /// Eliminates the last pose of a segment and adds what remains.
+    pub fn add(&mut self, chain: Chain) -> Option<()> {
+        let form = chain.form?;
+        let rest = chain.parameters + 1;
+        let m = form.nrows() - rest;
+        let poses = Cholesky::new(form.view((0, 0), (m, m)).into_owned())?;
+        let right = form.view((0, m), (m, rest)).into_owned();
+        let solved = poses.solve(&right);
+        let part = form.view((m, m), (rest, rest)) - right.tr_mul(&solved);
+        self.form += &part;
+        self.parts.push(part);
+        self.log_determinant += chain.log_determinant + log_determinant(&poses);
+        self.jump_determinant += chain.log_determinant;
+        self.tails.push(Tail { jumps: chain.jumps, last: -solved });
+        Some(())
+    }
+}
+
+fn weak(size: usize, m: usize) -> DMatrix<f64> {
+    let mut form = DMatrix::zeros(size, size);
+    (0..m).for_each(|i| form[(i, i)] = WEAK);
+    form
+}
+
+/// The form in terms of the end of the window instead of its start: with δz = B·δz̃ + C·(δp, 1), its blocks become
+/// Bᵀ·M_zz·B, Bᵀ(M_zz·C + M_zr) and M_rr + Cᵀ(M_zz·C + M_zr) + M_rz·C.
 fn carried(form: &DMatrix<f64>, back: &DMatrix<f64>, m: usize) -> DMatrix<f64> {
-    let size = form.nrows();
-    let mut t = DMatrix::identity(size, size);
-    t.rows_mut(0, m).copy_from(back);
-    symmetric(t.tr_mul(form) * t)
+    let rest = form.nrows() - m;
+    let (b, c) = (back.columns(0, m), back.columns(m, rest));
+    let along = form.view((0, 0), (m, m)) * c + form.view((0, m), (m, rest));
+    let mut moved = form.clone();
+    moved.view_mut((0, 0), (m, m)).copy_from(&b.tr_mul(&(form.view((0, 0), (m, m)) * b)));
+    let across = b.tr_mul(&along);
+    moved.view_mut((0, m), (m, rest)).copy_from(&across);
+    moved.view_mut((m, 0), (rest, m)).copy_from(&across.transpose());
+    let mut corner = moved.view_mut((m, m), (rest, rest));
+    corner.gemm_tr(1.0, &c, &along, 1.0);
+    corner.gemm_tr(1.0, &form.view((0, m), (m, rest)), &c, 1.0);
+    symmetric(moved)
 }
 
 /// Rounding makes a form lopsided, and a chain that runs against a contracting motion makes that grow.

@@ -43,6 +43,16 @@ impl Problem {
         self.plan.iter().map(|s| s.windows.len()).sum()
     }
 
+    /// Σ n·ln σ² over all measured values of all windows.
+    pub fn noise_determinant(&self, v: &Variances) -> f64 {
+        let of_segment = |s: &Segment| {
+            let rows: usize = s.windows.iter().map(std::ops::Range::len).sum();
+            let each = self.records[s.record].channels().into_iter().map(|c| v.noise[c as usize].ln());
+            rows as f64 * each.sum::<f64>()
+        };
+        self.plan.iter().map(of_segment).sum()
+    }
+
     /// Poses at the windows' starts from the measurements alone, as the model's sensor says.
     pub fn starts(&self, model: &Model) -> Result<Starts> {
         let equations = model.equations(&[])?;

@@ -1,12 +1,12 @@
 //! Candidates proposed: what each effect would gain, to first order, from one linearisation of all.
 
-use super::chain::{Eliminated, eliminate};
+use super::chain::{Chain, Eliminated};
 use super::fit::{Effort, Fit};
 use super::problem::Problem;
-use super::windows::linearise;
+use super::windows::{Segment, each_window};
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
-use crate::model::Model;
+use crate::model::{Equations, Model};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
@@ -87,12 +87,8 @@ fn promise(problem: &Problem, base: &Fit, model: &Model, group: &[Applied]) -> R
     let joint = group.iter().fold(model.clone(), |m, a| m.with_effect(a.clone()));
     let free = joint.free_parameters();
     let equations = joint.equations(&free)?;
-    let Some(linear) = linearise(&equations, &joint.free_values(), &problem.records, &problem.plan, &base.starts)
-    else {
-        return Ok(Promises::default());
-    };
-    let Some(e) = eliminate(&linear, &base.variances, free.len()) else { return Ok(Promises::default()) };
-    let constant = e.log_determinant + super::variances::noise_determinant(&linear, &base.variances);
+    let Some(e) = joined(problem, base, &equations, &joint.free_values()) else { return Ok(Promises::default()) };
+    let constant = e.log_determinant + problem.noise_determinant(&base.variances);
     let position = |s: &crate::formula::Symbol| free.iter().position(|f| f == s);
     let indices = |a: &Applied| a.parameters().iter().filter_map(position).collect::<Vec<usize>>();
     let kept: Vec<usize> =
@@ -120,6 +116,20 @@ fn promise(problem: &Problem, base: &Fit, model: &Model, group: &[Applied]) -> R
     pairs.sort_by(|a, b| a[0].deviance.total_cmp(&b[0].deviance));
     pairs.truncate(PAIRS);
     Ok(Promises { single, pairs })
+}
+
+/// A model along all windows, which are eliminated as they come: of a large library none could be kept.
+fn joined(problem: &Problem, base: &Fit, equations: &Equations, p: &[f64]) -> Option<Eliminated> {
+    let along = |(segment, starts): (&Segment, &Vec<Vec<f64>>)| {
+        let mut chain = Chain::new(&base.variances, p.len(), false);
+        let record = &problem.records[segment.record];
+        each_window(equations, p, record, segment, starts, |window| chain.push(&window))?;
+        Some(chain)
+    };
+    let chains: Vec<Chain> = problem.plan.par_iter().zip(&base.starts).map(along).collect::<Option<_>>()?;
+    let mut total = Eliminated::nothing(p.len());
+    chains.into_iter().try_for_each(|c| total.add(c))?;
+    Some(total)
 }
 
 /// Of more candidates than these, pairs are not looked for: a library of terms.

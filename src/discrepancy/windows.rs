@@ -93,30 +93,36 @@ pub fn linearise(
     starts: &Starts,
 ) -> Option<Vec<Vec<Linear>>> {
     let along = |(segment, starts): (&Segment, &Vec<Vec<f64>>)| {
-        segment_along(equations, p, &records[segment.record], segment, starts)
+        let mut found = Vec::with_capacity(segment.windows.len());
+        each_window(equations, p, &records[segment.record], segment, starts, |window| {
+            found.push(window);
+            Some(())
+        })?;
+        Some(found)
     };
     plan.par_iter().zip(starts).map(along).collect()
 }
 
-fn segment_along(
+/// The model along the windows of a segment, one after another; `None` where it is undefined, or where `take` ends it.
+pub fn each_window(
     equations: &Equations,
     p: &[f64],
     record: &Record,
     segment: &Segment,
     starts: &[Vec<f64>],
-) -> Option<Vec<Linear>> {
+    mut take: impl FnMut(Linear) -> Option<()>,
+) -> Option<()> {
     let mut stepper = Stepper::new(equations, &record.signals, p);
     let mut hidden = super::carry::before(equations, p, &mut stepper, record, segment.windows[0].start, &starts[0]);
-    let mut found = Vec::with_capacity(segment.windows.len());
     for (k, rows) in segment.windows.iter().enumerate() {
         let z = [&starts[k][..], &hidden.z].concat();
         let mut arc = stepper.start(&z, Some(&hidden.s));
         let linear = window_along(&mut stepper, record, rows, &mut arc, starts.get(k + 1))?;
         hidden.z = arc.z[equations.visible..].to_vec();
         hidden.s = arc.s;
-        found.push(linear);
+        take(linear)?;
     }
-    Some(found)
+    Some(())
 }
 
 fn window_along(

@@ -58,7 +58,7 @@ h2,caption,.number{break-after:avoid}
 .panels{grid-template-columns:1fr 1fr}
 .panels.single{grid-template-columns:130mm}
 .wide{overflow:visible}
-table{font-size:9.5pt}
+table{font-size:9.5pt;break-inside:avoid}
 th,td{padding-right:9px}
 *{-webkit-print-color-adjust:exact;print-color-adjust:exact}
 }

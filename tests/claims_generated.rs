@@ -7,7 +7,7 @@ use creepage::claims::generated::{
 };
 use creepage::claims::written;
 use creepage::formula::{Exact, Fun, Scalar, Symbol};
-use creepage::mechanism::{Constraint, Form, Mechanism, Point};
+use creepage::mechanism::{Constraint, Mechanism, Point};
 use num_rational::BigRational;
 use num_traits::Zero;
 use proptest::prelude::*;
@@ -139,13 +139,13 @@ fn knows_its_wheel(c: &Constraint, wheel: &Placed, at: &Point) -> Outcome {
     let Facing::Fixed(heading) = &wheel.facing else { return Ok(()) };
     let [cos, sin] = cos_and_sin(&at.value(&"phi".into()).add(heading));
     let [x, y] = ["x'", "y'"].map(|rate| row_at(c, at, rate));
-    match &c.form {
-        Form::R(rolling) => {
-            let before = row_at(c, at, rolling.rate.as_str());
+    match c.form.gives() {
+        Some(rate) => {
+            let before = row_at(c, at, rate.as_str());
             prop_assert_eq!(before, -number(wheel.radius.as_ref().unwrap()));
             prop_assert_eq!((x, y), (cos, sin));
         }
-        Form::T(_) => {
+        None => {
             prop_assert!((&x * &cos + &y * &sin).is_zero());
             prop_assert!(!(y * cos - x * sin).is_zero());
         }
@@ -183,13 +183,13 @@ fn rows_say_how_each_contact_moves() {
         let contacts = motion.contacts();
         for c in &mechanism.constraints {
             let found = row_of(c, &motion, &at);
-            let contact = contacts.iter().find(|x| match &c.form {
-                Form::R(_) => x.rolls.as_ref().is_some_and(|r| r.2 == c.creep),
-                Form::T(_) => x.directed.as_ref() == Some(&c.creep),
+            let contact = contacts.iter().find(|x| match c.letter() {
+                'R' => x.rolls.as_ref().is_some_and(|r| r.2 == c.creep),
+                _ => x.directed.as_ref() == Some(&c.creep),
             });
             let contact = contact.unwrap_or_else(|| panic!("no contact has {}", c.creep));
-            let wanted = match (&c.form, &contact.rolls) {
-                (Form::R(_), Some((r, rate, _))) => contact.along.sub(&r.mul(rate)),
+            let wanted = match (c.letter(), &contact.rolls) {
+                ('R', Some((r, rate, _))) => contact.along.sub(&r.mul(rate)),
                 _ => contact.across.neg(),
             };
             prop_assert!(found.equals(&wanted), "{}: {} {}", c.name, found, wanted);

@@ -5,7 +5,7 @@ mod support;
 
 use creepage::describe::Jacobian;
 use creepage::formula::{Dual, Expr, Symbol};
-use creepage::mechanism::{Constraint, Direction, Form, Heading, Row, Velocity, sigma_closed_form};
+use creepage::mechanism::{Constraint, Direction, Heading, Row, Velocity, sigma_closed_form};
 use models::{Values, anywhere, at, random_described as random, value};
 use num_dual::Dual64;
 use proptest::prelude::*;
@@ -20,6 +20,11 @@ fn near(a: f64, b: f64, tolerance: f64) -> Outcome {
 /// A wheel at the reference point.
 fn wheel() -> Direction {
     Direction::new(&Velocity::of_reference_point(), &Heading::along("phi"), &Expr::sym("e"))
+}
+
+/// What stands in a slot of a constraint.
+fn slot(c: &Constraint, name: &str, v: &Values) -> f64 {
+    value(&c.form.slot(name).unwrap().expr(), v)
 }
 
 fn point(phi: f64, e: f64, rates: [f64; 2]) -> Values {
@@ -41,9 +46,11 @@ fn the_pair_is_the_row_and_its_length_never_vanishes() {
         let mut v = anywhere(&r.model, &r.numbers);
         v.insert("phi".into(), phi);
         for c in r.model.constraints() {
-            let Form::T(t) = &c.form else { continue };
-            let [s, p, e] = [value(&t.s, &v), value(&t.p, &v), at(&v)(&c.creep)];
-            let pair = s * value(&t.q1.expr(), &v) - p * value(&t.q3.expr(), &v);
+            if c.letter() != 'T' {
+                continue;
+            }
+            let [s, p, q1, q3] = ["s", "p", "q1'", "q3'"].map(|name| slot(&c, name, &v));
+            let (pair, e) = (s * q1 - p * q3, at(&v)(&c.creep));
             near(value(&c.row().expr(), &v), pair, 1e-12)?;
             near(value(&c.generic(), &v), pair, 1e-12)?;
             near(s * s + p * p, 1.0 + e * e, 1e-13)?;
@@ -57,7 +64,9 @@ fn the_pair_is_that_of_the_heading_of_the_wheel() {
     check(150, random(), |r| {
         let v = anywhere(&r.model, &r.numbers);
         for c in r.model.constraints() {
-            let Form::T(t) = &c.form else { continue };
+            if c.letter() != 'T' {
+                continue;
+            }
             let read = |n: &str| at(&v)(&n.into());
             let psi = match c.name.split(',').next().unwrap() {
                 "castor" => read("phi") + read("gamma"),
@@ -68,8 +77,8 @@ fn the_pair_is_that_of_the_heading_of_the_wheel() {
                 _ => read("phi"),
             };
             let e = at(&v)(&c.creep);
-            near(value(&t.s, &v), psi.sin() + e * psi.cos(), 1e-14)?;
-            near(value(&t.p, &v), psi.cos() - e * psi.sin(), 1e-14)?;
+            near(slot(&c, "s", &v), psi.sin() + e * psi.cos(), 1e-14)?;
+            near(slot(&c, "p", &v), psi.cos() - e * psi.sin(), 1e-14)?;
         }
         Ok(())
     });
@@ -137,7 +146,7 @@ fn derivative_is(g: &Expr, by: &Symbol, v: &Values, expected: f64) -> Outcome {
 #[test]
 fn derivatives_of_a_wheel_have_their_closed_forms() {
     let contact = Velocity::of_reference_point();
-    let direction = Constraint { name: "wheel".into(), form: Form::T(wheel()), creep: "e".into() };
+    let direction = wheel().constraint("wheel", &"e".into());
     let rolling = creepage::mechanism::Rolling::new(
         &contact,
         &Heading::along("phi"),
@@ -145,7 +154,7 @@ fn derivatives_of_a_wheel_have_their_closed_forms() {
         &"theta'".into(),
         &Expr::sym("e"),
     );
-    let rolling = Constraint { name: "wheel".into(), form: Form::R(rolling), creep: "e".into() };
+    let rolling = rolling.constraint("wheel", &"e".into());
     let q = ["x", "y", "phi", "theta"].map(Symbol::from);
     let (t, r) = (Jacobian::of(&direction, &q), Jacobian::of(&rolling, &q));
     let d = |j: &Jacobian, n: &str| j.q.iter().find(|(q, _)| q.as_str() == n).map(|(_, d)| d.expr()).unwrap();

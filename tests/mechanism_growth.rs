@@ -3,7 +3,7 @@
 mod support;
 
 use creepage::formula::{Exact, Expr, Symbol};
-use creepage::mechanism::{Constraint, Form, Mechanism, Point, Rolling, Row};
+use creepage::mechanism::{Mechanism, Point, Rolling, Row};
 use support::described::*;
 
 /// A row of the table: coordinates, growth vector, holonomic and nonholonomic constraints.
@@ -271,8 +271,8 @@ fn made_of(coordinates: &[&str], rows: &[&[(&str, &str)]]) -> Mechanism {
     let constraint = |(k, terms): (usize, &&[(&str, &str)])| {
         let mut pi = Row::default();
         terms.iter().for_each(|(rate, c)| pi.add(*rate, &Expr::parse(c).unwrap()));
-        let form = Form::R(Rolling { pi, sigma: Expr::int(0), rate: "none'".into() });
-        Constraint { name: format!("row {k}"), form, creep: Symbol::new(&format!("e_{k}")) }
+        let rolling = Rolling { pi, sigma: Expr::int(0), rate: "none'".into() };
+        rolling.constraint(&format!("row {k}"), &Symbol::new(&format!("e_{k}")))
     };
     Mechanism {
         coordinates: coordinates.iter().map(|q| Symbol::from(*q)).collect(),

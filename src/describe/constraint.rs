@@ -4,17 +4,15 @@ use super::Jacobian;
 use super::jacobian::rates;
 use super::regime::Coefficient;
 use crate::formula::{Expr, Node, Symbol};
-use crate::mechanism::{Constraint, Form, Row};
+use crate::mechanism::{Constraint, ConstraintType, Printed, Row};
 
 /// A constraint, its generic form, its row as derived, ideal and in the model, and its derivatives.
 #[derive(Clone, Debug)]
 pub struct ConstraintEntry {
     /// What it constrains, such as "rear axle, direction".
     pub name: String,
-    /// `R` or `T`.
-    pub form: char,
-    /// Equations it comes from.
-    pub source: &'static str,
+    /// Its type: the generic form, its letter, its source.
+    pub kind: ConstraintType,
     /// Its creep coefficient.
     pub creep: Symbol,
     /// The parts of the generic form: π̇, σ, q̇ or s, q̇₁, p, q̇₃, σ.
@@ -39,19 +37,11 @@ pub struct ConstraintEntry {
 #[derive(Clone, Debug)]
 pub struct Part {
     /// Its name in text.
-    pub label: &'static str,
+    pub label: String,
     /// Its name in LaTeX.
-    pub latex: &'static str,
+    pub latex: String,
     /// Its formula.
     pub formula: Expr,
-}
-
-/// The generic form of a letter in text and in LaTeX, and the source of the form.
-pub(super) fn form(letter: char) -> [&'static str; 3] {
-    match letter {
-        'R' => ["pi' - sigma*q' = 0", r"\dot{\pi} - \sigma\,\dot{q} = 0", "(8), (13), (24)"],
-        _ => ["s*q1' - p*q3' = 0", r"s\,\dot{q}_{1} - p\,\dot{q}_{3} = 0", "(17), (20), (21), (25)"],
-    }
 }
 
 impl ConstraintEntry {
@@ -59,23 +49,18 @@ impl ConstraintEntry {
     pub fn of(constraint: &Constraint, coordinates: &[Symbol], in_model: &impl Fn(&Symbol) -> Option<Expr>) -> Self {
         let order = rates(coordinates);
         let ordered = |row: Row| row.ordered(&order);
-        let letter = constraint.letter();
         Self {
             name: constraint.name.clone(),
-            form: letter,
-            source: form(letter)[2],
+            kind: constraint.kind().clone(),
             creep: constraint.creep.clone(),
-            parts: parts(&constraint.form, &ordered),
+            parts: parts(constraint, &order),
             generic: constraint.generic(),
-            singular: match &constraint.form {
-                Form::R(_) => None,
-                Form::T(t) => Some(t.s.clone()),
-            },
+            singular: constraint.form.singular(),
             row: ordered(constraint.row()),
             ideal: ordered(constraint.ideal_row()),
             coefficient: Coefficient {
                 creep: constraint.creep.clone(),
-                form: letter,
+                kind: constraint.kind().clone(),
                 value: None,
                 given: false,
                 row_holds: true,
@@ -84,6 +69,19 @@ impl ConstraintEntry {
             model: in_place(&written(constraint, &order), in_model),
             jacobian: Jacobian::of(constraint, coordinates),
         }
+    }
+
+    /// Where the type comes from, as the end of a sentence.
+    pub(super) fn source(&self) -> String {
+        match self.kind.source.as_str() {
+            "" => String::new(),
+            source => format!("; equations {source}"),
+        }
+    }
+
+    /// Whether the form speaks of a σ.
+    pub(super) fn has_sigma(&self) -> bool {
+        self.parts.iter().any(|p| p.label == "sigma")
     }
 
     /// The rows as derived, ideal and in the model, each with its name.
@@ -105,9 +103,9 @@ impl ConstraintEntry {
 
 /// A constraint as it is best read: type R by its σ, type T by its row.
 fn written(constraint: &Constraint, order: &[Symbol]) -> Expr {
-    match &constraint.form {
-        Form::R(r) => &r.pi.ordered(order).expr() - &(&r.sigma * &Expr::sym(r.rate.clone())),
-        Form::T(_) => constraint.row().ordered(order).expr(),
+    match constraint.kind().printed {
+        Printed::Form => constraint.form.expr(order, &constraint.creep),
+        Printed::Row => constraint.row().ordered(order).expr(),
     }
 }
 
@@ -144,20 +142,10 @@ fn product(a: &Expr, b: &Expr) -> Expr {
     }
 }
 
-fn parts(form: &Form, ordered: &impl Fn(Row) -> Row) -> Vec<Part> {
-    let part = |label, latex, formula| Part { label, latex, formula };
-    match form {
-        Form::R(r) => vec![
-            part("pi'", r"\dot{\pi}", ordered(r.pi.clone()).expr()),
-            part("sigma", r"\sigma", r.sigma.clone()),
-            part("q'", r"\dot{q}", Expr::sym(r.rate.clone())),
-        ],
-        Form::T(t) => vec![
-            part("s", "s", t.s.clone()),
-            part("q1'", r"\dot{q}_{1}", ordered(t.q1.clone()).expr()),
-            part("p", "p", t.p.clone()),
-            part("q3'", r"\dot{q}_{3}", ordered(t.q3.clone()).expr()),
-            part("sigma", r"\sigma", t.sigma()),
-        ],
-    }
+fn parts(constraint: &Constraint, order: &[Symbol]) -> Vec<Part> {
+    let filled = constraint.kind().slots.iter().filter_map(|slot| {
+        let part = constraint.form.slot(slot.name.as_str())?;
+        Some(Part { label: slot.name.to_string(), latex: slot.in_latex(), formula: part.ordered(order) })
+    });
+    filled.collect()
 }

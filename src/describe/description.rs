@@ -122,7 +122,7 @@ impl Description {
     /// ```
     pub fn with_limits(mut self, limits: CreepLimits) -> Self {
         for c in &mut self.constraints {
-            c.coefficient.limits = if c.form == 'R' { limits.rotation } else { limits.traverse };
+            c.coefficient.limits = limits.of(c.kind.regimes);
         }
         self
     }

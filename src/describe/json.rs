@@ -1,6 +1,5 @@
 //! A description as JSON: each formula in text and in LaTeX.
 
-use super::constraint::form;
 use super::{
     ConstraintEntry, Description, EffectInModel, Equation, Holonomy, Realised, Signature, Structure, SymbolEntry,
     Symbols,
@@ -25,10 +24,9 @@ pub fn json(d: &Description) -> Value {
             "columns": names(&d.coordinates.iter().map(Symbol::rate).collect::<Vec<_>>()),
             "rows": d.pfaffian.iter().map(|r| r.iter().map(|e| formula(s, e)).collect()).collect::<Vec<Vec<Value>>>(),
         },
-        "constraints_by_form": {
-            "r": d.signature.r, "t": d.signature.t,
-            "text": d.signature.to_string(), "latex": d.signature.latex(), "counts": Signature::COUNTS,
-        },
+        "constraints_by_form": counted(&d.signature, &[
+            ("text", d.signature.to_string()), ("latex", d.signature.latex()), ("counts", Signature::COUNTS.into()),
+        ]),
         "structure": structure(s, &d.structure),
         "undetermined": d.undetermined.as_ref().map(ToString::to_string),
         "definitions": d.definitions.iter().map(|e| equation(s, e, &e.name)).collect::<Vec<_>>(),
@@ -36,6 +34,15 @@ pub fn json(d: &Description) -> Value {
         "beside_rows": names(&d.beside_rows),
         "effects": d.effects.iter().map(|e| effect(s, e)).collect::<Vec<_>>(),
     })
+}
+
+/// The numbers of a signature by letter, r and t always, with more entries.
+pub(super) fn counted(signature: &Signature, more: &[(&str, String)]) -> Value {
+    let letter = |l: char| (l.to_lowercase().to_string(), signature.count(l).into());
+    let others = signature.counts.iter().map(|(l, _)| *l).filter(|l| !['R', 'T'].contains(l));
+    let counts = ['R', 'T'].into_iter().chain(others).map(letter);
+    let more = more.iter().map(|(name, text)| ((*name).to_string(), text.clone().into()));
+    Value::Object(counts.chain(more).collect())
 }
 
 fn names(symbols: &[Symbol]) -> Vec<&str> {
@@ -63,17 +70,16 @@ fn equation(s: &Symbols, e: &Equation, name: &Symbol) -> Value {
 }
 
 fn constraint(s: &Symbols, c: &ConstraintEntry) -> Value {
-    let [text, latex, _] = form(c.form);
-    let parts: Map<String, Value> = c.parts.iter().map(|p| (p.label.to_string(), formula(s, &p.formula))).collect();
+    let parts: Map<String, Value> = c.parts.iter().map(|p| (p.label.clone(), formula(s, &p.formula))).collect();
     let by_q: Map<String, Value> = c.jacobian.q.iter().map(|(q, d)| (q.to_string(), row(s, d))).collect();
     let by_rate: Map<String, Value> = c.jacobian.rates.iter().map(|(q, d)| (q.to_string(), formula(s, d))).collect();
     object!({
         "name": c.name,
-        "form": c.form.to_string(),
+        "form": c.kind.letter.to_string(),
         "creep": c.creep.as_str(),
-        "source": c.source,
+        "source": c.kind.source,
         "generic": {
-            "text": text, "latex": latex, "parts": parts, "together": formula(s, &c.generic),
+            "text": c.kind.text(), "latex": c.kind.in_latex(), "parts": parts, "together": formula(s, &c.generic),
             "sigma_undefined_where_zero": c.singular.as_ref().map(|e| formula(s, e)),
         },
         "row": row(s, &c.row),
@@ -121,9 +127,7 @@ fn realised(s: &Symbols, r: &Realised) -> Value {
     let passive = |(e, f): &(Symbol, Option<Expr>)| object!({ "creep": e.as_str(), "formula": f.as_ref().map(|f| formula(s, f)) });
     object!({
         "measured": names(&r.measured), "unknown": names(&r.unknown),
-        "signature": {
-            "r": r.signature.r, "t": r.signature.t, "text": r.signature.to_string(), "latex": r.signature.latex(),
-        },
+        "signature": counted(&r.signature, &[("text", r.signature.to_string()), ("latex", r.signature.latex())]),
         "canonical": names(&r.canonical),
         "other_sets": r.others.iter().map(|set| names(set)).collect::<Vec<_>>(),
         "other_sets_found": r.other_count, "all_sets_found": r.is_complete,

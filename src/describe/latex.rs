@@ -1,9 +1,8 @@
 //! A description as a LaTeX document.
 
-use super::constraint::form;
 use super::structure::Line;
 use super::{ConstraintEntry, Description, EffectInModel, Signature, Symbols, terms};
-use crate::formula::{Expr, Symbol};
+use crate::formula::{Expr, Symbol, latex_symbol};
 use std::fmt::Write;
 
 const HEAD: &str = r"\documentclass[a4paper,10pt]{article}
@@ -54,16 +53,19 @@ fn symbols(out: &mut String, d: &Description) {
 }
 
 fn constraint(out: &mut String, s: &Symbols, c: &ConstraintEntry) {
-    let [_, generic, source] = form(c.form);
+    let generic = c.kind.in_latex();
     let _ = writeln!(out, "\\subsection{{{}}}", plain(&c.name));
     let creep = s.latex_symbol(&c.creep);
-    let _ = writeln!(out, "Type {}, ${generic}$; coefficient ${creep}$; equations {source}.", c.form);
+    let _ = writeln!(out, "Type {}, ${generic}$; coefficient ${creep}${}.", c.kind.letter, plain(&c.source()));
     let mut parts = Display::new(s);
-    c.parts.iter().for_each(|p| parts.equation(p.latex, &p.formula));
+    c.parts.iter().for_each(|p| parts.equation(&p.latex, &p.formula));
     parts.write(out);
-    let _ = match &c.singular {
-        None => writeln!(out, "$\\sigma$ is defined everywhere."),
-        Some(_) => writeln!(out, "$\\sigma$ is undefined where $s = 0$; the row is regular there."),
+    let _ = match (&c.kind.singular, c.has_sigma()) {
+        (Some(s), _) => {
+            writeln!(out, "$\\sigma$ is undefined where ${} = 0$; the row is regular there.", latex_symbol(s))
+        }
+        (None, true) => writeln!(out, "$\\sigma$ is defined everywhere."),
+        (None, false) => Ok(()),
     };
     for (label, row) in c.rows() {
         let _ = writeln!(out, "{label}:");

@@ -19,7 +19,7 @@ const LONGEST: usize = 400;
 /// |---|---|
 /// | measured | rates that the logged inputs give and that occur in a constraint |
 /// | unknown | rates that the constraints have to give |
-/// | canonical | coefficients of a smallest set that makes them so: R before T, in the order of the constraints |
+/// | canonical | coefficients of a smallest set that makes them so: R before T before others, in the order of the constraints |
 /// | passive | coefficients outside it that act: they follow from it |
 ///
 /// Valid near zero creep at a general configuration. Source: THEOREM of the paper, see
@@ -92,8 +92,7 @@ impl Realised {
 }
 
 fn counted(found: &Realisation) -> Signature {
-    let (r, t) = found.counts();
-    Signature { r, t }
+    Signature { counts: found.letters() }
 }
 
 /// The rates in the rows that logged inputs give: of wheels, of angles that are steered, of the yaw where it is logged.

@@ -1,7 +1,7 @@
 //! The coefficient of a constraint in the model as it stands, and what it is called.
 
 use crate::formula::Symbol;
-use crate::mechanism::{Landmark, Limits, RotationRegime, TraverseRegime};
+use crate::mechanism::{ConstraintType, Landmark, Limits, Regimes, RotationRegime, TraverseRegime};
 
 /// Limits of creep, as far as they are given.
 #[derive(Clone, Copy, Debug, Default)]
@@ -12,13 +12,24 @@ pub struct CreepLimits {
     pub traverse: Option<Limits>,
 }
 
+impl CreepLimits {
+    /// Those of a type whose coefficient has these regimes.
+    pub(super) fn of(self, regimes: Regimes) -> Option<Limits> {
+        match regimes {
+            Regimes::Rotation => self.rotation,
+            Regimes::Traverse => self.traverse,
+            Regimes::None => None,
+        }
+    }
+}
+
 /// The coefficient of a constraint in the model as it stands.
 #[derive(Clone, Debug)]
 pub struct Coefficient {
     /// Its symbol.
     pub creep: Symbol,
-    /// `R` or `T`.
-    pub form: char,
+    /// The type of its constraint.
+    pub kind: ConstraintType,
     /// Its value; `None` where it is not constant.
     pub value: Option<f64>,
     /// Whether an effect gives it.
@@ -39,15 +50,18 @@ impl Coefficient {
     pub fn regime(&self) -> &'static str {
         let unknown = !self.row_holds && self.value == Some(0.0);
         let e = self.value.filter(|_| !unknown).unwrap_or(f64::NAN);
-        match self.form {
-            'R' => RotationRegime::of(e, self.limits).name(),
-            _ => TraverseRegime::of(e, self.limits).name(),
+        match self.kind.regimes {
+            Regimes::Rotation => RotationRegime::of(e, self.limits).name(),
+            Regimes::Traverse => TraverseRegime::of(e, self.limits).name(),
+            Regimes::None if e.is_nan() => "undefined",
+            Regimes::None if e == 0.0 => "ideal",
+            Regimes::None => "creep",
         }
     }
 
     /// What else a coefficient of rotation creep means.
     pub fn landmark(&self) -> Option<&'static str> {
-        self.value.filter(|_| self.form == 'R').and_then(Landmark::of).map(Landmark::name)
+        self.value.filter(|_| self.kind.regimes == Regimes::Rotation).and_then(Landmark::of).map(Landmark::name)
     }
 
     /// Regime, landmark, limits and reservations in words.
@@ -61,6 +75,7 @@ impl Coefficient {
         }
         said += &match self.limits {
             Some(limits) => format!(" (limits {limits})"),
+            None if self.kind.regimes == Regimes::None => String::new(),
             None => " (by its sign; limits were not given)".into(),
         };
         if !self.row_holds {

@@ -1,18 +1,16 @@
 //! How many coefficients of each form.
 
-use crate::mechanism::{Constraint, Form};
+use crate::mechanism::{Constraint, counted};
 use std::fmt;
 
 /// Numbers of creep coefficients, R^k T^m: of all constraints by form, or of those that realise the motion.
 ///
 /// [`Signature::of`] counts the constraints in each form, one coefficient each; it says nothing about which of them
 /// could be integrated. The signature by ranks is that of [`Realised`](super::Realised).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Signature {
-    /// k: constraints of type R.
-    pub r: usize,
-    /// m: constraints of type T.
-    pub t: usize,
+    /// Letters with how many there are, none zero: R, T, other letters of the catalogue, letters of one's own types.
+    pub counts: Vec<(char, usize)>,
 }
 
 impl Signature {
@@ -22,8 +20,18 @@ impl Signature {
 
     /// The count of a list of constraints.
     pub fn of(constraints: &[Constraint]) -> Self {
-        let r = constraints.iter().filter(|c| matches!(c.form, Form::R(_))).count();
-        Self { r, t: constraints.len() - r }
+        Self { counts: counted(constraints.iter().map(Constraint::letter)) }
+    }
+
+    /// How many constraints have this letter.
+    ///
+    /// ```
+    /// use creepage::{describe::Signature, model::mechanism, vehicles};
+    /// let car = Signature::of(&mechanism(vehicles::named("car").unwrap(), 0).constraints);
+    /// assert_eq!((car.count('R'), car.count('T')), (1, 2));
+    /// ```
+    pub fn count(&self, letter: char) -> usize {
+        self.counts.iter().find(|(l, _)| *l == letter).map_or(0, |(_, n)| *n)
     }
 
     /// In LaTeX's mathematics mode.
@@ -32,8 +40,7 @@ impl Signature {
     }
 
     fn written(&self, power: impl Fn(char, usize) -> String, between: &str) -> String {
-        let present = [('R', self.r), ('T', self.t)].into_iter().filter(|(_, n)| *n > 0);
-        present.map(|(letter, n)| power(letter, n)).collect::<Vec<_>>().join(between)
+        self.counts.iter().map(|(letter, n)| power(*letter, *n)).collect::<Vec<_>>().join(between)
     }
 }
 

@@ -153,7 +153,7 @@ fn realisation_lines(r: &Realised) -> Vec<Line> {
     let mut lines = vec![
         Line::Names("measured rates in the rows".into(), r.measured.clone()),
         Line::Names("rates in the rows that are not measured".into(), r.unknown.clone()),
-        Line::Signature("RT signature by ranks", r.signature),
+        Line::Signature("RT signature by ranks", r.signature.clone()),
         Line::Names("its coefficients, the canonical set".into(), r.canonical.clone()),
     ];
     let at_least = if r.is_complete { "" } else { "at least " };

@@ -1,6 +1,5 @@
 //! A description for a terminal.
 
-use super::constraint::form;
 use super::page::Page;
 use super::structure::Line;
 use super::{ConstraintEntry, Description, Equation, Signature};
@@ -55,18 +54,13 @@ fn symbols(page: &mut Page, d: &Description) {
 
 fn constraint(page: &mut Page, number: usize, c: &ConstraintEntry) {
     page.heading(3, &format!("{number}. {}", c.name));
-    page.line(&format!(
-        "Type {}, {}; coefficient {}; equations {}. Put in:",
-        c.form,
-        form(c.form)[0],
-        c.creep,
-        c.source
-    ));
+    page.line(&format!("Type {}, {}; coefficient {}{}. Put in:", c.kind.letter, c.kind.text(), c.creep, c.source()));
     c.parts.iter().for_each(|p| page.formula(&format!("{} = {}", p.label, p.formula)));
     page.formula(&format!("{} = 0", c.generic));
-    match &c.singular {
-        None => page.line("sigma is defined everywhere."),
-        Some(_) => page.line("sigma is undefined where s = 0; the row is regular there."),
+    match (&c.kind.singular, c.has_sigma()) {
+        (Some(s), _) => page.line(&format!("sigma is undefined where {s} = 0; the row is regular there.")),
+        (None, true) => page.line("sigma is defined everywhere."),
+        (None, false) => {}
     }
     for (label, row) in c.rows() {
         page.line(&format!("{label}:"));

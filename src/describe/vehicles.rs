@@ -2,6 +2,7 @@
 
 use super::Signature;
 use super::jacobian::rates;
+use super::json::counted;
 use super::page::Page;
 use crate::error::Result;
 use crate::formula::latex_symbol;
@@ -49,7 +50,7 @@ pub fn vehicles_text() -> Result<String> {
     page.entry("parameter trailer_lengths (m): from hitch to axle, nearest first");
     page.entry("parameter hitch_offsets (m, optional): hitch behind the axle ahead of it");
     for vehicle in tractors() {
-        let Signature { r, t } = Signature::of(&Model::sample(vehicle)?.constraints());
+        let [r, t] = letters(vehicle)?;
         page.entry(&format!("signature of N trailers behind {}: {}T^(N+{t})", vehicle.id, power('R', r)));
     }
     let all = sample_train(&vehicles::all()[0])?;
@@ -62,6 +63,12 @@ pub fn vehicles_text() -> Result<String> {
 /// The vehicles that trailers can be put behind.
 pub(super) fn tractors() -> impl Iterator<Item = &'static Vehicle> {
     vehicles::all().iter().filter(|v| v.pulls())
+}
+
+/// How many constraints of type R and of type T a tractor has.
+fn letters(vehicle: &Vehicle) -> Result<[usize; 2]> {
+    let signature = Signature::of(&Model::sample(vehicle)?.constraints());
+    Ok(['R', 'T'].map(|letter| signature.count(letter)))
 }
 
 fn power(letter: char, n: usize) -> String {
@@ -108,7 +115,7 @@ fn entry(vehicle: &Vehicle, model: &Model) -> Result<Value> {
         "id": vehicle.id, "title": vehicle.title, "undetermined": vehicle.instead,
         "parameters": vehicle.parameters.iter().map(parameter).collect::<Vec<_>>(),
         "inputs": vehicle.inputs.iter().map(input).collect::<Vec<_>>(),
-        "signature": { "r": signature.r, "t": signature.t, "text": signature.to_string() },
+        "signature": counted(&signature, &[("text", signature.to_string())]),
         "constraints": constraints.iter().map(|c| constraint(model, c)).collect::<Vec<_>>(),
     }))
 }
@@ -124,7 +131,7 @@ fn constraint(model: &Model, c: &Constraint) -> Value {
 fn train() -> Result<Value> {
     let parameter = |name: &str, meaning: &str, optional: bool| json!({ "name": name, "unit": "m", "meaning": meaning, "optional": optional });
     let tractor = |v: &Vehicle| -> Result<Value> {
-        let Signature { r, t } = Signature::of(&Model::sample(v)?.constraints());
+        let [r, t] = letters(v)?;
         Ok(
             json!({ "id": v.id, "signature": { "r": r, "t": format!("N+{t}"), "text": format!("{}T^(N+{t})", power('R', r)) } }),
         )

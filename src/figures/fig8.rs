@@ -185,9 +185,9 @@ impl Entry {
 
     /// The title and the count of coefficients.
     fn words(&self, model: &Model) -> Vec<Element> {
-        let Signature { r, t } = Signature::of(&model.constraints());
+        let signature = Signature::of(&model.constraints());
         let power = |letter: &str, n: usize| if n == 1 { letter.into() } else { format!("{letter}$^{{{n}}}$") };
-        let count = format!("{}{}", power("R", r), power("T", t));
+        let count = format!("{}{}", power("R", signature.count('R')), power("T", signature.count('T')));
         let (x, y) = if self.trailers > 0 { (90.0, 214.0) } else { (self.at[0], 18.0) };
         vec![
             maths("heading", [x.max(66.0), y], "middle", self.title),

@@ -1,7 +1,7 @@
 //! Which coefficients of creep make a motion what it is, given what is measured: the signature RᵏTᵐ by ranks.
 
 use super::linear::{Echelon, dot};
-use super::{Form, Mechanism, Point, Row};
+use super::{Mechanism, Point, Row, rank};
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
 use num_rational::BigRational;
@@ -38,7 +38,7 @@ const LISTED: usize = 1000;
 pub struct Realisation {
     /// u.
     pub unknown: Vec<Symbol>,
-    /// All smallest sets S by the places of their constraints, the canonical one first: R before T, each in the order
+    /// All smallest sets S by the places of their constraints, the canonical one first: R before T before others, each in the order
     /// of the description, taken while independent.
     pub sets: Vec<Vec<usize>>,
     /// Whether every smallest set is listed.
@@ -54,7 +54,12 @@ impl Realisation {
         self.sets.first().map_or(&[], Vec::as_slice)
     }
 
-    /// k and m of the canonical set.
+    /// How many of each letter are in the canonical set, in the order of signatures.
+    pub fn letters(&self) -> Vec<(char, usize)> {
+        counted(self.canonical().iter().map(|r| self.letters[*r]))
+    }
+
+    /// k and m of the canonical set: coefficients of type R, and all others.
     pub fn counts(&self) -> (usize, usize) {
         let rolling = self.canonical().iter().filter(|r| self.letters[**r] == 'R').count();
         (rolling, self.canonical().len() - rolling)
@@ -62,14 +67,19 @@ impl Realisation {
 
     /// `R^kT^m` of the canonical set, exponents of one left out.
     pub fn signature(&self) -> String {
-        let (k, m) = self.counts();
-        let power = |letter: char, n: usize| match n {
-            0 => String::new(),
+        let power = |(letter, n): (char, usize)| match n {
             1 => letter.to_string(),
             _ => format!("{letter}^{n}"),
         };
-        power('R', k) + &power('T', m)
+        self.letters().into_iter().map(power).collect()
     }
+}
+
+/// How many there are of each letter, in the order of signatures.
+pub(crate) fn counted(letters: impl Iterator<Item = char>) -> Vec<(char, usize)> {
+    let mut counts = std::collections::BTreeMap::new();
+    letters.for_each(|letter| *counts.entry((rank(letter), letter)).or_insert(0) += 1);
+    counts.into_iter().map(|((_, letter), n)| (letter, n)).collect()
 }
 
 impl Mechanism {
@@ -85,7 +95,7 @@ impl Mechanism {
         let rows = self.ideal_rows();
         let values = at.matrix(&rows, &unknown)?;
         let mut order: Vec<usize> = candidates.into_iter().filter(|r| acting[*r]).collect();
-        order.sort_by_key(|r| (self.constraints[*r].letter(), *r));
+        order.sort_by_key(|r| (rank(self.constraints[*r].letter()), *r));
         let (sets, is_complete) = bases(&order, &values, unknown.len());
         let Some(canonical) = sets.first() else { return Err(not_determined(&unknown)) };
         let passive = (0..rows.len()).filter(|r| order.contains(r) && !canonical.contains(r)).collect();
@@ -95,10 +105,7 @@ impl Mechanism {
 
     /// Constraints with a coefficient to choose: all but the rolling of wheels whose rate is not measured.
     fn candidates(&self, measured: &[Symbol]) -> Vec<usize> {
-        let turns_as_it_must = |r: &usize| match &self.constraints[*r].form {
-            Form::R(rolling) => !measured.contains(&rolling.rate),
-            Form::T(_) => false,
-        };
+        let turns_as_it_must = |r: &usize| self.constraints[*r].form.gives().is_some_and(|q| !measured.contains(q));
         (0..self.constraints.len()).filter(|r| !turns_as_it_must(r)).collect()
     }
 

@@ -2,7 +2,7 @@
 
 use super::{Model, trailer_heading};
 use crate::formula::{Expr, Symbol};
-use crate::mechanism::{Constraint, Direction, Form, Heading, Mechanism, Rolling, Velocity};
+use crate::mechanism::{Constraint, Direction, Heading, Mechanism, Rolling, Velocity};
 use crate::vehicles::{Vehicle, Wheel};
 
 /// The heading of a wheel on a body of heading φ.
@@ -25,7 +25,7 @@ pub(super) fn rolling(wheel: &Wheel, reference: &Velocity, body: &Heading) -> Op
     let contact = contact(wheel, reference, body);
     let heading = wheel_heading(wheel, body);
     let rolling = Rolling::new(&contact, &heading, &Expr::sym(radius.clone()), rate, &Expr::sym(creep.clone()));
-    Some(Constraint { name: format!("{}, rolling", wheel.name), form: Form::R(rolling), creep: creep.clone() })
+    Some(rolling.constraint(&format!("{}, rolling", wheel.name), creep))
 }
 
 /// The direction constraint of a wheel, if it has one.
@@ -33,7 +33,7 @@ pub(super) fn direction(wheel: &Wheel, reference: &Velocity, body: &Heading) -> 
     let creep = wheel.traverse_creep.as_ref()?;
     let contact = contact(wheel, reference, body);
     let direction = Direction::new(&contact, &wheel_heading(wheel, body), &Expr::sym(creep.clone()));
-    Some(Constraint { name: format!("{}, direction", wheel.name), form: Form::T(direction), creep: creep.clone() })
+    Some(direction.constraint(&format!("{}, direction", wheel.name), creep))
 }
 
 /// The coefficient of traverse creep of a trailer.
@@ -50,7 +50,7 @@ pub(super) fn trailer_lengths(i: usize) -> (Symbol, Symbol) {
 pub(super) fn trailer_direction(i: usize, axle: &Velocity) -> Constraint {
     let creep = trailer_creep(i);
     let direction = Direction::new(axle, &Heading::along(trailer_heading(i)), &Expr::sym(creep.clone()));
-    Constraint { name: format!("trailer {i}, direction"), form: Form::T(direction), creep }
+    direction.constraint(&format!("trailer {i}, direction"), &creep)
 }
 
 /// The velocity of an axle from that of the axle ahead: back to the hitch, back along the trailer.
@@ -123,9 +123,10 @@ fn constraints_of(vehicle: &Vehicle, trailers: usize) -> Vec<Constraint> {
 }
 
 impl Model {
-    /// The constraints of the vehicle and its trailers in the two generic forms, derived from the description.
+    /// The constraints of the vehicle and its trailers in their generic forms, derived from the description.
     ///
-    /// Each wheel gives its rolling constraint and its direction constraint, each trailer a direction constraint.
+    /// Each wheel gives its rolling constraint and its direction constraint, each trailer a direction constraint;
+    /// constraints of other types stand in the description.
     pub fn constraints(&self) -> Vec<Constraint> {
         constraints_of(&self.vehicle, self.trailers.len())
     }

@@ -2,18 +2,15 @@
 
 use crate::claims::{Machine, Outcome, Sampling, Statement, prove};
 use crate::formula::{Expr, Symbol};
-use crate::mechanism::{Direction, Form};
+use crate::mechanism::{Form, Part};
 use crate::model::mechanism;
 use crate::vehicles;
 use std::sync::LazyLock;
 
-/// The sleigh's one constraint, type T.
-fn direction() -> Option<Direction> {
+/// The form of the sleigh's one constraint, type T.
+fn direction() -> Option<Form> {
     let sleigh = mechanism(vehicles::named("sleigh")?, 0);
-    sleigh.constraints.into_iter().find_map(|c| match c.form {
-        Form::T(t) => Some(t),
-        Form::R(_) => None,
-    })
+    sleigh.constraints.into_iter().find(|c| c.letter() == 'T').map(|c| c.form)
 }
 
 pub(super) fn formula(text: &str) -> Expr {
@@ -25,24 +22,26 @@ pub(super) fn sleigh() -> Machine {
     let velocities = Machine::default()
         .with_text("x'", "v_l*cos(phi) - v_t*sin(phi)")
         .with_text("y'", "v_l*sin(phi) + v_t*cos(phi)");
-    let Some(t) = direction() else { return velocities };
+    let Some(form) = direction() else { return velocities };
+    let slot = |name: &str| form.slot(name).map(Part::expr).unwrap_or_default();
+    let [s, p, sigma] = ["s", "p", "sigma"].map(slot);
     let creep = Symbol::from("e_tc");
     // The row of the program is e·v_l − v_t; the paper's (14) has the other sign.
-    let g = &(&t.s * &t.q1.expr()) - &(&t.p * &t.q3.expr());
+    let g = form.expr(&[], &creep);
     let ideal = g.substitute(&|s| (*s == creep).then(|| Expr::int(0)));
     let by = |e: &Expr, name: &str| e.derivative(&name.into());
     velocities
         .with("g_phi", by(&g, "phi"))
         .with("g_e", by(&g, "e_tc"))
-        .with("s_phi", by(&t.s, "phi"))
-        .with("p_phi", by(&t.p, "phi"))
-        .with("s_e", by(&t.s, "e_tc"))
-        .with("p_e", by(&t.p, "e_tc"))
-        .with("sigma_phi", by(&t.sigma(), "phi"))
-        .with("sigma_e", by(&t.sigma(), "e_tc"))
-        .with("sigma", t.sigma())
-        .with("s", t.s)
-        .with("p", t.p)
+        .with("s_phi", by(&s, "phi"))
+        .with("p_phi", by(&p, "phi"))
+        .with("s_e", by(&s, "e_tc"))
+        .with("p_e", by(&p, "e_tc"))
+        .with("sigma_phi", by(&sigma, "phi"))
+        .with("sigma_e", by(&sigma, "e_tc"))
+        .with("sigma", sigma)
+        .with("s", s)
+        .with("p", p)
         .with("ideal", ideal)
         .with("g", g)
 }

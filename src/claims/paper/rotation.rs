@@ -4,7 +4,7 @@ use crate::claims::paper::domain::undefined_exactly_where;
 use crate::claims::paper::finite;
 use crate::claims::{Claim, Domain, Machine, Outcome, Sampling, Statement, Status, at_points, prove};
 use crate::formula::Expr;
-use crate::mechanism::Form;
+use crate::mechanism::Part;
 use crate::model::mechanism;
 use crate::vehicles;
 use std::sync::LazyLock;
@@ -247,14 +247,15 @@ fn type_r(s: &Statement, _: &Sampling) -> Outcome {
         constraints.into_iter().filter_map(move |c| Some((radius(&c.name)?, c)))
     });
     Outcome::all(rows.filter_map(|(radius, c)| {
-        let Form::R(rolling) = &c.form else { return None };
+        let slot = |name: &str| c.form.slot(name).map(Part::expr);
+        let (pi, rolling, rate) = (slot("pi'")?, slot("sigma")?, slot("q'")?);
         let said = sigma.substitute(&|s| match s.as_str() {
             "r" => Some(Expr::sym(radius.clone())),
             "e" => Some(Expr::sym(c.creep.clone())),
             _ => None,
         });
-        let form = &rolling.pi.expr() - &(&said * &Expr::sym(rolling.rate.clone()));
-        let machine = Machine::default().with("sigma", rolling.sigma.clone()).with("row", c.row().expr());
+        let form = &pi - &(&said * &rate);
+        let machine = Machine::default().with("sigma", rolling).with("row", c.row().expr());
         let rows = [(Expr::sym("sigma"), said), (Expr::sym("row"), form)];
         Some(prove(&machine, &Statement::of(rows)))
     }))

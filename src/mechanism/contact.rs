@@ -1,0 +1,105 @@
+//! What the contact of a wheel puts in the slots of the two generic forms.
+
+use super::{Constraint, ConstraintType, Form, Heading, Part, Row, Velocity};
+use crate::formula::{Expr, Fun, Symbol};
+use std::sync::Arc;
+
+/// π̇ − σ(e)·q̇ = 0 with σ = r(1 − e).
+///
+/// | symbol | unit | meaning |
+/// |---|---|---|
+/// | π̇ | m/s | quasi-velocity: speed of the contact along the wheel |
+/// | σ | m | rolling radius |
+/// | q̇ | rad/s | rate of the wheel |
+///
+/// Defined everywhere. Source: equations (8), (13), (24).
+#[derive(Clone, Debug)]
+pub struct Rolling {
+    /// The quasi-velocity as a linear form in the rates.
+    pub pi: Row,
+    /// σ(e).
+    pub sigma: Expr,
+    /// q̇.
+    pub rate: Symbol,
+}
+
+/// s·q̇₁ − p·q̇₃ = 0 with s = sin ψ + e·cos ψ, p = cos ψ − e·sin ψ, σ = p/s.
+///
+/// | symbol | unit | meaning |
+/// |---|---|---|
+/// | q̇₁, q̇₃ | m/s | velocity of the contact along x and y |
+/// | ψ | rad | heading of the wheel |
+/// | e | 1 | coefficient of traverse creep, v_t/v_l of the contact |
+///
+/// The row is regular for every ψ and e, since s² + p² = 1 + e²; σ itself is undefined where s = 0.
+/// Source: equations (20)–(21), with E1–E3 of the errata.
+#[derive(Clone, Debug)]
+pub struct Direction {
+    /// sin ψ + e·cos ψ
+    pub s: Expr,
+    /// cos ψ − e·sin ψ
+    pub p: Expr,
+    /// q̇₁: velocity of the contact along x.
+    pub q1: Row,
+    /// q̇₃: velocity of the contact along y.
+    pub q3: Row,
+    /// s·q̇₁ − p·q̇₃ with the sines and cosines of sums collected.
+    row: Row,
+}
+
+impl Rolling {
+    /// A wheel of radius `radius` turning at `rate` whose contact moves with `contact` along `heading`.
+    pub fn new(contact: &Velocity, heading: &Heading, radius: &Expr, rate: &Symbol, creep: &Expr) -> Self {
+        let sigma = radius * &(&Expr::int(1) - creep);
+        Self { pi: contact.along(heading), sigma, rate: rate.clone() }
+    }
+
+    /// The constraint of this form.
+    pub fn constraint(self, name: &str, creep: &Symbol) -> Constraint {
+        let q = Part::rate(&self.rate);
+        let slots = [("pi'", Part::Rates(self.pi)), ("sigma", Part::Factor(self.sigma)), ("q'", q)];
+        Constraint { name: name.into(), form: filled("rolling", slots, creep), creep: creep.clone() }
+    }
+}
+
+impl Direction {
+    /// A contact moving with `contact` on a wheel of direction `heading`.
+    pub fn new(contact: &Velocity, heading: &Heading, creep: &Expr) -> Self {
+        let (cos, sin) = (heading.cos_from(&Heading::x()), heading.cos_from(&Heading::y()));
+        // e·(forward component) − (component to the left): the same form, written with angle sums.
+        let row = contact.along(heading).times(creep).plus(&Expr::int(-1), &contact.along(&heading.left()));
+        Self {
+            s: &sin + &(creep * &cos),
+            p: &cos - &(creep * &sin),
+            q1: contact.along(&Heading::x()),
+            q3: contact.along(&Heading::y()),
+            row,
+        }
+    }
+
+    /// σ = p/s, undefined where the wheel's course is along x.
+    pub fn sigma(&self) -> Expr {
+        &self.p / &self.s
+    }
+
+    /// The constraint of this form.
+    pub fn constraint(self, name: &str, creep: &Symbol) -> Constraint {
+        let [s, p] = [self.s, self.p].map(Part::Factor);
+        let [q1, q3] = [self.q1, self.q3].map(Part::Rates);
+        let form = filled("direction", [("s", s), ("q1'", q1), ("p", p), ("q3'", q3)], creep);
+        Constraint { name: name.into(), form: form.written_as(self.row), creep: creep.clone() }
+    }
+}
+
+/// A form of the catalogue with its slots filled in.
+fn filled<const N: usize>(id: &str, slots: [(&str, Part); N], creep: &Symbol) -> Form {
+    let slots = slots.map(|(name, part)| (Symbol::new(name), part));
+    let form: crate::Result<Form> = ConstraintType::named(id).and_then(|kind: Arc<_>| Form::new(&kind, &slots, creep));
+    // The slots are those of the catalogue, which is part of the program; every vehicle goes through here.
+    form.unwrap_or_else(|e| unreachable!("{e}"))
+}
+
+/// cot(ψ + arctan e), the closed form of σ off its singular set (E2).
+pub fn sigma_closed_form(psi: &Expr, e: &Expr) -> Expr {
+    Expr::call(Fun::Cot, &(psi + &Expr::call(Fun::Atan, e)))
+}

@@ -30,15 +30,18 @@ impl General {
         let definitions = model.row_definitions()?;
         let values = model.values();
         let symbols = coefficient_symbols(mechanism);
-        let angles: Vec<&Symbol> = mechanism.coordinates.iter().filter(|q| symbols.contains(q)).collect();
+        let is_angle = |q: &Symbol| model.vehicle.coordinate(q.as_str()).is_none_or(|c| c.unit == "rad");
+        let (angles, lengths): (Vec<&Symbol>, Vec<&Symbol>) =
+            mechanism.coordinates.iter().filter(|q| symbols.contains(q)).partition(|q| is_angle(q));
         let left_out: Vec<Symbol> =
             model.vehicle.parameters.keys().map(|p| Symbol::new(p)).filter(|p| !values.contains_key(p)).collect();
-        let point = |directions: &[(i64, i64)]| -> Result<Point> {
+        let point = |which: usize| -> Result<Point> {
             let given = |s: &Symbol| {
-                let angle = angles.iter().position(|q| *q == s).map(|k| direction(directions, k));
+                let angle = angles.iter().position(|q| *q == s).map(|k| direction(DIRECTIONS[which], k));
+                let coordinate = || lengths.iter().position(|q| *q == s).map(|k| stand_in(2 * k + which));
                 let length = || values.get(s).map(|v| decimal(*v));
                 let stand_in = || left_out.iter().position(|p| p == s).map(stand_in);
-                angle.or_else(length).or_else(stand_in)
+                angle.or_else(coordinate).or_else(length).or_else(stand_in)
             };
             let defined = definitions.evaluate(&given)?;
             let mut point = Point::default();
@@ -49,7 +52,7 @@ impl General {
             }
             Ok(point)
         };
-        let points = [point(DIRECTIONS[0])?, point(DIRECTIONS[1])?];
+        let points = [point(0)?, point(1)?];
         let matters = |p: &Symbol| {
             symbols.contains(p) || symbols.iter().filter_map(|s| definitions.get(s)).any(|f| f.mentions(p))
         };

@@ -145,6 +145,9 @@ fn values(model: &Model, definitions: &Definitions) -> Result<BTreeMap<Symbol, f
 fn look_up(model: &Model, symbol: &Symbol) -> Option<(Kind, String, String)> {
     let name = symbol.as_str();
     let vehicle = &model.vehicle;
+    if let Some(c) = vehicle.coordinate(name) {
+        return Some((Kind::Coordinate, c.unit.clone(), c.meaning.clone()));
+    }
     let is_rate = model.coordinates().iter().any(|c| c.rate() == *symbol);
     if let Some(d) = vehicle.define.get(symbol) {
         let kind = if is_rate { Kind::Rate } else { Kind::Defined };
@@ -161,6 +164,7 @@ fn look_up(model: &Model, symbol: &Symbol) -> Option<(Kind, String, String)> {
         return Some((Kind::Input, r.unit.clone(), format!("logged in place of the {}", input.meaning)));
     }
     wheel(model, symbol)
+        .or_else(|| of_constraint(model, symbol))
         .or_else(|| model.effects.iter().find_map(|e| of_effect(e, symbol)))
         .or_else(|| meaning::of(name, model.trailers.len()))
 }
@@ -185,6 +189,17 @@ fn wheel(model: &Model, symbol: &Symbol) -> Option<(Kind, String, String)> {
     table.into_iter().find_map(|(test, kind, unit, means)| {
         let names: Vec<&str> = model.vehicle.wheels.iter().filter(|w| test(w)).map(|w| w.name.as_str()).collect();
         (!names.is_empty()).then(|| (kind, unit.into(), format!("{means} {}", names.join(", "))))
+    })
+}
+
+/// A coefficient of a constraint that is no wheel's, or the rate of a coordinate of the vehicle's own.
+fn of_constraint(model: &Model, symbol: &Symbol) -> Option<(Kind, String, String)> {
+    let vehicle = &model.vehicle;
+    let creeps = vehicle.constraints.iter().find(|c| c.creep == *symbol);
+    let creep = creeps.map(|c| (Kind::Creep, "1".to_string(), format!("{} of the {}", c.kind().creep, c.name)));
+    creep.or_else(|| {
+        let coordinate = vehicle.coordinate(symbol.as_str().strip_suffix('\'')?)?;
+        Some((Kind::Rate, format!("{}/s", coordinate.unit), format!("rate of the {}", coordinate.meaning)))
     })
 }
 

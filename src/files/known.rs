@@ -25,6 +25,10 @@ pub struct KnownVehicle {
     pub optional_parameters: Vec<String>,
     /// The inputs it is driven by.
     pub inputs: Vec<KnownInput>,
+    /// The key under `[initial]` that may stand for `heading`: the coordinate of the vehicle that is its heading.
+    pub heading: Option<String>,
+    /// It has no place in the plane, so `x` and `y` may be left out of `[initial]`.
+    pub stays: bool,
     /// It pulls trailers, so `tractor`, `trailer_lengths` and `hitch_offsets` may stand in the file.
     pub trailers: bool,
     /// It may be the `tractor` of a vehicle with trailers.

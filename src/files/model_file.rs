@@ -2,7 +2,7 @@
 
 use super::columns::Columns;
 use super::effect_entry::{EffectEntry, read_effects};
-use super::known::Known;
+use super::known::{Known, KnownVehicle};
 use super::near;
 use super::parameters::{Machine, Parameters, one_per_trailer};
 use super::patch;
@@ -114,7 +114,7 @@ impl ModelFile {
             input_timing: InputTiming::read(&top)?,
             columns: Columns::read(&top, &machine, trailers)?,
             sensor: Sensor::read(&top)?,
-            initial: Initial::read(&top, trailers)?,
+            initial: Initial::read(&top, machine.vehicle, trailers)?,
             noise: Noise::read(&top)?,
             effects: read_effects(&top, known, trailers)?,
             parameters: parameters.values,
@@ -171,13 +171,24 @@ fn pair(value: &Value) -> Result<[f64; 2]> {
 }
 
 impl Initial {
-    fn read(top: &Section, trailers: usize) -> Result<Option<Self>> {
+    fn read(top: &Section, vehicle: &KnownVehicle, trailers: usize) -> Result<Option<Self>> {
         let Some(section) = top.section("initial")? else { return Ok(None) };
         let mut keys = vec!["x", "y", "heading"];
+        let own = vehicle.heading.as_deref().filter(|own| section.get(own).is_some());
+        keys.extend(own);
         keys.extend((trailers > 0).then_some("trailer_headings"));
         section.only(&keys)?;
         let need = |key: &str| section.need(key, &format!("{key} = 0.0 under [initial]"))?.number();
-        let (x, y, heading) = (need("x")?, need("y")?, need("heading")?);
+        let place = |key: &str| if vehicle.stays && section.get(key).is_none() { Ok(0.0) } else { need(key) };
+        let heading = match (own, section.get("heading")) {
+            (Some(own), Some(twice)) => {
+                return Err(twice
+                    .error(format!("the heading is given twice, as heading and as {own}"))
+                    .help("remove one of the two"));
+            }
+            (own, _) => need(own.unwrap_or("heading"))?,
+        };
+        let (x, y) = (place("x")?, place("y")?);
         let mut trailer_headings = vec![heading; trailers];
         if let Some(value) = section.get("trailer_headings") {
             trailer_headings =

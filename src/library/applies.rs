@@ -71,7 +71,7 @@ fn obstacle(e: &Effect, trailer: Option<usize>, machine: &Machine) -> Option<Str
         return Some(format!("no definition of {key}"));
     }
     let targets = e.targets(&names, trailer).unwrap_or_default();
-    if let Some((held, _)) = targets.iter().find(|(name, _)| model.vehicle.held.contains(name)) {
+    if let Some((held, _)) = targets.iter().find(|(name, _)| model.vehicle.holds(name)) {
         return Some(format!("{held} cannot change"));
     }
     if let Some(stranger) = model.stranger(e, &names) {

@@ -1,6 +1,6 @@
 //! A constraint of a mechanism.
 
-use super::{ConstraintType, Form, Part, Row};
+use super::{ConstraintType, Form, Momentum, Part, Row};
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
 use serde::Deserialize;
@@ -10,7 +10,8 @@ use std::sync::Arc;
 /// A constraint of a mechanism: one of the generic forms, with its name and its creep coefficient.
 ///
 /// In TOML its `type` is the id of a type of the catalogue, or a table with the fields of [`ConstraintType`]; its
-/// `slots` are formulas, in which names that end in `'` are rates.
+/// `slots` are formulas, in which names that end in `'` are rates. In place of slots a constraint of type `momentum` may
+/// have the `energy` and the `generator` of [`Momentum::of`].
 #[derive(Clone, Debug, Deserialize)]
 #[serde(try_from = "Written")]
 pub struct Constraint {
@@ -30,7 +31,12 @@ struct Written {
     #[serde(rename = "type")]
     kind: Kind,
     creep: Symbol,
+    #[serde(default)]
     slots: BTreeMap<Symbol, Expr>,
+    /// Of a momentum that is zero: the kinetic energy, and the generator of the symmetry that leaves it unchanged.
+    energy: Option<Expr>,
+    #[serde(default)]
+    generator: BTreeMap<Symbol, Expr>,
 }
 
 #[derive(Deserialize)]
@@ -47,6 +53,15 @@ impl TryFrom<Written> for Constraint {
             Kind::Named(name) => ConstraintType::named(&name)?,
             Kind::Own(own) => Arc::new(*own),
         };
+        if let Some(energy) = &written.energy {
+            let generator: Vec<_> = written.generator.into_iter().collect();
+            let derived = Momentum::of(energy, &generator)?.constraint(&written.name, written.creep.as_str())?;
+            return match kind.id == derived.kind().id && written.slots.is_empty() {
+                true => Ok(derived),
+                false => Err(Error::input(format!("an energy gives a constraint of type {}", derived.kind().id))
+                    .help("leave the slots out, they are derived")),
+            };
+        }
         let part = |(name, formula): (Symbol, Expr)| Ok((name, Part::of(&formula)?));
         let slots = written.slots.into_iter().map(part).collect::<Result<Vec<_>>>()?;
         Self::of(&written.name, &kind, &slots, written.creep)
@@ -95,6 +110,11 @@ impl Constraint {
     /// The constraint with names replaced in its coefficients; rates keep theirs.
     pub fn substitute(&self, by: &impl Fn(&Symbol) -> Option<Expr>) -> Self {
         Self { form: self.form.substitute(by), ..self.clone() }
+    }
+
+    /// The constraint with rates replaced by linear forms in other rates, its row multiplied out.
+    pub(crate) fn with_rates(&self, by: &impl Fn(&Symbol) -> Option<Row>) -> Self {
+        Self { form: self.form.with_rates(by), ..self.clone() }
     }
 
     /// The letter of its type, such as `R` or `T`.

@@ -94,6 +94,16 @@ impl Form {
         })
     }
 
+    /// With rates replaced by linear forms in other rates.
+    pub(super) fn with_rates(&self, by: &impl Fn(&Symbol) -> Option<Row>) -> Self {
+        let part = |part: &Part| match part {
+            Part::Rates(row) => Part::Rates(row.with_rates(by)),
+            Part::Factor(_) => part.clone(),
+        };
+        let slots = self.slots.iter().map(|(name, p)| (name.clone(), part(p))).collect();
+        Self { kind: self.kind.clone(), slots, row: self.row.with_rates(by) }
+    }
+
     /// With names replaced; rates keep theirs.
     pub(super) fn substitute(&self, by: &impl Fn(&Symbol) -> Option<Expr>) -> Self {
         let slots = self.slots.iter().map(|(name, part)| (name.clone(), part.substitute(by))).collect();

@@ -4,6 +4,7 @@
 //! |---|---|---|---|
 //! | type R (13) | π̇ − σ(e)·q̇ = 0 | r | r(1 − e) |
 //! | type T (20) | q̇₁ − σ(q₂, e)·q̇₃ = 0 | cot φ | cot(φ + arctan e) |
+//! | type S (20) | s·q̇₁ + (1 − e)·h = 0: a momentum is zero | −h/(s·q̇₃) | −(1 − e)·h/(s·q̇₃) |
 //!
 //! Type T is kept as a pair (s, p) with s·q̇₁ − p·q̇₃ = 0 and σ = p/s, so that no configuration is singular.
 //! A type is data, a [`ConstraintType`]; those of the catalogue are [`constraint_types`].
@@ -20,6 +21,7 @@ mod growth;
 mod heading;
 mod integrals;
 mod linear;
+mod momentum;
 mod nonholonomy;
 mod part;
 mod passive;
@@ -44,6 +46,7 @@ pub use form::Form;
 pub use growth::Growth;
 pub use heading::Heading;
 pub use integrals::Integral;
+pub use momentum::Momentum;
 pub use nonholonomy::Nonholonomy;
 pub use part::Part;
 pub use point::Point;

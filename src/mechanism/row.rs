@@ -29,6 +29,11 @@ impl Row {
         self.terms.retain(|(_, c)| !Polynomial::of(c).is_zero());
     }
 
+    /// A row whose coefficients stay as they are written, for print; sums of it are multiplied out again.
+    pub(super) fn as_written(terms: Vec<(Symbol, Expr)>) -> Row {
+        Row { terms }
+    }
+
     /// This row plus a multiple of another.
     pub fn plus(&self, factor: &Expr, other: &Row) -> Row {
         let mut sum = self.clone();
@@ -73,6 +78,18 @@ impl Row {
     pub fn substitute(&self, by: &impl Fn(&Symbol) -> Option<Expr>) -> Row {
         let mut row = Row::default();
         self.terms.iter().for_each(|(r, c)| row.add(r.clone(), &c.substitute(by)));
+        row
+    }
+
+    /// The row with rates replaced by linear forms in other rates.
+    pub(super) fn with_rates(&self, by: &impl Fn(&Symbol) -> Option<Row>) -> Row {
+        let mut row = Row::default();
+        for (rate, c) in &self.terms {
+            match by(rate) {
+                Some(other) => row = row.plus(c, &other),
+                None => row.add(rate.clone(), c),
+            }
+        }
         row
     }
 

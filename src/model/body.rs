@@ -37,7 +37,7 @@ impl Model {
         // The direction rows alone give the rest from v_l, where they can; an effect may make v_l a state. Where none
         // may, v_l may vanish while the vehicle moves sideways, and says nothing of the rest.
         let mut found = Vec::new();
-        if !self.vehicle.held.contains(&"v_l".into()) {
+        if !self.vehicle.holds(&"v_l".into()) {
             let (_, t) = rows("v_l");
             let directions = solve::chained(&t, &wanted(&["v_n"])).or_else(|| solve::chained(&t, &["v_n".into()]));
             found = directions.unwrap_or_default();
@@ -61,7 +61,8 @@ impl Model {
         let known = |s: &Option<Symbol>| s.as_ref().is_none_or(|s| !self.vehicle.is_free(s));
         let wheels = || self.vehicle.wheels.iter().filter(|w| known(&w.steering));
         let r = wheels().filter(|w| known(&w.rate)).filter_map(|w| rolling(w, &reference, &body));
-        (r.collect(), wheels().filter_map(|w| direction(w, &reference, &body)).collect())
+        let t = wheels().filter_map(|w| direction(w, &reference, &body));
+        (r.collect(), t.chain(self.vehicle.constraints.iter().map(|c| in_body(c, speed))).collect())
     }
 
     /// That the rows which were not needed for the solution vanish with it, whatever the inputs and the coefficients.
@@ -77,11 +78,11 @@ impl Model {
         }
     }
 
-    fn free(&self) -> Error {
+    pub(super) fn free(&self) -> Error {
         self.unmoved("do not determine its motion by themselves")
     }
 
-    fn unmoved(&self, why: &str) -> Error {
+    pub(super) fn unmoved(&self, why: &str) -> Error {
         let error = Error::input(format!("the constraints of {} {why}", self.vehicle.id));
         match &self.vehicle.instead {
             Some(advice) => error.help(advice.clone()),
@@ -114,4 +115,14 @@ impl Model {
         let turning = wheel.steering.iter().filter(|s| self.vehicle.is_free(s)).map(Symbol::rate);
         turning.chain(wheel.rate.clone().filter(|s| self.vehicle.is_free(s))).collect()
     }
+}
+
+/// A constraint in the world's rates with the reference point moving at a forward speed and at v_n to the left.
+fn in_body(c: &Constraint, speed: &str) -> Constraint {
+    let along = |axis: Heading| Velocity::in_body(speed, "v_n", &Heading::along("phi")).along(&axis);
+    c.with_rates(&|rate| match rate.as_str() {
+        "x'" => Some(along(Heading::x())),
+        "y'" => Some(along(Heading::y())),
+        _ => None,
+    })
 }

@@ -77,7 +77,7 @@ impl Model {
     pub(crate) fn targets(&self, e: &Effect, trailer: Option<usize>, names: &[Symbol]) -> Option<Vec<(Symbol, Expr)>> {
         let logged = e.needs.iter().all(|role| self.vehicle.inputs.contains_key(role));
         let found = e.targets(names, trailer).filter(|_| logged)?;
-        let free = found.iter().all(|(name, _)| !self.vehicle.held.contains(name));
+        let free = found.iter().all(|(name, _)| !self.vehicle.holds(name));
         (free && self.stranger(e, names).is_none()).then_some(found)
     }
 
@@ -127,21 +127,10 @@ impl Model {
     fn ideal_definitions(&self) -> Result<Definitions> {
         let mut d = Definitions::default();
         self.define_vehicle(&mut d);
-        self.solve_body(&mut d)?;
-        for (name, text) in [
-            ("v_l", "v_d"),
-            ("v_t", "v_n"),
-            ("x'", "v_l*cos(phi) - v_t*sin(phi)"),
-            ("y'", "v_l*sin(phi) + v_t*cos(phi)"),
-        ] {
-            d.define(name, formula(text));
+        match self.vehicle.coordinates.is_empty() {
+            true => self.solve_in_plane(&mut d)?,
+            false => self.solve_own(&mut d)?,
         }
-        if self.vehicle.line {
-            d.define("s'", formula("v_l"));
-        }
-        self.check_rows(&d)?;
-        self.solve_passive(&mut d)?;
-        (1..=self.trailers.len()).try_for_each(|i| solve_trailer(i, &mut d))?;
         for (name, text) in [
             ("delay", "0"),
             ("lever_a", "sensor.a"),
@@ -154,6 +143,25 @@ impl Model {
             d.define(name, formula(text));
         }
         Ok(d)
+    }
+
+    /// The motion of a body with wheels in the plane, and of its trailers.
+    fn solve_in_plane(&self, d: &mut Definitions) -> Result<()> {
+        self.solve_body(d)?;
+        for (name, text) in [
+            ("v_l", "v_d"),
+            ("v_t", "v_n"),
+            ("x'", "v_l*cos(phi) - v_t*sin(phi)"),
+            ("y'", "v_l*sin(phi) + v_t*cos(phi)"),
+        ] {
+            d.define(name, formula(text));
+        }
+        if self.vehicle.line {
+            d.define("s'", formula("v_l"));
+        }
+        self.check_rows(d)?;
+        self.solve_passive(d)?;
+        (1..=self.trailers.len()).try_for_each(|i| solve_trailer(i, d))
     }
 
     /// Symbols of parameters, inputs and creep coefficients; an input that is logged otherwise is replaced.

@@ -98,9 +98,13 @@ pub fn mechanism(vehicle: &Vehicle, trailers: usize) -> Mechanism {
     Mechanism { coordinates, constraints: constraints_of(vehicle, trailers) }.substitute(&derived)
 }
 
-/// x, y and phi; s for a vehicle on a line.
+/// x, y and phi; s for a vehicle on a line; its own where it has any.
 pub(super) fn body_coordinates(vehicle: &Vehicle) -> Vec<Symbol> {
-    if vehicle.line { vec!["s".into()] } else { ["x", "y", "phi"].map(Symbol::from).to_vec() }
+    match (vehicle.coordinates.is_empty(), vehicle.line) {
+        (false, _) => vehicle.coordinates.iter().map(|c| c.name.clone()).collect(),
+        (true, true) => vec!["s".into()],
+        (true, false) => ["x", "y", "phi"].map(Symbol::from).to_vec(),
+    }
 }
 
 fn constraints_of(vehicle: &Vehicle, trailers: usize) -> Vec<Constraint> {
@@ -114,6 +118,7 @@ fn constraints_of(vehicle: &Vehicle, trailers: usize) -> Vec<Constraint> {
         found.extend(rolling(wheel, &reference, &body));
         found.extend(direction(wheel, &reference, &body));
     }
+    found.extend(vehicle.constraints.iter().cloned());
     let mut axle = reference;
     for i in 1..=trailers {
         axle = behind(&axle, i);

@@ -50,10 +50,11 @@ impl Model {
         values
     }
 
-    /// The symbols of the states: pose, trailer headings, hidden states.
+    /// The symbols of the states: pose, trailer headings, hidden states: coordinates of its own, states of effects.
     pub fn states(&self) -> Vec<Symbol> {
         let mut states: Vec<Symbol> = ["x", "y", "phi"].map(Symbol::from).to_vec();
         states.extend((1..=self.trailers.len()).map(trailer_heading));
+        states.extend(self.own_states());
         states.extend(self.effects.iter().flat_map(|e| e.states()).map(|(s, _)| s));
         states
     }
@@ -69,6 +70,7 @@ impl Model {
         let states = self.states();
         let visible = 3 + self.trailers.len();
         let mut rates: Vec<NodeId> = states[..visible].iter().map(|s| graph.insert(&Expr::sym(s.rate()))).collect();
+        rates.extend(self.own_states().iter().map(|q| graph.insert(&Expr::sym(q.rate()))));
         for (_, rate) in self.effects.iter().flat_map(|e| e.states()) {
             rates.push(graph.insert(&rate));
         }

@@ -37,6 +37,8 @@ fn known_vehicle(v: &Vehicle) -> KnownVehicle {
         parameters: names(false).collect(),
         optional_parameters: names(true).collect(),
         inputs: v.inputs.iter().map(input).collect(),
+        heading: v.heading.as_ref().map(ToString::to_string),
+        stays: v.stays(),
         trailers: false,
         tractor: v.pulls(),
     }

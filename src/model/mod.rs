@@ -9,6 +9,7 @@ mod constraints;
 mod equations;
 mod file;
 mod free;
+mod own;
 mod terms;
 
 pub use constraints::mechanism;

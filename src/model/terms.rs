@@ -102,7 +102,7 @@ impl Model {
         let bare = Model { effects: vec![], ..self.clone() };
         let definitions = bare.definitions()?;
         let mut found = Vec::new();
-        for target in TARGETS.iter().filter(|t| !self.vehicle.held.contains(&t.definition.into())) {
+        for target in TARGETS.iter().filter(|t| !self.vehicle.holds(&t.definition.into())) {
             let symbols = Symbols::of(target, &definitions);
             found.extend(products().map(|factors| term(target, &factors, &symbols, &bare)));
         }

@@ -2,7 +2,7 @@
 
 mod vehicle;
 
-pub use vehicle::{Definition, Input, Instead, Quantity, Vehicle, Wheel};
+pub use vehicle::{Coordinate, Definition, Input, Instead, Quantity, Vehicle, Wheel};
 
 use std::sync::LazyLock;
 

@@ -1,6 +1,7 @@
 //! What a vehicle is made of.
 
 use crate::formula::{Expr, Symbol};
+use crate::mechanism::Constraint;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -22,7 +23,16 @@ pub struct Vehicle {
     #[serde(default)]
     pub define: BTreeMap<Symbol, Definition>,
     /// Its wheels.
+    #[serde(default)]
     pub wheels: Vec<Wheel>,
+    /// Its constraints beside those of wheels: of any type, in rates of its coordinates.
+    #[serde(default)]
+    pub constraints: Vec<Constraint>,
+    /// Its coordinates, where they are not those of a body in the plane with its wheels.
+    #[serde(default)]
+    pub coordinates: Vec<Coordinate>,
+    /// The coordinate that is its heading, for a vehicle with coordinates of its own; phi where it has that.
+    pub heading: Option<Symbol>,
     /// It moves along a line in the direction of its heading: one coordinate s, no yaw, no sideways motion.
     #[serde(default)]
     pub line: bool,
@@ -42,18 +52,48 @@ impl Vehicle {
 
     /// Whether trailers can be put behind it.
     pub fn pulls(&self) -> bool {
-        self.moves() && !self.line
+        self.moves() && !self.line && self.coordinates.is_empty()
     }
 
-    /// The coefficients of creep of its wheels; one that several wheels share comes once for each.
+    /// The coefficients of creep of its wheels and other constraints; one that several share comes once for each.
     pub fn creeps(&self) -> impl Iterator<Item = &Symbol> {
-        self.wheels.iter().flat_map(|w| [&w.rotation_creep, &w.traverse_creep]).flatten()
+        let wheels = self.wheels.iter().flat_map(|w| [&w.rotation_creep, &w.traverse_creep]).flatten();
+        wheels.chain(self.constraints.iter().map(|c| &c.creep))
+    }
+
+    /// The coordinate of that name among those of its own.
+    pub fn coordinate(&self, name: &str) -> Option<&Coordinate> {
+        self.coordinates.iter().find(|c| c.name.as_str() == name)
+    }
+
+    /// Whether it has coordinates of its own and none of them is a place in the plane: only its shape and its heading
+    /// move.
+    pub fn stays(&self) -> bool {
+        !self.coordinates.is_empty() && self.coordinate("x").is_none()
+    }
+
+    /// Whether no effect may rewrite a name.
+    pub fn holds(&self, name: &Symbol) -> bool {
+        let moves = || ["v_d", "v_n", "v_l", "v_t", "x'", "y'"].contains(&name.as_str());
+        self.held.contains(name) || !self.coordinates.is_empty() && moves()
     }
 
     /// Whether a symbol is no formula of the inputs: the angle of a castor, the rate of a passive wheel.
     pub fn is_free(&self, symbol: &Symbol) -> bool {
         !self.define.contains_key(symbol)
     }
+}
+
+/// A coordinate of its own.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Coordinate {
+    /// Its symbol.
+    pub name: Symbol,
+    /// SI unit.
+    pub unit: String,
+    /// Meaning.
+    pub meaning: String,
 }
 
 /// Unit and meaning of a number.

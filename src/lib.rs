@@ -2,6 +2,7 @@
 #![warn(missing_docs)]
 
 pub mod claims;
+pub mod connection;
 pub mod describe;
 pub mod discrepancy;
 pub mod effects;

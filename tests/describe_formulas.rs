@@ -128,6 +128,7 @@ fn every_formula_has_one_unit() {
             assert!(rate.fits(&of(&e.name)), "{name}: rate of {} = {}", e.name, e.formula);
         }
         for c in &d.constraints {
+            let speed = if c.kind.letter == 'S' { unit(&d, &c.generic, &name) } else { speed.clone() };
             let zero = [c.generic.clone()].into_iter().chain(c.rows().map(|(_, row)| row));
             zero.for_each(|row| assert!(unit(&d, &row, &name).fits(&speed), "{name}: {row}"));
             let times = |e: &Expr, s: &Symbol| e * &Expr::sym(s.clone());
@@ -136,13 +137,11 @@ fn every_formula_has_one_unit() {
             by_q.chain(by_rate).for_each(|t| assert!(unit(&d, &t, &name).fits(&speed), "{name}: {t}"));
             assert!(unit(&d, &c.jacobian.e.expr(), &name).fits(&speed), "{name}: {}", c.name);
             for p in &c.parts {
-                let wanted = match p.label {
-                    "sigma" if c.form == 'R' => "m",
-                    "s" | "p" | "sigma" => "1",
-                    "q'" => "rad/s",
-                    _ => "m/s",
-                };
-                assert!(unit(&d, &p.formula, &name).fits(&Unit::parse(wanted).unwrap()), "{name}: {}", p.formula);
+                let slot = c.kind.slots.iter().find(|s| s.name.as_str() == p.label).unwrap();
+                let found = unit(&d, &p.formula, &name);
+                // A momentum may be an angular or a linear one.
+                let wanted = slot.unit.as_ref().map(|u| Unit::parse(u).unwrap());
+                assert!(wanted.is_none_or(|u| found.fits(&u)), "{name}: {}", p.formula);
             }
         }
     }
@@ -207,7 +206,10 @@ fn the_json_holds_every_formula_and_every_symbol() {
         }
         assert_eq!(json["symbols"].as_array().unwrap().len(), d.symbols.entries().len());
         assert_eq!(json["pfaffian"]["columns"].as_array().unwrap().len(), d.coordinates.len());
-        assert_eq!(json["constraints"].as_array().unwrap().len(), d.signature.r + d.signature.t);
+        assert_eq!(
+            json["constraints"].as_array().unwrap().len(),
+            d.signature.counts.iter().map(|(_, n)| n).sum::<usize>()
+        );
     }
 }
 
@@ -225,12 +227,12 @@ fn signatures_are_those_of_the_theory() {
             ("synchro-drive", 3, 3),
         ] {
             let d = Description::of(&models::vehicle(id, &[1.0]).with_trailers(&trailers)).unwrap();
-            assert_eq!((d.signature.r, d.signature.t), (r, t + n), "{id} + {n}");
+            assert_eq!((d.signature.count('R'), d.signature.count('T')), (r, t + n), "{id} + {n}");
         }
     }
     for (id, r, t) in [("disk", 1, 0), ("sleigh", 0, 1), ("skid-steer", 4, 2)] {
         let d = Description::of(&models::vehicle(id, &[1.0])).unwrap();
-        assert_eq!((d.signature.r, d.signature.t), (r, t), "{id}");
+        assert_eq!((d.signature.count('R'), d.signature.count('T')), (r, t), "{id}");
     }
 }
 
@@ -257,7 +259,7 @@ fn the_row_of_a_model_holds_its_effects() {
 fn the_catalogues_parse_and_hold_these_entries() {
     let ids: Vec<&str> = vehicles::all().iter().map(|v| v.id.as_str()).collect();
     let first = ["unicycle", "differential-drive", "car", "four-wheel-car", "tricycle"];
-    let later = ["disk", "sleigh", "differential-drive-castor", "synchro-drive", "skid-steer"];
+    let later = ["disk", "sleigh", "hopper", "differential-drive-castor", "synchro-drive", "skid-steer"];
     assert_eq!(ids, [first, later].concat());
     let ids: Vec<&str> = effects::all().iter().map(|e| e.id.as_str()).collect();
     let expected = [

@@ -33,7 +33,7 @@ fn on_axle(count: usize) -> Vec<Trailer> {
 type Row = (&'static str, usize, &'static [usize], usize, usize, &'static [&'static str]);
 
 /// Known from the table of growth vectors, the disk and the sleigh by hand.
-const VEHICLES: [Row; 10] = [
+const VEHICLES: [Row; 11] = [
     ("unicycle", 4, &[2, 3, 4], 0, 2, &[]),
     ("differential-drive", 5, &[2, 3, 4], 1, 2, &["r_1*theta_1 - r_2*theta_2 - a*phi"]),
     ("car", 5, &[2, 3, 4, 5], 0, 3, &[]),
@@ -42,6 +42,7 @@ const VEHICLES: [Row; 10] = [
     ("tricycle", 5, &[2, 3, 5], 0, 3, &[]),
     ("disk", 2, &[1], 1, 0, &["s - r*theta"]),
     ("sleigh", 3, &[2, 3], 0, 1, &[]),
+    ("hopper", 3, &[2, 3], 0, 1, &[]),
     ("differential-drive-castor", 7, &[2, 3, 5, 6], 1, 4, &["r_1*theta_1 - r_2*theta_2 - a*phi"]),
     ("synchro-drive", 7, &[2, 3, 4], 3, 2, &["phi", "theta_1 - theta_2", "theta_1 - theta_3"]),
     (

@@ -65,9 +65,11 @@ pub struct Slot {
     pub name: Symbol,
     /// Its name in LaTeX; made from the name when left out.
     pub latex: Option<String>,
-    /// What it is, with its unit.
+    /// What it is.
     #[serde(default)]
     pub meaning: String,
+    /// SI unit; left out where it depends on what is put in.
+    pub unit: Option<String>,
     /// What it is made of, where it is made of other slots.
     pub formula: Option<Expr>,
     /// Whether a constraint may leave it out.
@@ -135,7 +137,14 @@ impl ConstraintType {
     /// When the form is malformed.
     pub fn new(id: &str, letter: char, form: &str) -> Result<Self> {
         let form = Expr::parse(form)?;
-        let slot = |name: Symbol| Slot { name, latex: None, meaning: String::new(), formula: None, optional: false };
+        let slot = |name: Symbol| Slot {
+            name,
+            latex: None,
+            meaning: String::new(),
+            unit: None,
+            formula: None,
+            optional: false,
+        };
         let slots = form.symbols().into_iter().filter(|s| s.as_str() != COEFFICIENT).map(slot).collect();
         Ok(Self {
             id: id.into(),

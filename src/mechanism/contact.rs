@@ -2,7 +2,6 @@
 
 use super::{Constraint, ConstraintType, Form, Heading, Part, Row, Velocity};
 use crate::formula::{Expr, Fun, Symbol};
-use std::sync::Arc;
 
 /// π̇ − σ(e)·q̇ = 0 with σ = r(1 − e).
 ///
@@ -56,9 +55,11 @@ impl Rolling {
 
     /// The constraint of this form.
     pub fn constraint(self, name: &str, creep: &Symbol) -> Constraint {
+        let mut row = self.pi.clone();
+        row.add(self.rate.clone(), &-&self.sigma);
         let q = Part::rate(&self.rate);
         let slots = [("pi'", Part::Rates(self.pi)), ("sigma", Part::Factor(self.sigma)), ("q'", q)];
-        Constraint { name: name.into(), form: filled("rolling", slots, creep), creep: creep.clone() }
+        filled("rolling", slots, row, name, creep)
     }
 }
 
@@ -86,17 +87,16 @@ impl Direction {
     pub fn constraint(self, name: &str, creep: &Symbol) -> Constraint {
         let [s, p] = [self.s, self.p].map(Part::Factor);
         let [q1, q3] = [self.q1, self.q3].map(Part::Rates);
-        let form = filled("direction", [("s", s), ("q1'", q1), ("p", p), ("q3'", q3)], creep);
-        Constraint { name: name.into(), form: form.written_as(self.row), creep: creep.clone() }
+        filled("direction", [("s", s), ("q1'", q1), ("p", p), ("q3'", q3)], self.row, name, creep)
     }
 }
 
-/// A form of the catalogue with its slots filled in.
-fn filled<const N: usize>(id: &str, slots: [(&str, Part); N], creep: &Symbol) -> Form {
+/// A constraint of the catalogue's types with its slots filled in and its row.
+fn filled<const N: usize>(id: &str, slots: [(&str, Part); N], row: Row, name: &str, creep: &Symbol) -> Constraint {
     let slots = slots.map(|(name, part)| (Symbol::new(name), part));
-    let form: crate::Result<Form> = ConstraintType::named(id).and_then(|kind: Arc<_>| Form::new(&kind, &slots, creep));
+    let form = ConstraintType::named(id).and_then(|kind| Form::with_row(&kind, &slots, creep, row));
     // The slots are those of the catalogue, which is part of the program; every vehicle goes through here.
-    form.unwrap_or_else(|e| unreachable!("{e}"))
+    Constraint { name: name.into(), form: form.unwrap_or_else(|e| unreachable!("{e}")), creep: creep.clone() }
 }
 
 /// cot(ψ + arctan e), the closed form of σ off its singular set (E2).

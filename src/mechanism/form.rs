@@ -20,37 +20,22 @@ impl Form {
     /// # Errors
     /// When a slot is missing, is none of the type's, or the form is not linear in rates.
     pub fn new(kind: &Arc<ConstraintType>, given: &[(Symbol, Part)], creep: &Symbol) -> Result<Self> {
-        let unknown = given.iter().find(|(name, _)| kind.slots.iter().all(|s| s.name != *name || s.formula.is_some()));
-        if let Some((name, _)) = unknown {
-            let known: Vec<&str> = kind.slots.iter().filter(|s| s.formula.is_none()).map(|s| s.name.as_str()).collect();
-            return Err(Error::input(format!("a constraint of type {} has no slot {name}", kind.id))
-                .help(format!("it has {}", known.join(", "))));
-        }
-        let mut slots: Vec<(Symbol, Part)> = Vec::new();
-        for slot in &kind.slots {
-            let part = match &slot.formula {
-                Some(formula) => Some(assembled(formula, given, creep)?),
-                None => given.iter().find(|(name, _)| *name == slot.name).map(|(_, part)| part.clone()),
-            };
-            match part {
-                Some(part) => slots.push((slot.name.clone(), part)),
-                None if slot.optional => {}
-                None => {
-                    let missing = format!("a constraint of type {} needs the slot {}", kind.id, slot.name);
-                    return Err(Error::input(missing).help(format!("it is: {}", slot.meaning)));
-                }
-            }
-        }
+        let slots = filled(kind, given, creep)?;
         match assembled(&kind.form, &slots, creep)? {
             Part::Rates(row) => Ok(Self { kind: kind.clone(), slots, row }),
             Part::Factor(_) => Err(Error::input(format!("a constraint of type {} has no rate in it", kind.id))
-                .help("a slot that holds rates has a name that ends in '")),
+                .help("a slot that holds rates has a formula in which a name ends in '")),
         }
     }
 
-    /// The same form, its row written otherwise: for rows that are shorter than their form multiplied out.
-    pub(super) fn written_as(self, row: Row) -> Self {
-        Self { row, ..self }
+    /// A form whose row is known, shorter than the form multiplied out.
+    pub(super) fn with_row(
+        kind: &Arc<ConstraintType>,
+        given: &[(Symbol, Part)],
+        creep: &Symbol,
+        row: Row,
+    ) -> Result<Self> {
+        Ok(Self { kind: kind.clone(), slots: filled(kind, given, creep)?, row })
     }
 
     /// Its type.
@@ -109,6 +94,32 @@ impl Form {
         let slots = self.slots.iter().map(|(name, part)| (name.clone(), part.substitute(by))).collect();
         Self { kind: self.kind.clone(), slots, row: self.row.substitute(by) }
     }
+}
+
+/// The slots of a type with what is given for them, in the order of print.
+fn filled(kind: &ConstraintType, given: &[(Symbol, Part)], creep: &Symbol) -> Result<Vec<(Symbol, Part)>> {
+    let is_slot = |name: &Symbol| kind.slots.iter().any(|s| s.name == *name && s.formula.is_none());
+    if let Some((name, _)) = given.iter().find(|(name, _)| !is_slot(name)) {
+        let known: Vec<&str> = kind.slots.iter().filter(|s| s.formula.is_none()).map(|s| s.name.as_str()).collect();
+        return Err(Error::input(format!("a constraint of type {} has no slot {name}", kind.id))
+            .help(format!("it has {}", known.join(", "))));
+    }
+    let mut slots = Vec::new();
+    for slot in &kind.slots {
+        let part = match &slot.formula {
+            Some(formula) => Some(assembled(formula, given, creep)?),
+            None => given.iter().find(|(name, _)| *name == slot.name).map(|(_, part)| part.clone()),
+        };
+        match part {
+            Some(part) => slots.push((slot.name.clone(), part)),
+            None if slot.optional => {}
+            None => {
+                let missing = Error::input(format!("a constraint of type {} needs the slot {}", kind.id, slot.name));
+                return Err(if slot.meaning.is_empty() { missing } else { missing.help(slot.meaning.clone()) });
+            }
+        }
+    }
+    Ok(slots)
 }
 
 /// A formula of a type with slots and coefficient put in; what is neither stays a name, for the constraint to complain.

@@ -20,7 +20,7 @@ pub fn vehicle(id: &str, values: &[f64]) -> Model {
 
 /// Vehicles whose constraints do not determine their motion, and those that pull no trailers.
 pub const STILL: [&str; 2] = ["sleigh", "skid-steer"];
-pub const ALONE: [&str; 3] = ["disk", "sleigh", "skid-steer"];
+pub const ALONE: [&str; 4] = ["disk", "sleigh", "hopper", "skid-steer"];
 
 fn of_catalogue(keep: impl Fn(&str) -> bool) -> Vec<Model> {
     vehicles::all().iter().filter(|v| keep(&v.id)).map(|v| vehicle(&v.id, &[0.7, 0.3, 2.1])).collect()

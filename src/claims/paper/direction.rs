@@ -8,7 +8,7 @@ use crate::mechanism::{Row, solve};
 
 const CHAPTER: &str = "03-traverse-creep";
 const REGULAR: &str = "03b-singularity-free";
-const FORMS: &str = "src/mechanism/constraint.rs";
+const FORMS: &str = "src/mechanism/contact.rs";
 
 pub(super) fn claims() -> Vec<Claim> {
     [intrinsic(), regular(), group()].concat()

@@ -14,6 +14,8 @@ mod rotation;
 mod simulation;
 mod single_body;
 mod structure;
+mod symmetry;
+mod symmetry_creep;
 mod theorems;
 mod trailers;
 mod traverse;
@@ -42,6 +44,8 @@ pub fn all() -> Vec<Claim> {
         trailers::claims(),
         ideal_limit::claims(),
         planning::claims(),
+        symmetry::claims(),
+        symmetry_creep::claims(),
         open::claims(),
     ]
     .concat()

@@ -3,7 +3,7 @@
 use crate::claims::{Claim, Status};
 
 /// Rows of the errata that need equations of motion with forces.
-const OPEN: [(&str, &str, &str, &[u8]); 5] = [
+const OPEN: [(&str, &str, &str, &[u8]); 4] = [
     (
         "E13",
         "the growth parameter k_g > 0 of (1) is a decay; 1/k_g is a relaxation length",
@@ -26,12 +26,6 @@ const OPEN: [(&str, &str, &str, &[u8]); 5] = [
         "E22",
         "with the friction of (11) and (18) the energy falls by b_R·v_A² + b_T·v_t²; the rule is a normalisation",
         "section 4, simulation; errata E22",
-        &[],
-    ),
-    (
-        "E25",
-        "for symmetry constraints the limit is vanishing drag, and the violation a memory integral",
-        "section 4, last paragraph; errata E25",
         &[],
     ),
 ];

@@ -10,7 +10,7 @@ use crate::vehicles;
 use std::sync::LazyLock;
 
 const CHAPTER: &str = "02-rotation-creep";
-const FORMS: &str = "src/mechanism/constraint.rs";
+const FORMS: &str = "src/mechanism/contact.rs";
 
 /// The disk with the velocity of the particle of its rim that touches the ground.
 fn disk() -> Machine {

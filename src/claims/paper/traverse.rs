@@ -6,7 +6,7 @@ use super::finite;
 use crate::claims::{Claim, Domain, Machine, Sampling, Statement, Status, at_points, prove};
 
 const CHAPTER: &str = "03-traverse-creep";
-const FORMS: &str = "src/mechanism/constraint.rs";
+const FORMS: &str = "src/mechanism/contact.rs";
 
 pub(super) fn claims() -> Vec<Claim> {
     [velocities(), coefficient(), signs(), friction()].concat()

@@ -47,7 +47,7 @@ fn equations() -> Vec<Claim> {
             .at(&format!("section 4, ({n})"))
             .about(&[n])
             .chapter(CHAPTER)
-            .code(&["src/vehicles/catalogue.toml", "src/mechanism/constraint.rs", BUILD])
+            .code(&["src/vehicles/catalogue.toml", "src/mechanism/contact.rs", BUILD])
             .tests(&["tests/mechanism_motion.rs", "tests/motion_kinematics.rs"])
     };
     vec![

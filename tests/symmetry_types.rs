@@ -192,6 +192,9 @@ fn what_does_not_fit_a_type_is_said() {
     let wrong = "name = \"x\"\ntype = \"rolling\"\ncreep = \"e\"\nenergy = \"q'^2\"\ngenerator = { q = \"1\" }";
     assert!(read(wrong).contains("an energy gives a constraint of type momentum"));
     assert!(ConstraintType::new("bad", 'X', "1 +").is_err());
+    let bent = ConstraintType::new("bent", 'X', "a' - e^2*b'").unwrap();
+    let error = Constraint::new("x", &bent, &[("a'", "s'"), ("b'", "q'")], "e_x").unwrap_err().to_string();
+    assert!(error.contains("not linear in its coefficient"), "{error}");
 }
 
 #[test]

@@ -18,10 +18,14 @@ impl Form {
     /// A form with its slots filled in; slots with a formula are made here.
     ///
     /// # Errors
-    /// When a slot is missing, is none of the type's, or the form is not linear in rates.
+    /// When a slot is missing, is none of the type's, or the form is not linear in rates and in its coefficient.
     pub fn new(kind: &Arc<ConstraintType>, given: &[(Symbol, Part)], creep: &Symbol) -> Result<Self> {
         let slots = filled(kind, given, creep)?;
         match assembled(&kind.form, &slots, creep)? {
+            Part::Rates(row) if !is_linear(&row, creep) => {
+                Err(Error::input(format!("the form of type {} is not linear in its coefficient", kind.id))
+                    .help("write it with e as a factor, such as 1 - e"))
+            }
             Part::Rates(row) => Ok(Self { kind: kind.clone(), slots, row }),
             Part::Factor(_) => Err(Error::input(format!("a constraint of type {} has no rate in it", kind.id))
                 .help("a slot that holds rates has a formula in which a name ends in '")),
@@ -94,6 +98,13 @@ impl Form {
         let slots = self.slots.iter().map(|(name, part)| (name.clone(), part.substitute(by))).collect();
         Self { kind: self.kind.clone(), slots, row: self.row.substitute(by) }
     }
+}
+
+/// Whether a row is linear in its coefficient: its second difference vanishes.
+fn is_linear(row: &Row, creep: &Symbol) -> bool {
+    let at = |e: i64| row.substitute(&|s| (s == creep).then(|| Expr::int(e)));
+    let bent = at(0).plus(&Expr::int(-2), &at(1)).plus(&Expr::int(1), &at(2));
+    row.terms().iter().all(|(_, c)| !c.mentions(creep)) || bent.terms().is_empty()
 }
 
 /// The slots of a type with what is given for them, in the order of print.

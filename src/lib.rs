@@ -4,6 +4,7 @@
 pub mod claims;
 pub mod describe;
 pub mod discrepancy;
+pub mod dynamics;
 pub mod effects;
 pub mod error;
 pub mod figures;

@@ -11,6 +11,7 @@ mod file;
 mod free;
 mod terms;
 
+pub(crate) use constraints::behind as axle_behind;
 pub use constraints::mechanism;
 pub use equations::{Equations, Workspace};
 pub use file::{WITH_TRAILERS, known};

@@ -6,8 +6,10 @@ mod domain;
 mod finite;
 mod ideal_limit;
 mod introduction;
+mod laws;
 mod open;
 mod planning;
+mod power;
 mod realisation;
 mod regimes;
 mod rotation;
@@ -17,6 +19,8 @@ mod structure;
 mod theorems;
 mod trailers;
 mod traverse;
+mod viscous;
+mod viscous_limit;
 mod wheel;
 
 use super::Claim;
@@ -42,6 +46,10 @@ pub fn all() -> Vec<Claim> {
         trailers::claims(),
         ideal_limit::claims(),
         planning::claims(),
+        laws::claims(),
+        power::claims(),
+        viscous::claims(),
+        viscous_limit::claims(),
         open::claims(),
     ]
     .concat()

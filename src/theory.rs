@@ -29,5 +29,7 @@ pub mod ideal_limit {}
 pub mod simulation {}
 #[doc = include_str!("../theory/09-planning.md")]
 pub mod planning {}
+#[doc = include_str!("../theory/10-viscous.md")]
+pub mod viscous {}
 #[doc = include_str!("../theory/10-open.md")]
 pub mod open {}

@@ -76,8 +76,8 @@ impl DynamicsEntry {
         let Some(section) = top.section("dynamics")? else { return Ok(None) };
         let known = &machine.tractor.unwrap_or(machine.vehicle).dynamics;
         let trailers = parameters.trailer_lengths.len();
-        let own = |key: &&str| !parameters.values.contains_key(**key);
-        let body: Vec<&str> = body_keys(known).into_iter().filter(|k| own(&k)).collect();
+        let own = |key: &&str| !parameters.values.contains_key(*key);
+        let body: Vec<&str> = body_keys(known).into_iter().filter(own).collect();
         section.only(&keys(known, &body, trailers))?;
         let mut read = Self { place: section.place_of(), ..Self::default() };
         for (at, key) in ["mass", "inertia", "mass_offset"].into_iter().enumerate() {

@@ -162,7 +162,8 @@ impl<F: FnMut(f64, &[f64], &mut [f64]), J: Slopes> Padded<'_, F, J> {
             .atol(vec![share * span.atol; N])
             .newton_tol(0.0)
             .h0(h);
-        solver.init(self, at, at + h, y).ok()?;
+        // The end it is told is only a bound on its steps, and well beyond this one.
+        solver.init(self, at, at + 2.0 * span.length, y).ok()?;
         solver.step(self).ok()?;
         let accepted = !matches!(solver.status(), Status::RejectedStep);
         Some(Step { y: *solver.y(), accepted, next: solver.h() })

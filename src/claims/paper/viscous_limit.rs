@@ -8,7 +8,6 @@ use crate::dynamics::{Dynamics, Masses, Start, simulate_dynamics};
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::motion::{Formulas, Integrator, Method, Table};
-use proptest::prelude::*;
 use std::sync::LazyLock;
 
 pub(super) fn claims() -> Vec<Claim> {

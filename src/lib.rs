@@ -5,6 +5,7 @@ pub mod claims;
 pub mod connection;
 pub mod describe;
 pub mod discrepancy;
+pub mod dynamics;
 pub mod effects;
 pub mod error;
 pub mod figures;

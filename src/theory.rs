@@ -31,5 +31,7 @@ pub mod simulation {}
 pub mod planning {}
 #[doc = include_str!("../theory/09b-symmetry.md")]
 pub mod symmetry {}
+#[doc = include_str!("../theory/10-viscous.md")]
+pub mod viscous {}
 #[doc = include_str!("../theory/10-open.md")]
 pub mod open {}

@@ -94,13 +94,58 @@ fn the_error_follows_the_tolerance_and_the_work_its_root() {
 #[test]
 fn backward_and_across_zero_it_retraces_its_steps() {
     let times = [-1.0f64, 2.0, 2.0, -3.0, -4.0, 0.0];
-    for method in [Method::Dopri5, Method::Dop853, Method::Rk4 { step: 0.003 }] {
+    for method in [Method::Dopri5, Method::Dop853, Method::Radau5, Method::Rk4 { step: 0.003 }] {
         let rows = with(method, 1e-11).solve(swing, -3.0, &[(-3f64).sin().exp()], &times).unwrap();
         for (y, t) in rows.iter().zip(times) {
             assert!((y[0] - t.sin().exp()).abs() < 1e-9, "{method:?} at {t}: {}", y[0]);
         }
         assert_eq!(rows[1], rows[2], "a span of no length changes nothing");
     }
+}
+
+/// y′ = −1e6·(y − cos t) − sin t, y = cos t: stiff, and depends on time.
+fn run_stiff(integrator: &Integrator, times: &[f64], exact: bool) -> (f64, usize) {
+    let mut evaluations = 0;
+    let rhs = |t: f64, y: &[f64], dy: &mut [f64]| {
+        evaluations += 1;
+        dy[0] = -1e6 * (y[0] - t.cos()) - t.sin();
+    };
+    let rows = match exact {
+        true => integrator.solve_with_slopes(rhs, |_, _, j: &mut [f64]| j[0] = -1e6, 0.0, &[1.0], times),
+        false => integrator.solve(rhs, 0.0, &[1.0], times),
+    };
+    let errors = rows.unwrap().iter().zip(times).map(|(y, t)| (y[0] - t.cos()).abs()).fold(0.0, f64::max);
+    (errors, evaluations)
+}
+
+/// Steps of equal length, since no tolerance refuses one: order 5 where the method resolves the equation, at a right
+/// side that depends on time.
+#[test]
+fn radau_has_order_five_at_equal_steps() {
+    let grid = |n: usize| -> Vec<f64> { (1..=n).map(|i| 4.0 * i as f64 / n as f64).collect() };
+    // So loose that a span is one step, and so fine that Newton's method converges.
+    let loose = Integrator { rtol: 1e-9, atol: 1e6, ..with(Method::Radau5, 1.0) };
+    let ((coarse, _), (fine, evaluations)) = (run_swing(&loose, &grid(40)), run_swing(&loose, &grid(80)));
+    let measured = order(coarse, fine);
+    println!("Radau5: order {measured:.3}, errors {coarse:e} {fine:e}, {evaluations} evaluations");
+    assert!((measured - 5.0).abs() < 0.3, "order {measured}, errors {coarse:e} {fine:e}");
+}
+
+/// The work of the stiff method does not follow the time constant, and its error follows the tolerance; an explicit
+/// method takes millions of evaluations.
+#[test]
+fn radau_steps_over_short_time_constants() {
+    for exact in [true, false] {
+        let results =
+            [1e-4, 1e-6, 1e-8, 1e-10].map(|tolerance| run_stiff(&with(Method::Radau5, tolerance), &[TAU], exact));
+        println!("Radau5, slopes exact {exact}: {results:?}");
+        for ((error, evaluations), tolerance) in results.into_iter().zip([1e-4, 1e-6, 1e-8, 1e-10]) {
+            assert!(error < 10.0 * tolerance, "error {error:e} at {tolerance:e}");
+            assert!(evaluations < 2500, "{evaluations} evaluations");
+        }
+    }
+    let explicit = Integrator { max_steps: 10_000, ..with(Method::Dop853, 1e-6) };
+    fails(explicit.solve(|t, y, dy| dy[0] = -1e6 * (y[0] - t.cos()), 0.0, &[1.0], &[TAU]), "steps were not enough");
 }
 
 #[test]
@@ -129,7 +174,7 @@ fn fails(result: Result<Vec<Vec<f64>>>, why: &str) {
 
 #[test]
 fn what_cannot_be_integrated_is_an_error() {
-    for method in [Method::Dopri5, Method::Dop853, Method::Rk4 { step: 0.01 }] {
+    for method in [Method::Dopri5, Method::Dop853, Method::Radau5, Method::Rk4 { step: 0.01 }] {
         let i = with(method, 1e-9);
         let nan = |t: f64, _: &[f64], dy: &mut [f64]| dy[0] = if t < 1.0 { 1.0 } else { f64::NAN };
         fails(i.solve(nan, 0.0, &[0.0], &[2.0]), "undefined");
@@ -153,7 +198,7 @@ fn what_cannot_be_integrated_is_an_error() {
 #[test]
 fn steps_of_all_spans_are_counted() {
     let times: Vec<f64> = (1..100).map(f64::from).collect();
-    for method in [Method::Dopri5, Method::Dop853, Method::Rk4 { step: 0.5 }] {
+    for method in [Method::Dopri5, Method::Dop853, Method::Radau5, Method::Rk4 { step: 0.5 }] {
         let i = Integrator { max_steps: 50, ..with(method, 1e-6) };
         fails(i.solve(swing, 0.0, &[1.0], &times), "50 steps were not enough");
     }
@@ -162,7 +207,7 @@ fn steps_of_all_spans_are_counted() {
 /// A trial step may leave the domain where a shorter one does not: y′ = −2√y from 1 is (1 − t)².
 #[test]
 fn a_trial_step_may_leave_the_domain() {
-    for method in [Method::Dopri5, Method::Dop853] {
+    for method in [Method::Dopri5, Method::Dop853, Method::Radau5] {
         let rows = with(method, 1e-9).solve(|_, y, dy| dy[0] = -2.0 * y[0].sqrt(), 0.0, &[1.0], &[0.99]).unwrap();
         assert!((rows[0][0] - 1e-4).abs() < 1e-8, "{method:?}: {}", rows[0][0]);
     }

@@ -18,6 +18,7 @@
 mod checks;
 mod claim;
 mod driven;
+mod forced;
 pub mod generated;
 pub mod ledger;
 mod machine;
@@ -25,6 +26,7 @@ mod mutants;
 mod outcome;
 mod paper;
 mod point;
+mod pushed;
 mod sampling;
 mod statement;
 mod status;

@@ -6,9 +6,10 @@ use super::print;
 use clap::{Args, ValueEnum};
 use creepage::Result;
 use creepage::describe::{CreepLimits, Description, json, latex, text};
+use creepage::dynamics;
 use creepage::files::ModelFile;
 use creepage::mechanism::Limits;
-use creepage::model::{self, Model};
+use creepage::model::Model;
 use std::path::PathBuf;
 
 /// Print a model's constraints, matrix, derivatives and motion, with every symbol and unit
@@ -52,7 +53,7 @@ enum Format {
 /// Carries out the command.
 pub fn run(arguments: &Arguments) -> Result<()> {
     let library = &arguments.own.library()?;
-    let file = ModelFile::read(&arguments.model, &model::known(library))?;
+    let file = ModelFile::read(&arguments.model, &dynamics::known(library))?;
     let roles: Vec<String> = file.columns.inputs.iter().map(|i| i.role.clone()).collect();
     let limits = CreepLimits { rotation: arguments.rotation_limits, traverse: arguments.traverse_limits };
     let description = Description::of(&Model::from_file(&file, library, &roles)?)?.with_limits(limits);

@@ -7,8 +7,9 @@ use clap::Args;
 use creepage::discrepancy::discover::{Discovery, Request, discover};
 use creepage::discrepancy::html::{gap_svg, html};
 use creepage::discrepancy::summary::summary_text;
+use creepage::dynamics;
 use creepage::files::{ModelFile, Run, write_all_or_nothing};
-use creepage::model::{self, Model};
+use creepage::model::Model;
 use creepage::{Error, Result};
 use std::path::{Path, PathBuf};
 
@@ -58,7 +59,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let progress = Progress::new(quiet);
     progress.say("reading the runs");
     let library = &arguments.own.library()?;
-    let file = ModelFile::read(&arguments.model, &model::known(library))?;
+    let file = ModelFile::read(&arguments.model, &dynamics::known(library))?;
     Model::check_motion(&file)?;
     let read = |paths: &[PathBuf]| paths.iter().map(|p| Run::read(p, &file)).collect::<Result<Vec<_>>>();
     let (runs, held_out) = (read(&arguments.runs)?, read(&arguments.held_out)?);

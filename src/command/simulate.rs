@@ -4,12 +4,13 @@ use super::own_effects::OwnEffects;
 use super::print;
 use super::progress::Progress;
 use clap::Args;
-use creepage::files::{Initial, Inputs, ModelFile, write_whole};
-use creepage::model::{self, Model};
-use creepage::motion::{Integrator, Signals, Table, simulate_model};
+use creepage::dynamics::{self, Dynamics, Start, simulate_dynamics};
+use creepage::files::{DynamicsEntry, Initial, Inputs, ModelFile, write_whole};
+use creepage::model::Model;
+use creepage::motion::{Integrator, Method, Signals, Table, simulate_model};
 use creepage::{Error, Result};
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Integrate a (patched) model over given inputs
 #[derive(Args)]
@@ -18,7 +19,8 @@ Example:
   creepage simulate examples/runs/cornering/model.toml --inputs examples/runs/cornering/eights.csv --out path.csv
   creepage simulate report/model.patched.toml --inputs IN.csv --out path.csv --effects examples/effects/my_effects.toml
 
-Begins at the model's [initial], or at the pose in the first row of the inputs, or at the origin.")]
+Begins at the model's [initial], or at the pose in the first row of the inputs, or at the origin.
+A model with [dynamics] moves by forces: the columns of the inputs are then forces and torques.")]
 pub struct Arguments {
     /// The model
     #[arg(value_name = "MODEL.toml")]
@@ -51,21 +53,42 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let progress = Progress::new(quiet);
     progress.say("integrating");
     let library = &arguments.own.library()?;
-    let file = ModelFile::read(&arguments.model, &model::known(library))?;
-    Model::check_motion(&file)?;
-    let inputs = Inputs::read(&arguments.inputs, &file)?;
-    let model = Model::from_file(&file, library, &inputs.roles)?;
-    let signals = Signals::new(&inputs.time, &inputs.columns, file.input_timing.into());
-    let start = file.initial.clone().or(inputs.pose).unwrap_or_else(|| at_origin(&file));
-    let start: Vec<f64> = [start.x, start.y, start.heading].into_iter().chain(start.trailer_headings).collect();
+    let file = ModelFile::read(&arguments.model, &dynamics::known(library))?;
     let integrator = Integrator::default().with_tolerance(arguments.rtol, arguments.atol);
-    let table = simulate_model(&model, &signals, &inputs.time, &start, &integrator)?;
+    let table = match &file.dynamics {
+        Some(entry) => forced(&file, entry, &arguments.inputs, integrator)?,
+        None => {
+            Model::check_motion(&file)?;
+            let inputs = Inputs::read(&arguments.inputs, &file)?;
+            let model = Model::from_file(&file, library, &inputs.roles)?;
+            let (signals, start) = begun(&file, &inputs);
+            let start: Vec<f64> = [start.x, start.y, start.heading].into_iter().chain(start.trailer_headings).collect();
+            simulate_model(&model, &signals, &inputs.time, &start, &integrator)?
+        }
+    };
     drop(progress);
     write_whole(&arguments.out, csv(&table)?.as_bytes())?;
     if !quiet {
         print(&format!("{} rows are in {}\n", table.rows(), arguments.out.display()));
     }
     Ok(())
+}
+
+/// The inputs as signals, and the pose to begin with.
+fn begun(file: &ModelFile, inputs: &Inputs) -> (Signals, Initial) {
+    let signals = Signals::new(&inputs.time, &inputs.columns, file.input_timing.into());
+    let start = file.initial.clone().or_else(|| inputs.pose.clone());
+    (signals, start.unwrap_or_else(|| at_origin(file)))
+}
+
+/// A motion by forces; friction may be stiff.
+fn forced(file: &ModelFile, entry: &DynamicsEntry, inputs: &Path, integrator: Integrator) -> Result<Table> {
+    let dynamics = Dynamics::from_file(file)?;
+    let inputs = Inputs::read(inputs, file)?;
+    let (signals, pose) = begun(file, &inputs);
+    let method = if dynamics.has_friction() { Method::Radau5 } else { integrator.method };
+    let start = Start::from_file(entry, &pose);
+    simulate_dynamics(&dynamics, &signals, &inputs.time, &start, &Integrator { method, ..integrator })
 }
 
 fn at_origin(file: &ModelFile) -> Initial {

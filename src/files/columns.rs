@@ -63,11 +63,13 @@ pub struct ResolvedInput {
 }
 
 impl Columns {
-    pub(super) fn read(top: &Section, machine: &Machine, trailers: usize) -> Result<Self> {
+    pub(super) fn read(top: &Section, machine: &Machine, trailers: usize, forced: &[String]) -> Result<Self> {
         let section = top.section("columns")?;
         let inputs: Vec<&KnownInput> = machine.parts().flat_map(|v| &v.inputs).collect();
         if let Some(section) = &section {
-            section.only(&keys(&inputs, machine.tractor.is_some()))?;
+            let mut keys = keys(&inputs, machine.tractor.is_some());
+            keys.extend(forced.iter().map(String::as_str));
+            section.only(&keys)?;
         }
         let get = |role: &str| section.as_ref().and_then(|s| s.get(role));
         let name = |role: &str| get(role).map_or(Ok(role), |v| v.text()).map(str::to_string);

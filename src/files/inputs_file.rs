@@ -27,8 +27,11 @@ impl Inputs {
     pub fn read(path: impl AsRef<Path>, model: &ModelFile) -> Result<Self> {
         let path = path.as_ref();
         let sheet = Sheet::open(path)?;
-        let whole = model.columns.resolve(&sheet.header).ok().filter(|r| r.heading.is_some());
-        let (time, inputs) = model.columns.resolve_inputs(&sheet.header).map_err(|e| sheet.at_header(e))?;
+        let mut columns = model.columns.clone();
+        // Under forces the motion of the wheels is what comes out.
+        columns.inputs = model.dynamics.as_ref().map_or(columns.inputs, |d| d.inputs.clone());
+        let whole = columns.resolve(&sheet.header).ok().filter(|r| r.heading.is_some());
+        let (time, inputs) = columns.resolve_inputs(&sheet.header).map_err(|e| sheet.at_header(e))?;
         let mut wanted = vec![time];
         wanted.extend(inputs.iter().map(|i| i.index));
         wanted.extend(whole.iter().flat_map(pose_columns));

@@ -33,6 +33,40 @@ pub struct KnownVehicle {
     pub trailers: bool,
     /// It may be the `tractor` of a vehicle with trailers.
     pub tractor: bool,
+    /// What `[dynamics]` may say of it.
+    pub dynamics: KnownDynamics,
+}
+
+/// What `[dynamics]` may say of a vehicle.
+#[derive(Clone, Debug, Default)]
+pub struct KnownDynamics {
+    /// Whether such a section may stand in the file at all.
+    pub allowed: bool,
+    /// It moves along a line: no inertia, no yaw.
+    pub line: bool,
+    /// Names of the wheels that roll.
+    pub wheels: Vec<String>,
+    /// Whether it has castors.
+    pub castors: bool,
+    /// Roles of forces and torques.
+    pub forces: Vec<String>,
+    /// Roles of steering angles.
+    pub steering: Vec<String>,
+    /// Roles of their rates.
+    pub steering_rates: Vec<String>,
+    /// Names of the contacts, trailers left out.
+    pub contacts: Vec<String>,
+    /// Laws of contact beside the ideal one.
+    pub laws: Vec<KnownLaw>,
+}
+
+/// A law of contact as a model file sees it; its parameters must be greater than zero.
+#[derive(Clone, Debug, Default)]
+pub struct KnownLaw {
+    /// The value of the key `law`.
+    pub id: String,
+    /// Keys it needs, with their units.
+    pub parameters: Vec<(String, String)>,
 }
 
 /// An input of a vehicle.

@@ -7,6 +7,7 @@
 mod cell;
 mod claims_file;
 mod columns;
+mod dynamics_section;
 mod effect_entry;
 mod effect_parameter;
 mod effects_file;
@@ -28,11 +29,12 @@ mod toml_table;
 
 pub use claims_file::{ClaimEntry, read_claims};
 pub use columns::{Columns, InputColumn, Resolved, ResolvedInput};
+pub use dynamics_section::{ContactEntry, DynamicsEntry, StartEntry};
 pub use effect_entry::EffectEntry;
 pub use effects_file::{EffectsFile, OwnEffect};
 pub use formula_text::FormulaText;
 pub use inputs_file::Inputs;
-pub use known::{Known, KnownEffect, KnownInput, KnownParameter, KnownVehicle};
+pub use known::{Known, KnownDynamics, KnownEffect, KnownInput, KnownLaw, KnownParameter, KnownVehicle};
 pub use model_file::{Initial, InputTiming, ModelFile, Noise, Sensor};
 pub use output::{write_all_or_nothing, write_whole};
 pub use run_file::Run;

@@ -1,6 +1,7 @@
 //! The model file: what the user believes of the vehicle, and where the log shows it.
 
 use super::columns::Columns;
+use super::dynamics_section::DynamicsEntry;
 use super::effect_entry::{EffectEntry, read_effects};
 use super::known::{Known, KnownVehicle};
 use super::near;
@@ -44,6 +45,8 @@ pub struct ModelFile {
     pub noise: Noise,
     /// Effects the model includes, in the order of the file.
     pub effects: Vec<EffectEntry>,
+    /// Masses, forces and laws of contact, where the file gives them: then a simulation is one of forces.
+    pub dynamics: Option<DynamicsEntry>,
 }
 
 /// What a row of inputs means.
@@ -112,9 +115,15 @@ impl ModelFile {
             vehicle: machine.vehicle.id.clone(),
             tractor: machine.tractor.map(|v| v.id.clone()),
             input_timing: InputTiming::read(&top)?,
-            columns: Columns::read(&top, &machine, trailers)?,
+            dynamics: DynamicsEntry::read(&top, &machine, &parameters)?,
+            columns: Columns::read(&top, &machine, trailers, &forced(&top, DynamicsEntry::roles(&machine)))?,
             sensor: Sensor::read(&top)?,
-            initial: Initial::read(&top, machine.vehicle, trailers)?,
+            initial: Initial::read(
+                &top,
+                machine.vehicle,
+                trailers,
+                &forced(&top, DynamicsEntry::initial_keys(&machine)),
+            )?,
             noise: Noise::read(&top)?,
             effects: read_effects(&top, known, trailers)?,
             parameters: parameters.values,
@@ -130,9 +139,15 @@ impl ModelFile {
     }
 }
 
+/// What only a file with `[dynamics]` may name.
+fn forced(top: &Section, names: Vec<String>) -> Vec<String> {
+    if top.get("dynamics").is_some() { names } else { vec![] }
+}
+
 fn top_keys(machine: &Machine) -> Vec<&'static str> {
     let mut keys = vec!["vehicle", "input_timing", "parameters", "columns", "sensor", "initial", "noise", "effects"];
     keys.extend(machine.tractor.map(|_| "tractor"));
+    keys.extend(machine.tractor.unwrap_or(machine.vehicle).dynamics.allowed.then_some("dynamics"));
     keys
 }
 
@@ -171,11 +186,12 @@ fn pair(value: &Value) -> Result<[f64; 2]> {
 }
 
 impl Initial {
-    fn read(top: &Section, vehicle: &KnownVehicle, trailers: usize) -> Result<Option<Self>> {
+    fn read(top: &Section, vehicle: &KnownVehicle, trailers: usize, speeds: &[String]) -> Result<Option<Self>> {
         let Some(section) = top.section("initial")? else { return Ok(None) };
         let mut keys = vec!["x", "y", "heading"];
         let own = vehicle.heading.as_deref().filter(|own| section.get(own).is_some());
         keys.extend(own);
+        keys.extend(speeds.iter().map(String::as_str));
         keys.extend((trailers > 0).then_some("trailer_headings"));
         section.only(&keys)?;
         let need = |key: &str| section.need(key, &format!("{key} = 0.0 under [initial]"))?.number();

@@ -114,6 +114,11 @@ impl<'a, 'd> Section<'a, 'd> {
         }
     }
 
+    /// Line and column of the table.
+    pub fn place_of(&self) -> (usize, usize) {
+        self.source.line_and_column(self.at)
+    }
+
     /// An error about the table as a whole.
     pub fn error(&self, message: impl Into<String>) -> Error {
         self.source.error(self.at, message)
@@ -138,6 +143,11 @@ impl<'a, 'd> Value<'a, 'd> {
     /// An error about the key.
     pub fn key_error(&self, message: impl Into<String>) -> Error {
         self.source.error(self.key_at, message)
+    }
+
+    /// Whether it is a table.
+    pub fn is_table(&self) -> bool {
+        matches!(self.value.get_ref(), DeValue::Table(_))
     }
 
     /// True or false.

@@ -54,7 +54,7 @@ pub(super) fn trailer_direction(i: usize, axle: &Velocity) -> Constraint {
 }
 
 /// The velocity of an axle from that of the axle ahead: back to the hitch, back along the trailer.
-pub(super) fn behind(ahead: &Velocity, i: usize) -> Velocity {
+pub(crate) fn behind(ahead: &Velocity, i: usize) -> Velocity {
     let before = if i == 1 { Symbol::from("phi") } else { trailer_heading(i - 1) };
     let (length, hitch) = trailer_lengths(i);
     let hitch_point = ahead.at_offset(&Heading::along(before), &-&Expr::sym(hitch));

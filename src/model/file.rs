@@ -3,7 +3,9 @@
 use super::{Model, Sensor, Trailer};
 use crate::effects::{Applied, Effect};
 use crate::error::{Error, Result};
-use crate::files::{EffectEntry, Known, KnownEffect, KnownInput, KnownParameter, KnownVehicle, ModelFile};
+use crate::files::{
+    EffectEntry, Known, KnownDynamics, KnownEffect, KnownInput, KnownParameter, KnownVehicle, ModelFile,
+};
 use crate::vehicles::{self, Vehicle};
 
 /// The id of a vehicle with trailers; its tractor is a vehicle of the catalogue.
@@ -41,6 +43,7 @@ fn known_vehicle(v: &Vehicle) -> KnownVehicle {
         stays: v.stays(),
         trailers: false,
         tractor: v.pulls(),
+        dynamics: KnownDynamics::default(),
     }
 }
 

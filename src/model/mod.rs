@@ -12,6 +12,7 @@ mod free;
 mod own;
 mod terms;
 
+pub(crate) use constraints::behind as axle_behind;
 pub use constraints::mechanism;
 pub use equations::{Equations, Workspace};
 pub use file::{WITH_TRAILERS, known};

@@ -1,4 +1,5 @@
-//! The one place where differential equations are integrated: a thin wrapper of the crate `ode_solvers`.
+//! The one place where differential equations are integrated: a thin wrapper of the crates `ode_solvers` and, for
+//! stiff ones, `differential-equations` (see `stiff.rs`).
 //!
 //! What was found in its source and by running it (0.6.2), and what is done about it here:
 //!
@@ -15,6 +16,7 @@
 //! | the test for stiffness ends a run that is only slow | it is switched off; `max_steps` bounds the work |
 //! | `Dop853` allows `n_max` steps, `Dopri5` one more | left so |
 
+use super::stiff::{self, Differences, Slopes};
 use crate::error::{Error, Result};
 use ode_solvers::dop_shared::{IntegrationError, Stats};
 use ode_solvers::{DVector, Dop853, Dopri5, OutputType, Rk4, System};
@@ -32,6 +34,9 @@ pub enum Method {
         /// The longest step, s; it is shortened to divide each span.
         step: f64,
     },
+    /// Radau IIA of order 5, implicit and L-stable, for stiff equations: its steps follow the solution and not the
+    /// shortest time constant. With exact slopes by [`Integrator::solve_with_slopes`], else with differences.
+    Radau5,
 }
 
 /// Integrates y′ = f(t, y) to given times, forward or backward, through any sign of time.
@@ -44,7 +49,8 @@ pub enum Method {
 ///
 /// Validity: f is smooth between the times; put kinks of f among them. Each time is stepped to exactly.
 ///
-/// Source: E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, II.4–II.5.
+/// Source: E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, II.4–II.5; of Radau IIA
+/// E. Hairer, G. Wanner, *II*, IV.8.
 ///
 /// ```
 /// use creepage::motion::Integrator;
@@ -86,7 +92,44 @@ impl Integrator {
     /// (NaN or infinite), the solution grows beyond bounds, or `max_steps` are not enough.
     pub fn solve(
         &self,
+        rhs: impl FnMut(f64, &[f64], &mut [f64]),
+        t0: f64,
+        y0: &[f64],
+        times: &[f64],
+    ) -> Result<Vec<Vec<f64>>> {
+        self.visit(rhs, Differences, t0, y0, times)
+    }
+
+    /// As [`Integrator::solve`], with the exact ∂f/∂y for [`Method::Radau5`]; the other methods do not read it.
+    ///
+    /// `slopes` writes ∂fᵢ/∂yⱼ row by row into its last argument, n·n numbers.
+    ///
+    /// # Errors
+    /// As [`Integrator::solve`].
+    ///
+    /// ```
+    /// use creepage::motion::{Integrator, Method};
+    /// // y' = -1e6 (y - cos t): after an instant y is cos t, and the work does not follow the 1e6.
+    /// let stiff = Integrator { method: Method::Radau5, max_steps: 300, ..Integrator::default() };
+    /// let f = |t: f64, y: &[f64], dy: &mut [f64]| dy[0] = -1e6 * (y[0] - t.cos());
+    /// let end = stiff.solve_with_slopes(f, |_, _, j: &mut [f64]| j[0] = -1e6, 0.0, &[2.0], &[10.0]).unwrap();
+    /// assert!((end[0][0] - 10f64.cos()).abs() < 1e-6);
+    /// ```
+    pub fn solve_with_slopes(
+        &self,
+        rhs: impl FnMut(f64, &[f64], &mut [f64]),
+        slopes: impl FnMut(f64, &[f64], &mut [f64]),
+        t0: f64,
+        y0: &[f64],
+        times: &[f64],
+    ) -> Result<Vec<Vec<f64>>> {
+        self.visit(rhs, slopes, t0, y0, times)
+    }
+
+    fn visit(
+        &self,
         mut rhs: impl FnMut(f64, &[f64], &mut [f64]),
+        mut slopes: impl Slopes,
         t0: f64,
         y0: &[f64],
         times: &[f64],
@@ -94,7 +137,7 @@ impl Integrator {
         let mut walk = self.walk()?;
         let (mut t, mut y) = (t0, y0.to_vec());
         let mut visit = |to: &f64| {
-            y = walk.span(&mut rhs, t, *to, &y)?;
+            y = walk.span(&mut rhs, &mut slopes, t, *to, &y)?;
             t = *to;
             Ok(y.clone())
         };
@@ -131,6 +174,7 @@ impl Walk {
     pub(super) fn span(
         &mut self,
         rhs: &mut impl FnMut(f64, &[f64], &mut [f64]),
+        slopes: &mut impl Slopes,
         from: f64,
         to: f64,
         y: &[f64],
@@ -141,6 +185,10 @@ impl Walk {
         if from == to {
             return Ok(y.to_vec());
         }
+        if self.integrator.method == Method::Radau5 && y.len() > stiff::MOST_STATES {
+            let message = format!("{} states are more than the {} of the stiff method", y.len(), stiff::MOST_STATES);
+            return Err(Error::run(message).help("use an explicit method"));
+        }
         let (undefined, rhs) = (Cell::new(false), RefCell::new(rhs));
         let system = Clocked { rhs: &rhs, undefined: &undefined, from, direction: (to - from).signum() };
         let start = DVector::from_iterator(y.len() + 1, y.iter().copied().chain([0.0]));
@@ -149,13 +197,32 @@ impl Walk {
             return Err(Error::run(format!("the equations of motion are undefined at t = {from}")));
         }
         let at = |s: f64| from + s * (to - from).signum();
-        let end =
-            self.step_through(system, (to - from).abs(), start).map_err(|e| self.explain(&e, undefined.get(), at))?;
+        let end = match self.integrator.method {
+            Method::Radau5 => self.implicit(&system, slopes, (to - from).abs(), y),
+            _ => self.step_through(system, (to - from).abs(), start),
+        };
+        let end = end.map_err(|e| self.explain(&e, undefined.get(), at))?;
         let end = &end.as_slice()[..y.len()];
         match end.iter().all(|v| v.is_finite()) {
             true => Ok(end.to_vec()),
             false => Err(Error::run(format!("the equations of motion are undefined between t = {from} and {to}"))),
         }
+    }
+
+    /// The stiff method through a span.
+    fn implicit<F>(&mut self, system: &Clocked<F>, slopes: &mut impl Slopes, length: f64, y: &[f64]) -> Stepped
+    where
+        F: FnMut(f64, &[f64], &mut [f64]),
+    {
+        let Integrator { rtol, atol, .. } = self.integrator;
+        let (from, direction) = (system.from, system.direction);
+        let mut rates = |s: f64, y: &[f64], dy: &mut [f64]| system.rates(s, y, dy);
+        let mut slopes = stiff::Retimed { slopes, time: |s| from + direction * s, factor: direction };
+        let span = stiff::Span { length, first: self.first, rtol, atol, most: self.left };
+        let done = stiff::step_through(&mut rates, &mut slopes, &span, y)?;
+        self.first = done.next;
+        self.left = self.left.saturating_sub(done.steps);
+        Ok(DVector::from_vec(done.y))
     }
 
     fn step_through<S>(&mut self, system: S, length: f64, y: DVector<f64>) -> Stepped
@@ -193,6 +260,8 @@ impl Walk {
                 let stats = s.integrate()?;
                 (h, stats, s.y_out().last().cloned())
             }
+            // Stepped elsewhere: it needs slopes.
+            Method::Radau5 => return Err(IntegrationError::StepSizeUnderflow { x: 0.0 }),
         };
         self.account(steps, stats);
         end.ok_or(IntegrationError::StepSizeUnderflow { x: 0.0 })
@@ -236,14 +305,18 @@ struct Clocked<'a, F> {
     direction: f64,
 }
 
-impl<F: FnMut(f64, &[f64], &mut [f64])> System<f64, DVector<f64>> for Clocked<'_, F> {
-    fn system(&self, _: f64, y: &DVector<f64>, dy: &mut DVector<f64>) {
-        let n = y.len() - 1;
-        let (y, passed) = (&y.as_slice()[..n], y[n]);
-        let rates = &mut dy.as_mut_slice()[..n];
+impl<F: FnMut(f64, &[f64], &mut [f64])> Clocked<'_, F> {
+    fn rates(&self, passed: f64, y: &[f64], rates: &mut [f64]) {
         (self.rhs.borrow_mut())(self.from + self.direction * passed, y, rates);
         rates.iter_mut().for_each(|v| *v *= self.direction);
         self.undefined.set(!rates.iter().all(|v| v.is_finite()));
+    }
+}
+
+impl<F: FnMut(f64, &[f64], &mut [f64])> System<f64, DVector<f64>> for Clocked<'_, F> {
+    fn system(&self, _: f64, y: &DVector<f64>, dy: &mut DVector<f64>) {
+        let n = y.len() - 1;
+        self.rates(y[n], &y.as_slice()[..n], &mut dy.as_mut_slice()[..n]);
         dy[n] = 1.0;
     }
 }

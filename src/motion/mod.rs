@@ -10,6 +10,7 @@ mod signal;
 mod simulate;
 mod spline;
 mod stepper;
+mod stiff;
 mod trajectory;
 
 pub use conservative::{EndPoint, FIG7_DURATION, Instant, Reading, fig7_case, fig7_path, fig7_stepwise};
@@ -21,4 +22,4 @@ pub use integrator::{Integrator, Method};
 pub use signal::{Signals, Timing};
 pub use simulate::{Table, simulate_model};
 pub use stepper::{Arc, Stepper};
-pub use trajectory::{simulate, with_sensitivities};
+pub use trajectory::{integrate, simulate, with_sensitivities};

@@ -1,6 +1,7 @@
 //! Trajectories of a model and their exact sensitivities.
 
 use super::integrator::Walk;
+use super::stiff::{Differences, Retimed, Slopes};
 use super::{Drive, Integrator};
 use crate::error::{Error, Result};
 use crate::model::Equations;
@@ -48,7 +49,7 @@ pub fn simulate(
         inputs.at(look_up, &mut u, &mut slope);
         equations.rates(&mut w, z, &u, rates);
     };
-    follow(inputs.knots(), delay, z0, times, &mut integrator.walk()?, rhs)
+    follow(inputs.knots(), delay, z0, times, &mut integrator.walk()?, rhs, Differences)
 }
 
 /// The states at `times` and their derivatives with respect to (z0, p), from the variational equations
@@ -112,7 +113,7 @@ pub fn with_sensitivities(
     };
     let identity = DMatrix::<f64>::identity(n, n + parameters);
     let y0 = [z0, identity.as_slice()].concat();
-    let rows = follow(inputs.knots(), delay, &y0, times, &mut integrator.walk()?, rhs)?;
+    let rows = follow(inputs.knots(), delay, &y0, times, &mut integrator.walk()?, rhs, Differences)?;
     let split = |y: Vec<f64>| (y[..n].to_vec(), DMatrix::from_column_slice(n, n + parameters, &y[n..]));
     Ok(rows.into_iter().map(split).collect())
 }
@@ -133,6 +134,35 @@ fn fits(equations: &Equations, p: &[f64], inputs: &impl Drive, z0: &[f64]) -> Re
     }
 }
 
+/// The states at `times` of ż = f(t, z), from `z0` at the first of them, restarted where a derivative of an input jumps.
+///
+/// | symbol | meaning |
+/// |---|---|
+/// | knots | times at which f is not smooth, in rising order |
+/// | rates | writes f(t, z); between two knots it is only asked at times strictly between them |
+/// | slopes | writes ∂f/∂z row by row; read by [`Method::Radau5`](super::Method::Radau5) alone |
+///
+/// # Errors
+/// As [`Integrator::solve`].
+///
+/// ```
+/// use creepage::motion::{Integrator, integrate};
+/// // z' = |t|, whose slope jumps at 0.
+/// let rates = |t: f64, _: &[f64], dz: &mut [f64]| dz[0] = t.abs();
+/// let z = integrate(&[0.0], &[0.0], &[-1.0, 2.0], &Integrator::default(), rates, |_, _, _: &mut [f64]| ()).unwrap();
+/// assert!((z[1][0] - 2.5).abs() < 1e-12);
+/// ```
+pub fn integrate(
+    knots: &[f64],
+    z0: &[f64],
+    times: &[f64],
+    integrator: &Integrator,
+    rates: impl FnMut(f64, &[f64], &mut [f64]),
+    slopes: impl FnMut(f64, &[f64], &mut [f64]),
+) -> Result<Vec<Vec<f64>>> {
+    follow(knots, 0.0, z0, times, &mut integrator.walk()?, rates, slopes)
+}
+
 /// Integrates from the first time through all times, restarting where a knot, delayed, is passed.
 ///
 /// `rhs` gets the time at which the inputs are to be looked up. It is kept strictly between the knots around
@@ -144,6 +174,7 @@ fn follow(
     times: &[f64],
     walk: &mut Walk,
     mut rhs: impl FnMut(f64, &[f64], &mut [f64]),
+    mut slopes: impl Slopes,
 ) -> Result<Vec<Vec<f64>>> {
     if !delay.is_finite() {
         return Err(Error::run("the delay of the inputs is undefined"));
@@ -156,8 +187,10 @@ fn follow(
             let after = knots.partition_point(|k| *k <= (from + to) / 2.0 - delay);
             let low = if after == 0 { f64::NEG_INFINITY } else { knots[after - 1].next_up() };
             let high = knots.get(after).map_or(f64::INFINITY, |k| k.next_down());
-            let mut rhs = |t: f64, y: &[f64], rates: &mut [f64]| rhs((t - delay).max(low).min(high), y, rates);
-            y = walk.span(&mut rhs, from, to, &y)?;
+            let look_up = |t: f64| (t - delay).max(low).min(high);
+            let mut rhs = |t: f64, y: &[f64], rates: &mut [f64]| rhs(look_up(t), y, rates);
+            let mut slopes = Retimed { slopes: &mut slopes, time: look_up, factor: 1.0 };
+            y = walk.span(&mut rhs, &mut slopes, from, to, &y)?;
         }
         rows.push(y.clone());
         last = *time;

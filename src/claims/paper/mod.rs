@@ -3,11 +3,13 @@
 mod blade;
 mod direction;
 mod domain;
+mod editorial;
 mod finite;
 mod ideal_limit;
 mod introduction;
-mod open;
+mod laws;
 mod planning;
+mod power;
 mod realisation;
 mod regimes;
 mod rotation;
@@ -19,6 +21,8 @@ mod symmetry_creep;
 mod theorems;
 mod trailers;
 mod traverse;
+mod viscous;
+mod viscous_limit;
 mod wheel;
 
 use super::Claim;
@@ -46,7 +50,11 @@ pub fn all() -> Vec<Claim> {
         planning::claims(),
         symmetry::claims(),
         symmetry_creep::claims(),
-        open::claims(),
+        laws::claims(),
+        power::claims(),
+        viscous::claims(),
+        viscous_limit::claims(),
+        editorial::claims(),
     ]
     .concat()
 }

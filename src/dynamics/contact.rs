@@ -1,0 +1,77 @@
+//! What a contact slips by, and the law of its force.
+
+use super::Law;
+use crate::formula::{Expr, Symbol};
+use crate::mechanism::{Constraint, Part, Row};
+
+/// A contact of a wheel or an axle with the ground, in one of its two senses: rolling or direction.
+#[derive(Clone, Debug)]
+pub struct Contact {
+    /// What it is called in model files: `rear-axle-rolling`, `trailer-1-direction`.
+    pub name: String,
+    /// `R` for rolling, `T` for a direction.
+    pub letter: char,
+    /// The slip as a linear form in the rates, m/s: v_A = v_l − r·ω, or v_t to the left.
+    pub slip: Row,
+    /// The speed of the contact along the wheel, m/s.
+    pub speed: Row,
+    /// Its law with the values of the parameters in their order; `None` where it is ideal.
+    pub law: Option<(Law, Vec<f64>)>,
+}
+
+/// A constraint's name as a key: lower case, `-` between the words.
+pub(super) fn slug(name: &str) -> String {
+    let words = name.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty());
+    words.map(str::to_lowercase).collect::<Vec<_>>().join("-")
+}
+
+impl Contact {
+    /// The contact of a constraint, ideal.
+    pub(super) fn of(constraint: &Constraint) -> Self {
+        let ideal = |s: &Symbol| (*s == constraint.creep).then(|| Expr::int(0));
+        let form = &constraint.form;
+        let factor = |slot: &str| form.slot(slot).map_or_else(|| Expr::int(0), Part::expr);
+        let rates = |slot: &str| match form.slot(slot) {
+            Some(Part::Rates(row)) => row.clone(),
+            _ => Row::default(),
+        };
+        // v_t counts to the left, the row of a direction to the right.
+        let (slip, speed) = match form.kind().id.as_str() {
+            "direction" => {
+                let along = rates("q1'").times(&factor("p")).plus(&factor("s"), &rates("q3'"));
+                (constraint.ideal_row().times(&Expr::int(-1)), along)
+            }
+            _ => (constraint.ideal_row(), rates("pi'")),
+        };
+        let speed = speed.substitute(&ideal);
+        Self { name: slug(&constraint.name), letter: constraint.letter(), slip, speed, law: None }
+    }
+
+    /// The force along the slip as a formula of rates, states and symbols of the law; `None` where it is ideal.
+    pub(super) fn force(&self, number: usize) -> Option<Expr> {
+        self.law.as_ref().map(|(law, _)| self.written(&law.force, law, number))
+    }
+
+    /// The state of its law, and the state's rate.
+    pub(super) fn memory(&self, number: usize) -> Option<(Symbol, Expr)> {
+        let (law, _) = self.law.as_ref()?;
+        let rate = self.written(law.rate.as_ref()?, law, number);
+        Some((Law::symbol("deflection", number), rate))
+    }
+
+    fn written(&self, formula: &Expr, law: &Law, number: usize) -> Expr {
+        formula.substitute(&|s| match s.as_str() {
+            "slip" => Some(self.slip.expr()),
+            "speed" => Some(self.speed.expr()),
+            "deflection" => Some(Expr::sym(Law::symbol("deflection", number))),
+            name => law.parameters.iter().any(|p| p.name == name).then(|| Expr::sym(Law::symbol(name, number))),
+        })
+    }
+
+    /// Symbols and values of its law.
+    pub(super) fn values(&self, number: usize) -> Vec<(Symbol, f64)> {
+        let Some((law, values)) = &self.law else { return vec![] };
+        let named = law.parameters.iter().zip(values);
+        named.map(|(p, v)| (Law::symbol(&p.name, number), *v)).collect()
+    }
+}

@@ -1,0 +1,117 @@
+//! Dynamics from a model file.
+
+use super::contact::slug;
+use super::forces::roles;
+use super::{Dynamics, Masses, Start, TrailerMass, laws};
+use crate::effects::Effect;
+use crate::error::{Error, Result};
+use crate::files::{DynamicsEntry, Initial, Known, KnownDynamics, KnownLaw, ModelFile};
+use crate::model::{self, Model, mechanism};
+use crate::vehicles::{self, Vehicle};
+
+/// What a model file may name, `[dynamics]` included: the vehicles of the catalogue and the effects of a library.
+///
+/// ```
+/// use creepage::files::ModelFile;
+/// let text = "vehicle = \"disk\"\n[parameters]\nwheel_radius = 0.5\n[dynamics]\nmass = 2.0\nwheel_inertia = 0.2\n\
+///             inputs = [\"wheel_torque\"]\n[dynamics.friction]\nrolling = { law = \"viscous\", coefficient = 100.0 }\n";
+/// let file = ModelFile::parse(text, "disk.toml", &creepage::dynamics::known(&[])).unwrap();
+/// assert_eq!(file.dynamics.unwrap().friction[0].contact, "disk-rolling");
+/// ```
+pub fn known(library: &[Effect]) -> Known {
+    let mut known = model::known(library);
+    for entry in &mut known.vehicles {
+        entry.dynamics = vehicles::named(&entry.id).map(known_dynamics).unwrap_or_default();
+    }
+    known
+}
+
+fn known_dynamics(vehicle: &Vehicle) -> KnownDynamics {
+    let mechanism = mechanism(vehicle, 0);
+    let steers = |q: &&crate::formula::Symbol| vehicle.define.contains_key(q);
+    let parts = mechanism.coordinates.iter().filter(steers).flat_map(|q| vehicle.define[q].formula.symbols());
+    let parts: Vec<_> = parts.collect();
+    let steering = vehicle.inputs.keys().filter(|role| parts.iter().any(|s| s.as_str() == role.as_str()));
+    let steering: Vec<String> = steering.cloned().collect();
+    let law = |l: &super::Law| KnownLaw {
+        id: l.id.clone(),
+        parameters: l.parameters.iter().map(|p| (p.name.clone(), p.unit.clone())).collect(),
+    };
+    KnownDynamics {
+        allowed: true,
+        line: vehicle.line,
+        wheels: vehicle.wheels.iter().filter(|w| w.rate.is_some()).map(|w| slug(&w.name)).collect(),
+        castors: !super::bodies::castors(vehicle).is_empty(),
+        forces: roles(vehicle).into_iter().map(|(role, _, _)| role).collect(),
+        steering_rates: steering.iter().map(|s| super::description::rate_role(s)).collect(),
+        steering,
+        contacts: mechanism.constraints.iter().map(|c| slug(&c.name)).collect(),
+        laws: laws().iter().map(law).collect(),
+    }
+}
+
+impl Dynamics {
+    /// The dynamics that a file with `[dynamics]` describes.
+    ///
+    /// # Errors
+    /// When the file has no such section, or includes effects.
+    pub fn from_file(file: &ModelFile) -> Result<Self> {
+        let at = |e: Error, (line, column): (usize, usize)| e.at_file(&file.path).at(line, column);
+        let entry = file.dynamics.as_ref().ok_or_else(|| {
+            Error::input("table [dynamics] is missing").at_file(&file.path).help("write [dynamics] and below it: mass")
+        })?;
+        if let Some(effect) = file.effects.first() {
+            return Err(Error::input(format!("the effect {} has no place beside [dynamics]", effect.id))
+                .at_file(&file.path)
+                .at(effect.line, 1)
+                .help("remove it or [dynamics]: with forces, creep follows from the laws of contact"));
+        }
+        let model = Model::from_file(&ModelFile { effects: vec![], ..file.clone() }, &[], &[])?;
+        let built = || {
+            let dynamics = Self::new(&model, &masses(entry, &model.vehicle))?;
+            let dynamics =
+                entry.friction.iter().try_fold(dynamics, |d, c| d.with_law(&c.contact, &c.law, &c.values))?;
+            let forces: Vec<&str> = entry.forces.iter().map(String::as_str).collect();
+            dynamics.driven_by(&forces)
+        };
+        let built = built().map_err(|e| at(e, entry.place))?;
+        Ok(if entry.steered_by_rate { built.steered_by_rate() } else { built })
+    }
+
+    /// Whether any contact has a law: then the motion may be stiff.
+    pub fn has_friction(&self) -> bool {
+        self.contacts.iter().any(|c| c.law.is_some())
+    }
+}
+
+fn masses(entry: &DynamicsEntry, vehicle: &Vehicle) -> Masses {
+    let [mass, inertia, mass_offset] = entry.body;
+    let wheel = |w: &crate::vehicles::Wheel| Some((w.rate.clone()?, *entry.wheel_inertia.get(&slug(&w.name))?));
+    let trailer = |[mass, inertia, mass_offset]: &[f64; 3]| TrailerMass {
+        mass: *mass,
+        inertia: *inertia,
+        mass_offset: *mass_offset,
+    };
+    Masses {
+        mass,
+        inertia,
+        mass_offset,
+        wheels: vehicle.wheels.iter().filter_map(wheel).collect(),
+        castors: super::bodies::castors(vehicle).into_iter().map(|a| (a, entry.castor_inertia)).collect(),
+        trailers: entry.trailers.iter().map(trailer).collect(),
+    }
+}
+
+impl Start {
+    /// The start that a file and a pose give.
+    pub fn from_file(entry: &DynamicsEntry, pose: &Initial) -> Self {
+        let start = entry.start;
+        Self {
+            pose: [&[pose.x, pose.y, pose.heading], &pose.trailer_headings[..]].concat(),
+            speed: start.speed,
+            lateral_speed: start.lateral_speed,
+            yaw_rate: start.yaw_rate,
+            steering_angle: start.steering_angle,
+        }
+    }
+}

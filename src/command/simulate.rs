@@ -1,11 +1,11 @@
 //! `creepage simulate`
 
-use super::own_effects::OwnEffects;
+use super::own::Own;
 use super::print;
 use super::progress::Progress;
 use clap::Args;
 use creepage::files::{Initial, Inputs, ModelFile, write_whole};
-use creepage::model::{self, Model};
+use creepage::model::Model;
 use creepage::motion::{Integrator, Signals, Table, simulate_model};
 use creepage::{Error, Result};
 use std::fmt::Write;
@@ -36,7 +36,7 @@ pub struct Arguments {
     #[arg(long, default_value_t = 1e-12, value_parser = tolerance)]
     atol: f64,
     #[command(flatten)]
-    own: OwnEffects,
+    own: Own,
 }
 
 fn tolerance(text: &str) -> std::result::Result<f64, String> {
@@ -50,13 +50,12 @@ fn tolerance(text: &str) -> std::result::Result<f64, String> {
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let progress = Progress::new(quiet);
     progress.say("integrating");
-    let library = &arguments.own.library()?;
-    let file = ModelFile::read(&arguments.model, &model::known(library))?;
-    Model::check_motion(&file)?;
-    let inputs = Inputs::read(&arguments.inputs, &file)?;
-    let model = Model::from_file(&file, library, &inputs.roles)?;
+    let (file, library) = &arguments.own.read(&arguments.model)?;
+    Model::check_motion(file)?;
+    let inputs = Inputs::read(&arguments.inputs, file)?;
+    let model = Model::from_file(file, library, &inputs.roles)?;
     let signals = Signals::new(&inputs.time, &inputs.columns, file.input_timing.into());
-    let start = file.initial.clone().or(inputs.pose).unwrap_or_else(|| at_origin(&file));
+    let start = file.initial.clone().or(inputs.pose).unwrap_or_else(|| at_origin(file));
     let start: Vec<f64> = [start.x, start.y, start.heading].into_iter().chain(start.trailer_headings).collect();
     let integrator = Integrator::default().with_tolerance(arguments.rtol, arguments.atol);
     let table = simulate_model(&model, &signals, &inputs.time, &start, &integrator)?;
@@ -69,7 +68,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
 }
 
 fn at_origin(file: &ModelFile) -> Initial {
-    Initial { trailer_headings: vec![0.0; file.trailer_lengths.len()], ..Initial::default() }
+    Initial { trailer_headings: vec![0.0; file.trailers()], ..Initial::default() }
 }
 
 /// The table as CSV, numbers in the shortest form that reads back.

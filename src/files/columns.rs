@@ -67,7 +67,7 @@ impl Columns {
         let section = top.section("columns")?;
         let inputs: Vec<&KnownInput> = machine.parts().flat_map(|v| &v.inputs).collect();
         if let Some(section) = &section {
-            section.only(&keys(&inputs, machine.tractor.is_some()))?;
+            section.only(&keys(&inputs, trailers > 0))?;
         }
         let get = |role: &str| section.as_ref().and_then(|s| s.get(role));
         let name = |role: &str| get(role).map_or(Ok(role), |v| v.text()).map(str::to_string);

@@ -1,5 +1,7 @@
 //! What may stand in a model file.
 
+use crate::vehicles::Vehicle;
+
 /// Vehicles and effects a model file may name; the caller fills it from the catalogues.
 #[derive(Clone, Debug, Default)]
 pub struct Known {
@@ -33,6 +35,10 @@ pub struct KnownVehicle {
     pub trailers: bool,
     /// It may be the `tractor` of a vehicle with trailers.
     pub tractor: bool,
+    /// How many trailers are a part of it.
+    pub sections: usize,
+    /// What it is made of, handed through to the model; without it a vehicle of the catalogue is meant.
+    pub description: Option<Vehicle>,
 }
 
 /// An input of a vehicle.

@@ -19,6 +19,11 @@ impl Spot {
         Self { path: source.path.into(), line, column }
     }
 
+    /// The line, from one.
+    pub fn line(&self) -> usize {
+        self.line
+    }
+
     /// An error at the place.
     pub fn error(&self, message: impl Into<String>) -> Error {
         Error::input(message).at_file(&self.path).at(self.line, self.column)

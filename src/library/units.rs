@@ -49,7 +49,7 @@ fn expect(
 ) -> Result<()> {
     let on = &place.machine.label;
     match formula.formula.eval(of) {
-        None => Err(mixed(formula, of, on)),
+        None => Err(mixed(formula, of, &format!(" on {on}"))),
         Some(found) if found.fits(wanted) => Ok(()),
         Some(found) => Err(formula
             .error(format!("the formula for {name} is in {found}, but {name} is in {wanted} on {on}"))
@@ -57,14 +57,14 @@ fn expect(
     }
 }
 
-/// The error of a formula that has no unit: the smallest part that has none.
-fn mixed(formula: &FormulaText, of: &impl Fn(&Symbol) -> Unit, on: &str) -> Error {
+/// The error of a formula that has no unit: the smallest part that has none; `on` says where.
+pub(super) fn mixed(formula: &FormulaText, of: &impl Fn(&Symbol) -> Unit, on: &str) -> Error {
     let mut part = &formula.formula;
     while let Some(inner) = part.children().into_iter().find(|c| c.eval(of).is_none()) {
         part = inner;
     }
     let unit = |e: &&Expr| e.eval(of).map_or_else(String::new, |u| format!("{} is in {u}", shown(&e.to_string())));
     let parts: Vec<String> = part.children().iter().map(unit).collect();
-    let message = format!("{} has no unit on {on}: {}", shown(&part.to_string()), parts.join(", "));
+    let message = format!("{} has no unit{on}: {}", shown(&part.to_string()), parts.join(", "));
     formula.error(message).help("add only what has one unit; functions take and give numbers")
 }

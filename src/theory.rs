@@ -33,3 +33,5 @@ pub mod planning {}
 pub mod symmetry {}
 #[doc = include_str!("../theory/10-open.md")]
 pub mod open {}
+#[doc = include_str!("../CONTRIBUTING.md")]
+pub mod extending {}

@@ -83,7 +83,9 @@ fn the_list_of_vehicles() {
 
 #[test]
 fn the_list_of_effects() {
-    reviewed(|| insta::assert_snapshot!("effects-text", describe::effects_text(vehicles::all(), effects::all()).unwrap()));
+    reviewed(|| {
+        insta::assert_snapshot!("effects-text", describe::effects_text(vehicles::all(), effects::all()).unwrap())
+    });
     let json = describe::effects_json(vehicles::all(), effects::all()).unwrap();
     reviewed(|| insta::assert_snapshot!("effects-json", pretty(&json)));
     let applies = |id: &str| {

@@ -8,7 +8,7 @@ mod simulator;
 mod slips;
 mod support;
 
-use bad_vehicles::{BAD_MODELS, BAD_VEHICLES, GOOD};
+use bad_vehicles::{BAD_CONSTRAINTS, BAD_MODELS, BAD_VEHICLES, GOOD, ROPE};
 use creepage::describe::{self, Description};
 use creepage::effects;
 use creepage::formula::{Expr, Symbol};
@@ -61,9 +61,11 @@ fn edited(text: &str, edits: &[(&str, &str)], name: &str) -> String {
 #[test]
 fn every_bad_file_is_explained_at_its_place() {
     assert_eq!(read(GOOD.as_bytes()).unwrap().last().unwrap().id, "my-cart");
+    assert_eq!(read(ROPE.as_bytes()).unwrap().last().unwrap().id, "rope-cart");
     let mut failures = Vec::new();
-    for case in BAD_VEHICLES {
-        match read(edited(GOOD, case.edits, case.name).as_bytes()) {
+    let all = BAD_VEHICLES.iter().map(|c| (GOOD, c)).chain(BAD_CONSTRAINTS.iter().map(|c| (ROPE, c)));
+    for (good, case) in all {
+        match read(edited(good, case.edits, case.name).as_bytes()) {
             Ok(_) => failures.push(format!("{}: accepted", case.name)),
             Err(message) if message == case.expect => {}
             Err(message) => failures.push(format!("{}: {message}", case.name)),
@@ -83,17 +85,24 @@ fn files_that_are_no_text_or_too_large_are_refused() {
     assert_eq!(read(many.as_bytes()).unwrap_err(), "1:1: vehicle has 21 entries; give at most 20");
     let wheel = "[[vehicle.wheels]]\nname = \"axle N\"\ntraverse_creep = \"e_f\"\n";
     let wheels: String = (0..40).map(|i| wheel.replace('N', &i.to_string())).collect();
-    assert_eq!(read((GOOD.to_string() + &wheels).as_bytes()).unwrap_err(), "26:1: wheels has 43 entries; give at most 40");
+    assert_eq!(
+        read((GOOD.to_string() + &wheels).as_bytes()).unwrap_err(),
+        "26:1: wheels has 43 entries; give at most 40"
+    );
 }
 
 #[test]
 fn every_command_refuses_a_bad_file_and_writes_nothing() {
     let dir = tempfile::tempdir().unwrap();
-    std::fs::write(dir.path().join("model.toml"), "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 0.5\n").unwrap();
+    std::fs::write(dir.path().join("model.toml"), "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 0.5\n")
+        .unwrap();
     std::fs::write(dir.path().join("run.csv"), "time,x,y,heading,wheel_rate,yaw_rate\n0,0,0,0,1,0\n1,1,0,0,1,0\n")
         .unwrap();
-    std::fs::write(dir.path().join("claims.toml"), "[[claim]]\nid = \"a\"\nstatus = \"proved\"\nequations = [\"a = a\"]\n")
-        .unwrap();
+    std::fs::write(
+        dir.path().join("claims.toml"),
+        "[[claim]]\nid = \"a\"\nstatus = \"proved\"\nequations = [\"a = a\"]\n",
+    )
+    .unwrap();
     std::fs::write(dir.path().join("bad.toml"), GOOD.replace("left = \"L/4\"", "left = \"L/\"")).unwrap();
     for arguments in [
         &["discover", "run.csv", "--model", "model.toml", "--out", "report"][..],
@@ -221,7 +230,8 @@ fn a_driven_trailer_moves_the_train_as_a_driven_body_does() {
         let given: Vec<(&str, f64)> = given.iter().map(|(k, v)| (k.as_str(), *v)).collect();
         let model = |section: usize| {
             let mut m = Model::of(&driven_on(section, n), &given).unwrap();
-            for (id, x) in [("rotation-creep", e), ("traverse-creep", 0.2 * numbers[0]), ("front-traverse-creep", 0.1)] {
+            for (id, x) in [("rotation-creep", e), ("traverse-creep", 0.2 * numbers[0]), ("front-traverse-creep", 0.1)]
+            {
                 m = m.with_effect(effect(id, None, &[x]));
             }
             (1..=n).fold(m, |m, i| m.with_effect(effect("trailer-traverse-creep", Some(i), &[0.3 * numbers[i]])))
@@ -240,7 +250,9 @@ fn a_driven_trailer_moves_the_train_as_a_driven_body_does() {
         }
         at.insert("wheel_rate".into(), speed / (0.4 * (1.0 - e)));
         let b = instant(&pushed, &at);
-        for name in ["x'", "y'", "phi'", "v_l"].map(String::from).into_iter().chain((1..=n).map(|i| format!("phi_{i}'"))) {
+        for name in
+            ["x'", "y'", "phi'", "v_l"].map(String::from).into_iter().chain((1..=n).map(|i| format!("phi_{i}'")))
+        {
             let (x, y) = (a[&Symbol::new(&name)], b[&Symbol::new(&name)]);
             prop_assert!((x - y).abs() <= 1e-9 * (1.0 + x.abs()), "{} {} {}", name, x, y);
         }
@@ -342,7 +354,10 @@ fn the_lists_and_claims_know_a_users_vehicles() {
     let dir = Path::new(env!("CARGO_MANIFEST_DIR"));
     let own = ["--vehicles", BUS];
     let list = stdout(&creepage(dir, &[&["vehicles"][..], &own].concat()));
-    assert!(list.contains("\n## pusher-bus\n") && list.contains("- trailer 1: rear section, rear_length from hitch to axle"));
+    assert!(
+        list.contains("\n## pusher-bus\n")
+            && list.contains("- trailer 1: rear section, rear_length from hitch to axle")
+    );
     let json = stdout(&creepage(dir, &[&["vehicles", "--format", "json"][..], &own].concat()));
     let json: Value = serde_json::from_str(&json).unwrap();
     let bus = json["vehicles"].as_array().unwrap().iter().find(|v| v["id"] == "articulated-bus").unwrap();
@@ -388,14 +403,24 @@ fn an_effect_of_the_users_own_may_speak_of_the_users_own_vehicle() {
     let dir = dir.path();
     std::fs::write(dir.join("cart.toml"), GOOD).unwrap();
     let effect = "[[effect]]\nid = \"soft\"\nwhere = \"castor\"\nsays = \"the body leans\"\n[effect.parameters.k]\nunit = \"1\"\nrange = [-1, 1]\nsize = 0.1\n[effect.changes]\nm_c = \"it*(1 + k)\"\n";
-    let cart = GOOD.replace("[vehicle.define]", "[vehicle.define]\nm_c = { formula = \"wheelbase\", unit = \"m\", meaning = \"base\" }");
-    let cart = cart.replace("formula = \"wheelbase\", unit = \"m\", meaning = \"wheelbase\"", "formula = \"m_c\", unit = \"m\", meaning = \"wheelbase\"");
+    let cart = GOOD.replace(
+        "[vehicle.define]",
+        "[vehicle.define]\nm_c = { formula = \"wheelbase\", unit = \"m\", meaning = \"base\" }",
+    );
+    let cart = cart.replace(
+        "formula = \"wheelbase\", unit = \"m\", meaning = \"wheelbase\"",
+        "formula = \"m_c\", unit = \"m\", meaning = \"wheelbase\"",
+    );
     std::fs::write(dir.join("own.toml"), cart).unwrap();
     std::fs::write(dir.join("effect.toml"), effect).unwrap();
     let all = ["effects", "--effects", "effect.toml", "--vehicles", "own.toml"];
     assert!(stdout(&creepage(dir, &all)).contains("- vehicles: my-cart, n-trailer\n"));
     let output = creepage(dir, &["effects", "--effects", "effect.toml", "--vehicles", "cart.toml"]);
-    assert!(stderr(&output).starts_with("creepage: effect.toml:10:1: no vehicle defines \"m_c\""), "{}", stderr(&output));
+    assert!(
+        stderr(&output).starts_with("creepage: effect.toml:10:1: no vehicle defines \"m_c\""),
+        "{}",
+        stderr(&output)
+    );
 }
 
 proptest! {
@@ -407,8 +432,11 @@ proptest! {
     }
 
     #[test]
-    fn damaged_files_are_refused_or_can_be_used(slips in prop::collection::vec(slips::slip(), 1..5)) {
-        if let Ok(vehicles) = read(&slips::damage(GOOD.as_bytes(), &slips)) {
+    fn damaged_files_are_refused_or_can_be_used(
+        good in prop::sample::select(vec![GOOD, ROPE]),
+        slips in prop::collection::vec(slips::slip(), 1..5),
+    ) {
+        if let Ok(vehicles) = read(&slips::damage(good.as_bytes(), &slips)) {
             let own = vehicles.last().unwrap();
             let model = Model::sample(own).unwrap();
             prop_assert!(!describe::latex(&Description::of(&model).unwrap()).is_empty());

@@ -8,7 +8,9 @@ use creepage::describe::{effects_json, effects_text, vehicle_effects_text, vehic
 
 /// List the vehicles a model file may name
 #[derive(Args)]
-#[command(after_help = "Examples:\n  creepage vehicles --format json\n  creepage vehicles --vehicles examples/bus/bus.toml")]
+#[command(
+    after_help = "Examples:\n  creepage vehicles --format json\n  creepage vehicles --vehicles examples/bus/bus.toml"
+)]
 pub struct Vehicles {
     /// How to print them
     #[arg(long, value_enum, default_value_t = Format::Text)]

@@ -122,7 +122,8 @@ fn entry(vehicle: &Vehicle, model: &Model) -> Result<Value> {
             i.instead.as_ref().map(|o| json!({ "role": o.role, "unit": o.unit, "formula": o.formula.to_string() }));
         json!({ "role": role, "unit": i.unit, "meaning": i.meaning, "instead": instead })
     };
-    let trailer = |t: &vehicles::Section| json!({ "name": t.name, "length": t.length.to_string(), "hitch": t.hitch.to_string() });
+    let trailer =
+        |t: &vehicles::Section| json!({ "name": t.name, "length": t.length.to_string(), "hitch": t.hitch.to_string() });
     let constraints = model.constraints();
     let signature = Signature::of(&constraints);
     Ok(json!({

@@ -25,8 +25,10 @@ mod sheet;
 mod spot;
 mod text;
 mod toml_table;
+mod vehicle_constraints;
 mod vehicle_parts;
 mod vehicle_quantities;
+mod vehicle_types;
 mod vehicles_file;
 
 pub use claims_file::{ClaimEntry, read_claims};
@@ -37,11 +39,11 @@ pub use formula_text::FormulaText;
 pub use inputs_file::Inputs;
 pub use known::{Known, KnownEffect, KnownInput, KnownParameter, KnownVehicle};
 pub use model_file::{Initial, InputTiming, ModelFile, Noise, Sensor};
-pub use patch::VEHICLES_FILE;
 pub use output::{write_all_or_nothing, write_whole};
+pub use patch::VEHICLES_FILE;
 pub use run_file::Run;
 pub use spot::Spot;
 pub use text::read_text;
-pub use vehicles_file::{OwnPart, OwnVehicle, VehiclesFile};
+pub use vehicles_file::{OwnConstraint, OwnPart, OwnVehicle, VehiclesFile};
 
 pub(crate) use near::{advice, shown};

@@ -172,7 +172,8 @@ impl ModelFile {
 }
 
 fn top_keys(machine: &Machine) -> Vec<&'static str> {
-    let mut keys = vec!["vehicle", "vehicles", "input_timing", "parameters", "columns", "sensor", "initial", "noise", "effects"];
+    let mut keys =
+        vec!["vehicle", "vehicles", "input_timing", "parameters", "columns", "sensor", "initial", "noise", "effects"];
     keys.extend(machine.tractor.map(|_| "tractor"));
     keys
 }

@@ -19,18 +19,8 @@ const MOST_FACTORS: usize = 6;
 /// What to do about a bare number.
 const NEEDS_UNIT: &str = "declare a parameter in m, as in [vehicle.parameters.wheelbase], and write a formula of such";
 
-const KEYS: [&str; 10] = [
-    "name",
-    "on",
-    "forward",
-    "left",
-    "steering",
-    "trail",
-    "radius",
-    "rate",
-    "rotation_creep",
-    "traverse_creep",
-];
+const KEYS: [&str; 10] =
+    ["name", "on", "forward", "left", "steering", "trail", "radius", "rate", "rotation_creep", "traverse_creep"];
 
 /// A part that is being read.
 struct Reader<'s, 'a, 'd> {
@@ -103,6 +93,10 @@ pub(super) fn read_trailers(own: &mut OwnVehicle, section: &Section) -> Result<(
         if own.vehicle.line {
             return Err(reader.part.name.error("a vehicle on a line has no trailer").help("remove it, or line = true"));
         }
+        if !own.vehicle.coordinates.is_empty() {
+            let error = reader.part.name.error("a vehicle with coordinates of its own has no trailer");
+            return Err(error.help("remove it, or write the constraint of its axle"));
+        }
         own.vehicle.trailers.push(trailer);
         own.trailers.push(reader.part);
     }
@@ -112,7 +106,10 @@ pub(super) fn read_trailers(own: &mut OwnVehicle, section: &Section) -> Result<(
 /// Reads the wheels.
 pub(super) fn read_wheels(own: &mut OwnVehicle, section: &Section) -> Result<()> {
     let example = "[[vehicle.wheels]], with double brackets, before each wheel";
-    let value = section.need("wheels", example)?;
+    let value = match section.get("wheels") {
+        None if !own.vehicle.constraints.is_empty() => return Ok(()),
+        _ => section.need("wheels", example)?,
+    };
     let list = value.list(example)?;
     at_most(&value, list.len(), MOST_WHEELS)?;
     if list.is_empty() {

@@ -9,8 +9,8 @@ use crate::error::Result;
 use crate::formula::{Fun, Symbol};
 use crate::vehicles::{Definition, Input, Instead, Quantity};
 
-/// The most parameters, inputs or defined symbols of a vehicle.
-const MOST: usize = 60;
+/// The most parameters, inputs, defined symbols, coordinates or constraints of a vehicle.
+pub(super) const MOST: usize = 60;
 /// Keys of a model file's `[parameters]` and `[columns]` that mean something of every vehicle, and `it` of effects.
 const TAKEN: [&str; 7] = ["tractor", "trailer_lengths", "hitch_offsets", "time", "heading", "trailer_headings", "it"];
 
@@ -81,7 +81,8 @@ pub(super) fn read_definitions(own: &mut OwnVehicle, section: &Section) -> Resul
     Ok(())
 }
 
-fn read_meaning(section: &Section) -> Result<String> {
+/// Reads what something is.
+pub(super) fn read_meaning(section: &Section) -> Result<String> {
     Ok(section.need("meaning", "meaning = \"what it is, in a line\"")?.text()?.to_string())
 }
 

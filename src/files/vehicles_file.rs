@@ -5,6 +5,7 @@ use super::near::shown;
 use super::spot::Spot;
 use super::text::read_hashed;
 use super::toml_table::{Section, Source, Value};
+use super::vehicle_constraints::{read_constraints, read_coordinates};
 use super::vehicle_parts::{read_trailers, read_wheels};
 use super::vehicle_quantities::{read_definitions, read_inputs, read_quantities};
 use crate::error::{Error, Result};
@@ -46,6 +47,10 @@ pub struct OwnVehicle {
     pub wheels: Vec<OwnPart>,
     /// The trailers.
     pub trailers: Vec<OwnPart>,
+    /// Where each coordinate of its own is named.
+    pub coordinates: Vec<Spot>,
+    /// Its constraints beside those of wheels.
+    pub constraints: Vec<OwnConstraint>,
     /// Where each held name stands.
     pub held: Vec<Spot>,
 }
@@ -59,6 +64,17 @@ pub struct OwnPart {
     pub lengths: BTreeMap<&'static str, FormulaText>,
     /// Where its symbols stand, by key.
     pub symbols: BTreeMap<&'static str, Spot>,
+}
+
+/// The places of a constraint.
+#[derive(Clone, Debug)]
+pub struct OwnConstraint {
+    /// Where it is named.
+    pub name: Spot,
+    /// Where its coefficient stands.
+    pub creep: Spot,
+    /// What stands in its slots, or the energy and the generator it is derived from.
+    pub formulas: Vec<FormulaText>,
 }
 
 impl VehiclesFile {
@@ -113,8 +129,21 @@ pub(super) fn at_most(value: &Value, found: usize, most: usize) -> Result<()> {
     }
 }
 
-const KEYS: [&str; 10] =
-    ["id", "title", "parameters", "inputs", "define", "wheels", "trailers", "line", "held", "instead"];
+const KEYS: [&str; 13] = [
+    "id",
+    "title",
+    "parameters",
+    "inputs",
+    "define",
+    "wheels",
+    "trailers",
+    "line",
+    "held",
+    "instead",
+    "coordinates",
+    "heading",
+    "constraints",
+];
 
 fn read_vehicle(section: &Section, origin: &Arc<Origin>) -> Result<OwnVehicle> {
     section.only(&KEYS)?;
@@ -136,11 +165,15 @@ fn read_vehicle(section: &Section, origin: &Arc<Origin>) -> Result<OwnVehicle> {
         replaced: BTreeMap::new(),
         wheels: vec![],
         trailers: vec![],
+        coordinates: vec![],
+        constraints: vec![],
         held: vec![],
     };
     read_quantities(&mut own, section)?;
     read_inputs(&mut own, section)?;
     read_definitions(&mut own, section)?;
+    read_coordinates(&mut own, section)?;
+    read_constraints(&mut own, section)?;
     read_trailers(&mut own, section)?;
     read_wheels(&mut own, section)?;
     read_held(&mut own, section)?;

@@ -16,8 +16,7 @@ pub(super) fn check(own: &OwnEffect, library: &[Effect], machines: &[Machine]) -
         let touches =
             |key: &str| key.trim_end_matches('*').starts_with(name.as_str()) || name.as_str().starts_with(key);
         let at = own.changes.iter().find(|(key, _)| touches(key)).or(own.changes.iter().next());
-        let message =
-            format!("with all effects together the formula of {name} grows beyond all bounds on {on}");
+        let message = format!("with all effects together the formula of {name} grows beyond all bounds on {on}");
         let error = at.map_or_else(|| own.id.error(message.clone()), |(_, (_, f))| f.error(message.clone()));
         return Err(error.help("write `it` once in a formula, use smaller powers, or put fewer effects on one name"));
     }

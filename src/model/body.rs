@@ -1,8 +1,8 @@
 //! The motion of the body and of what follows it, from the wheels' constraints.
 
-use super::{Model, trailer_heading};
 use super::build::moving;
 use super::constraints::{bodies, direction, rolling, section_heading, trailer_direction};
+use super::{Model, trailer_heading};
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Constraint, Definitions, Heading, Row, Sample, Velocity, solve};
@@ -23,9 +23,8 @@ impl Model {
             // A line has no sideways motion and no yaw.
             ["v_n", "phi'"].into_iter().for_each(|name| d.define(name, Expr::int(0)));
         }
-        let unknown = |names: &[Symbol]| -> Vec<Symbol> {
-            names.iter().filter(|n| d.get(n).is_none()).cloned().collect()
-        };
+        let unknown =
+            |names: &[Symbol]| -> Vec<Symbol> { names.iter().filter(|n| d.get(n).is_none()).cloned().collect() };
         let row = |c: &Constraint| c.row().without(&|rate| d.get(rate).is_some_and(Expr::is_zero));
         // All rows together give the speed the wheels ask for, those of driven trailers among them.
         let driven = self.driven_trailers();

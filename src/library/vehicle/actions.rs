@@ -1,9 +1,9 @@
 //! What the effects of the library do to a vehicle: they know quantities by their letters, L for a wheelbase.
 
-use crate::effects;
+use crate::effects::{self, Effect};
 use crate::error::Result;
 use crate::files::OwnVehicle;
-use crate::formula::{Symbol, Unit};
+use crate::formula::{Expr, Symbol, Unit};
 use crate::library::growth;
 use crate::library::machine::Machine;
 use crate::vehicles::{self, Definition};
@@ -11,7 +11,8 @@ use crate::vehicles::{self, Definition};
 /// That letters of the catalogue mean what they mean there, and formulas stay small whatever effects do to them.
 pub(super) fn check(own: &OwnVehicle, machines: &[Machine]) -> Result<()> {
     for (symbol, definition) in &own.vehicle.define {
-        let Some(usual) = of_catalogue(symbol).filter(|usual| !alike(usual, definition)) else { continue };
+        let usual = of_catalogue(symbol).filter(|usual| is_spoken_of(symbol) && !alike(usual, definition));
+        let Some(usual) = usual else { continue };
         let (meaning, is, found) = (&usual.meaning, &usual.unit, &definition.unit);
         let message = format!("the effects of the library take {symbol} for the {meaning}, in {is}, not in {found}");
         return Err(own.names[symbol].error(message).help("give the symbol another letter"));
@@ -28,6 +29,14 @@ pub(super) fn check(own: &OwnVehicle, machines: &[Machine]) -> Result<()> {
 
 fn of_catalogue(symbol: &Symbol) -> Option<&'static Definition> {
     vehicles::all().iter().find_map(|v| v.define.get(symbol))
+}
+
+/// Whether an effect of the library rewrites a symbol or has it in a formula.
+fn is_spoken_of(symbol: &Symbol) -> bool {
+    let own = std::slice::from_ref(symbol);
+    let one = |(key, f): (&String, &Expr)| Effect { changes: [(key.clone(), f.clone())].into(), ..Effect::default() };
+    let rewrites = |change: (&String, &Expr)| one(change).targets(own, Some(1)).is_some();
+    effects::all().iter().any(|e| e.changes.iter().any(rewrites) || e.formulas().any(|f| f.mentions(symbol)))
 }
 
 fn alike(a: &Definition, b: &Definition) -> bool {

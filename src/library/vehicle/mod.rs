@@ -4,6 +4,7 @@
 //! mean on it what they say: what passes can be used like a vehicle of the catalogue.
 
 mod actions;
+mod constraints;
 mod motion;
 mod names;
 mod places;
@@ -78,6 +79,7 @@ fn check(own: &OwnVehicle) -> Result<()> {
     names::check(own)?;
     units::check(own)?;
     places::check(own)?;
+    constraints::check(own)?;
     motion::check(own)?;
     actions::check(own, &Machine::of_vehicle(&own.vehicle)?)
 }

@@ -13,6 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(super) fn check(own: &OwnVehicle) -> Result<()> {
     let model = Model::sample(&own.vehicle)?;
     held(own, &model)?;
+    loose(own)?;
     match (model.definitions(), &own.instead) {
         (Ok(d), None) => {
             needed(own, &model, &d)?;
@@ -32,10 +33,14 @@ fn undetermined(own: &OwnVehicle, model: &Model, why: &Error) -> Error {
     let broken = model.contradictions().unwrap_or_default();
     let breaks = |name: &str| broken.iter().any(|b| b.strip_prefix(name).is_some_and(|rest| rest.starts_with(", ")));
     let wheel = own.vehicle.wheels.iter().zip(&own.wheels).find(|(w, _)| breaks(&w.name));
-    let spot = wheel.map_or(&own.id, |(_, part)| &part.name);
+    let other = own.vehicle.constraints.iter().zip(&own.constraints).find(|(c, _)| broken.contains(&c.name));
+    let spot = wheel.map(|(_, part)| &part.name).or(other.map(|(_, places)| &places.name)).unwrap_or(&own.id);
     let loose = |w: &Wheel| why.message().ends_with(&format!("do not say what the {} does", w.name));
     if let Some((_, part)) = own.vehicle.wheels.iter().zip(&own.wheels).find(|(w, _)| loose(w)) {
-        return part.name.error(why.message()).help("a wheel that turns freely follows by its trail: write trail = \"…\"");
+        return part
+            .name
+            .error(why.message())
+            .help("a wheel that turns freely follows by its trail: write trail = \"…\"");
     }
     let help = match broken.is_empty() {
         true => {
@@ -48,6 +53,21 @@ fn undetermined(own: &OwnVehicle, model: &Model, why: &Error) -> Error {
         }
     };
     spot.error(why.message()).help(help)
+}
+
+/// That no wheel which turns freely has a measured rate: it follows, and cannot be told to.
+fn loose(own: &OwnVehicle) -> Result<()> {
+    let free = |s: &Option<Symbol>| s.as_ref().is_some_and(|s| own.vehicle.is_free(s));
+    let told = |w: &Wheel| free(&w.steering) && w.rate.is_some() && !free(&w.rate);
+    match own.vehicle.wheels.iter().zip(&own.wheels).find(|(w, _)| told(w)) {
+        None => Ok(()),
+        Some((wheel, part)) => {
+            let rate = wheel.rate.as_ref().map_or("", Symbol::as_str);
+            let error =
+                part.name.error(format!("the wheel \"{}\" turns freely, but its rate {rate} is defined", wheel.name));
+            Err(error.help("give it a rate of its own without a definition, or define its steering"))
+        }
+    }
 }
 
 /// That held names are names of the motion.

@@ -21,7 +21,11 @@ pub(super) fn check(own: &OwnVehicle) -> Result<()> {
         let role = own.vehicle.inputs[input].instead.as_ref().map(|i| Symbol::new(&i.role));
         formula(own, f, |s| Some(s) == role.as_ref() || own.vehicle.parameters.contains_key(s.as_str()))?;
     }
-    own.wheels.iter().chain(&own.trailers).flat_map(|p| p.lengths.values()).try_for_each(|f| formula(own, f, declared))?;
+    own.wheels
+        .iter()
+        .chain(&own.trailers)
+        .flat_map(|p| p.lengths.values())
+        .try_for_each(|f| formula(own, f, declared))?;
     own.vehicle.wheels.iter().zip(&own.wheels).try_for_each(|(w, part)| symbols(own, w, part))?;
     circle(own)
 }
@@ -64,7 +68,13 @@ fn symbols(own: &OwnVehicle, wheel: &Wheel, part: &OwnPart) -> Result<()> {
         if own.names.contains_key(symbol) && !defined(symbol) {
             let unit = unit(own, symbol);
             let message = format!("{key} = \"{symbol}\" is a name of model files, not a symbol of formulas");
-            let letter = if key == "steering" { "delta" } else if key == "radius" { "r" } else { "theta'" };
+            let letter = if key == "steering" {
+                "delta"
+            } else if key == "radius" {
+                "r"
+            } else {
+                "theta'"
+            };
             let line = format!("{letter} = {{ formula = \"{symbol}\", unit = \"{unit}\", meaning = \"…\" }}");
             return Err(spot.error(message).help(format!("below [vehicle.define] write {line}, and here {letter}")));
         }
@@ -110,8 +120,11 @@ fn coefficient(own: &OwnVehicle, key: &str, symbol: &Symbol, spot: &Spot) -> Res
 fn circle(own: &OwnVehicle) -> Result<()> {
     let mut open: BTreeSet<&Symbol> = own.define.keys().collect();
     loop {
-        let ready: Vec<&Symbol> =
-            open.iter().filter(|s| own.define[**s].formula.symbols().iter().all(|p| !open.contains(p))).copied().collect();
+        let ready: Vec<&Symbol> = open
+            .iter()
+            .filter(|s| own.define[**s].formula.symbols().iter().all(|p| !open.contains(p)))
+            .copied()
+            .collect();
         if ready.is_empty() {
             break;
         }

@@ -32,7 +32,8 @@ pub(super) fn check(own: &OwnVehicle) -> Result<()> {
             if !unit(&definition.unit).fits(&unit(wanted)) {
                 let name = symbol.as_ref().map_or("", Symbol::as_str);
                 let message = format!("the {key} {name} is in {}, but a {key} is in {wanted}", definition.unit);
-                let error = part.symbols.get(key).map_or_else(|| part.name.error(&message), |spot| spot.error(&message));
+                let error =
+                    part.symbols.get(key).map_or_else(|| part.name.error(&message), |spot| spot.error(&message));
                 return Err(error.help("name another symbol, or correct its definition"));
             }
         }

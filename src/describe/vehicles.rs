@@ -126,14 +126,17 @@ fn entry(vehicle: &Vehicle, model: &Model) -> Result<Value> {
         |t: &vehicles::Section| json!({ "name": t.name, "length": t.length.to_string(), "hitch": t.hitch.to_string() });
     let constraints = model.constraints();
     let signature = Signature::of(&constraints);
-    Ok(json!({
+    let mut entry = json!({
         "id": vehicle.id, "title": vehicle.title, "undetermined": vehicle.instead,
         "parameters": vehicle.parameters.iter().map(parameter).collect::<Vec<_>>(),
         "inputs": vehicle.inputs.iter().map(input).collect::<Vec<_>>(),
-        "trailers": vehicle.trailers.iter().map(trailer).collect::<Vec<_>>(),
         "signature": counted(&signature, &[("text", signature.to_string())]),
         "constraints": constraints.iter().map(|c| constraint(model, c)).collect::<Vec<_>>(),
-    }))
+    });
+    if !vehicle.trailers.is_empty() {
+        entry["trailers"] = vehicle.trailers.iter().map(trailer).collect();
+    }
+    Ok(entry)
 }
 
 fn constraint(model: &Model, c: &Constraint) -> Value {

@@ -1,7 +1,9 @@
 //! The motion of the body and of what follows it, from the wheels' constraints.
 
 use super::build::moving;
-use super::constraints::{bodies, direction, rolling, section_heading, trailer_direction};
+use super::constraints::{
+    bodies, direction, rolling, section_heading, trailer_creep, trailer_direction, trailer_lengths,
+};
 use super::{Model, trailer_heading};
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
@@ -33,7 +35,11 @@ impl Model {
         let wanted = unknown(&wanted);
         let (r, t) = self.rows("v_d", driven);
         let rows: Vec<_> = r.iter().chain(&t).map(row).collect();
-        let together = solve::together(&rows, &wanted).ok_or_else(|| self.free(&rows, &wanted))?;
+        let together = match driven {
+            0 => solve::together(&rows, &wanted),
+            _ => self.pushed(&unknown(&["v_n".into(), "phi'".into()]), driven, &row),
+        };
+        let together = together.ok_or_else(|| self.free(&rows, &wanted))?;
         // The direction rows of the body alone give the rest from v_l, where they can; an effect may make v_l a state.
         // Where none may, v_l may vanish while the vehicle moves sideways, and says nothing of the rest.
         let mut found = Vec::new();
@@ -50,6 +56,39 @@ impl Model {
             }
         }
         Ok(())
+    }
+
+    /// The forward speed that a driven trailer asks of the body, and what else the body's rows give.
+    ///
+    /// The directions alone make every speed a multiple of the body's but for what inputs add, so that the trailer's
+    /// rolling constraint is one equation in v_d; solving all rows at once would cost more with every trailer.
+    fn pushed(
+        &self,
+        unknown: &[Symbol],
+        driven: usize,
+        row: &impl Fn(&Constraint) -> Row,
+    ) -> Option<Vec<(Symbol, Expr)>> {
+        let (r, t) = self.rows("v_d", 0);
+        let rows: Vec<Row> = r.iter().chain(&t).map(row).collect();
+        let speed = Symbol::from("v_d");
+        if let Some(by_body) = solve::together(&rows, &[std::slice::from_ref(&speed), unknown].concat()) {
+            return Some(by_body);
+        }
+        let mut found = solve::chained(&rows, unknown)?;
+        let mut chain = Definitions::default();
+        [("v_l", "v_d"), ("v_t", "v_n")].into_iter().for_each(|(name, is)| chain.define(name, Expr::sym(is)));
+        found.iter().for_each(|(name, formula)| chain.define(name.clone(), formula.clone()));
+        (1..=driven).try_for_each(|i| self.solve_trailer(i, &mut chain)).ok()?;
+        let lengths = |i| <[Symbol; 2]>::from(trailer_lengths(i)).into_iter().chain([trailer_creep(i)]);
+        let kept: Vec<Symbol> = (1..=driven).flat_map(lengths).collect();
+        let chain = chain.without(&|name| kept.contains(name));
+        let pushing = (1..=driven).flat_map(|i| self.vehicle.wheels_on(i).map(move |w| (i, w)));
+        let rolls = |(i, w): (usize, &Wheel)| rolling(w, &moving(i), &section_heading(i)).filter(|_| self.is_known(&w.rate));
+        let rolling = pushing.filter(|(_, w)| self.is_known(&w.steering)).find_map(rolls)?.row();
+        let (slope, rest) = line_in(&rolling, &chain);
+        let rest = (-&rest).tidy();
+        found.push((speed, (!slope.is_zero()).then(|| &rest / &slope)?));
+        Some(found)
     }
 
     /// Whether a wheel's angle and rate are known.
@@ -163,6 +202,24 @@ fn in_body(c: &Constraint, speed: &str) -> Constraint {
         "x'" => Some(along(Heading::x())),
         "y'" => Some(along(Heading::y())),
         _ => None,
+    })
+}
+
+/// A row as slope·v_d + rest, the names of a chain that begins at v_d written out.
+fn line_in(row: &Row, chain: &Definitions) -> (Expr, Expr) {
+    let (mut slope, mut rest) = (Expr::int(0), Expr::int(0));
+    for (rate, c) in row.terms() {
+        let [at_rest, at_one] = [0, 1].map(|v| written_out(&Expr::sym(rate.clone()), chain, &Expr::int(v)));
+        slope = &slope + &(c * &(&at_one - &at_rest));
+        rest = &rest + &(c * &at_rest);
+    }
+    (slope, rest)
+}
+
+fn written_out(formula: &Expr, chain: &Definitions, speed: &Expr) -> Expr {
+    formula.substitute(&|s| match s.as_str() {
+        "v_d" => Some(speed.clone()),
+        _ => chain.get(s).map(|f| written_out(f, chain, speed)),
     })
 }
 

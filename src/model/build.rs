@@ -206,7 +206,7 @@ impl Model {
     }
 
     /// Adds a trailer: its forward speed v_i, sideways speed vt_i and the rate of its heading.
-    fn solve_trailer(&self, i: usize, d: &mut Definitions) -> Result<()> {
+    pub(super) fn solve_trailer(&self, i: usize, d: &mut Definitions) -> Result<()> {
         self.define_trailer(i, d);
         let axle = behind(&moving(i - 1), i);
         let rate = trailer_heading(i).rate();

@@ -788,7 +788,7 @@ pub const BAD_CONSTRAINTS: &[Case] = &[
     case(
         "creep taken",
         &[("creep = \"e_rc\"", "creep = \"b\"")],
-        "38:8: with its slots put in, 1 - b has no unit: 1 is in 1, b is in m; every term of a constraint has one unit; correct a slot",
+        "40:9: the coefficient b is also a declared name; give it a name of its own, such as e_b",
     ),
     case(
         "creep coordinate",
@@ -818,7 +818,11 @@ pub const BAD_CONSTRAINTS: &[Case] = &[
         )],
         "41:9: slots must be a table, not a text; write slots = { … } with drum, pays', turns', such as \"q1'\" = \"cos(phi)*x'\"",
     ),
-    case("slot missing", &[("drum = \"b\", ", "")], "41:1: a constraint of type cable needs the slot drum; it is: "),
+    case(
+        "slot missing",
+        &[("drum = \"b\", ", "")],
+        "41:1: the slot drum of type cable is missing; write drum = \"…\" in slots",
+    ),
     case(
         "slot of the catalogue missing",
         &[
@@ -831,7 +835,7 @@ pub const BAD_CONSTRAINTS: &[Case] = &[
                 "slots = { \"q'\" = \"theta'\", sigma = \"b\" }\n",
             ),
         ],
-        "41:1: a constraint of type rolling needs the slot pi'; it is: quasi-velocity: speed of the contact along the wheel, m/s",
+        "41:1: the slot pi' of type rolling is missing; write \"pi'\" = \"…\" in slots, quasi-velocity: speed of the contact along the wheel, m/s",
     ),
     case(
         "slot unknown",
@@ -866,12 +870,12 @@ pub const BAD_CONSTRAINTS: &[Case] = &[
     case(
         "slot name",
         &[("drum = \"b\"", "drum = \"bb\"")],
-        "41:58: nothing here is called \"bb\"; it has: b, drum_radius, drum_rate, phi', theta', yaw_rate, x, x', y, y', phi, phi', theta, theta'\n  bb\n  ^",
+        "41:58: nothing here is called \"bb\"; it has: b, drum_radius, drum_rate, phi, phi', theta, theta', x, x', y, y', yaw_rate\n  bb\n  ^",
     ),
     case(
         "slot rate of nothing",
         &[("\"turns'\" = \"theta'\"", "\"turns'\" = \"psi'\"")],
-        "41:74: nothing here is called \"psi'\"; did you mean \"phi'\"? it has: b, drum_radius, drum_rate, phi', theta', yaw_rate, x, x', y, y', phi, phi', theta, theta'\n  psi'\n  ^",
+        "41:74: nothing here is called \"psi'\"; did you mean \"phi'\"? it has: b, drum_radius, drum_rate, phi, phi', theta, theta', x, x', y, y', yaw_rate\n  psi'\n  ^",
     ),
     case(
         "slot unit",

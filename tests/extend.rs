@@ -10,7 +10,7 @@ mod effect;
 #[path = "extend/vehicle.rs"]
 mod vehicle;
 
-use creepage::claims::{self, Options, ledger, verify};
+use creepage::claims::{self, Domain, Options, Status, ledger, verify};
 use creepage::describe::{self, Description, vehicle_effects_text};
 use creepage::discrepancy::discover::{Request, discover};
 use creepage::discrepancy::report::{Report, Verdict};
@@ -121,8 +121,14 @@ fn a_new_effect_is_described_simulated_verified_discovered_and_listed() {
     let (steady, _) = driven(&model, [|_| 10.0, |_| 0.5]);
     assert!((steady.column("lateral_speed").unwrap()[9] + 0.12 * 0.25).abs() < 1e-12);
     let machine = claims::Machine::of_model(&model);
-    let statement = claims::Statement::parse(&[("v_t", "e_tc*v_l - yaw_slip.q*phi'*abs(phi')")]).unwrap();
-    assert!(claims::prove(&machine, &statement).holds());
+    let free = ["r", "theta'", "e_rc", "e_tc", "phi'", "yaw_slip.q"].map(|name| (name, Domain::Any));
+    let slides = claims::Claim::new("slides", Status::Sampled, "what the effect does to v_t").sample(
+        "at exact points",
+        &[("v_t", "e_tc*v_l - yaw_slip.q*phi'*abs(phi')")],
+        move |s, cases| claims::at_points(&machine, s, &free, cases),
+    );
+    let made = verify(&[slides], &Options::default(), &|_| ());
+    assert!(made.all_earned(), "{}", ledger::text(&made));
     let inputs: [fn(f64) -> f64; 2] =
         [|t| 10.0 + 4.0 * (0.9 * t).sin(), |t| 0.9 * (0.5 * t).cos() + 0.4 * (0.23 * t).sin()];
     let text = "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 0.1\n";

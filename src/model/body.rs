@@ -83,7 +83,8 @@ impl Model {
         let kept: Vec<Symbol> = (1..=driven).flat_map(lengths).collect();
         let chain = chain.without(&|name| kept.contains(name));
         let pushing = (1..=driven).flat_map(|i| self.vehicle.wheels_on(i).map(move |w| (i, w)));
-        let rolls = |(i, w): (usize, &Wheel)| rolling(w, &moving(i), &section_heading(i)).filter(|_| self.is_known(&w.rate));
+        let rolls =
+            |(i, w): (usize, &Wheel)| rolling(w, &moving(i), &section_heading(i)).filter(|_| self.is_known(&w.rate));
         let rolling = pushing.filter(|(_, w)| self.is_known(&w.steering)).find_map(rolls)?.row();
         let (slope, rest) = line_in(&rolling, &chain);
         let rest = (-&rest).tidy();

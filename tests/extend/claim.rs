@@ -5,7 +5,7 @@ use creepage::vehicles::Vehicle;
 pub fn push(bus: &Vehicle) -> Claim {
     let creeps = ["e_rc", "e_tc", "e_f", "e_tc_1"];
     let ideal = creeps.iter().fold(Machine::of_vehicle(bus, 0), |machine, e| machine.with_text(e, "0"));
-    let pushed = [("v_d*(cos(phi - phi_1) + c_1/L*sin(phi - phi_1)*tan(delta))", "r*theta'")];
+    let pushed = [("v_d", "r*theta'/(cos(phi - phi_1) + c_1/L*sin(phi - phi_1)*tan(delta))")];
     Claim::new("bus-push", Status::Proved, "the speed of a bus that its rear section pushes")
         .at("CONTRIBUTING, a new claim")
         .under("no creep; the wheel rate of the rear section is measured")

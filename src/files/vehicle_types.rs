@@ -1,5 +1,6 @@
 //! `type` of `[[vehicle.constraints]]`: one of the catalogue, or a table that says a new one.
 
+use super::effect_parameter::read_unit;
 use super::near;
 use super::toml_table::{Section, Value};
 use super::vehicle_constraints::bounded;
@@ -101,7 +102,7 @@ fn slots(kind: &ConstraintType, table: &Section) -> Result<Vec<Slot>> {
     let mut found: Vec<Slot> = Vec::new();
     for element in value.list("slots = [{ name = \"drum\", meaning = \"its radius, m\" }]")? {
         let section = element.section("slots".into())?;
-        section.only(&["name", "meaning", "latex", "formula", "optional"])?;
+        section.only(&["name", "meaning", "unit", "latex", "formula", "optional"])?;
         let name = section.need("name", "name = \"drum\"")?;
         check_symbol(&name, name.text()?)?;
         let formula = section.get("formula").map(|v| bounded(&v)).transpose()?.map(|f| f.formula);
@@ -109,6 +110,7 @@ fn slots(kind: &ConstraintType, table: &Section) -> Result<Vec<Slot>> {
         let slot = Slot {
             name: if formula.is_none() { slot_named(&name, kind)? } else { Symbol::new(name.text()?) },
             meaning: text("meaning")?.unwrap_or_default(),
+            unit: section.get("unit").map(|_| read_unit(&section)).transpose()?,
             latex: text("latex")?,
             formula,
             optional: section.get("optional").map_or(Ok(false), |v| v.truth())?,

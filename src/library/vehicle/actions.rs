@@ -1,11 +1,11 @@
 //! What the effects of the library do to a vehicle: they know quantities by their letters, L for a wheelbase.
 
-use crate::effects::{self, Effect};
+use crate::effects;
 use crate::error::Result;
 use crate::files::OwnVehicle;
 use crate::formula::{Expr, Symbol, Unit};
-use crate::library::growth;
 use crate::library::machine::Machine;
+use crate::library::{alone, growth};
 use crate::vehicles::{self, Definition};
 
 /// That letters of the catalogue mean what they mean there, and formulas stay small whatever effects do to them.
@@ -34,8 +34,7 @@ fn of_catalogue(symbol: &Symbol) -> Option<&'static Definition> {
 /// Whether an effect of the library rewrites a symbol or has it in a formula.
 fn is_spoken_of(symbol: &Symbol) -> bool {
     let own = std::slice::from_ref(symbol);
-    let one = |(key, f): (&String, &Expr)| Effect { changes: [(key.clone(), f.clone())].into(), ..Effect::default() };
-    let rewrites = |change: (&String, &Expr)| one(change).targets(own, Some(1)).is_some();
+    let rewrites = |(key, f): (&String, &Expr)| alone(key, f).targets(own, Some(1)).is_some();
     effects::all().iter().any(|e| e.changes.iter().any(rewrites) || e.formulas().any(|f| f.mentions(symbol)))
 }
 

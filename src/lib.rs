@@ -15,6 +15,7 @@ pub mod library;
 pub mod mechanism;
 pub mod model;
 pub mod motion;
+pub mod origin;
 pub mod picture;
 pub mod theory;
 pub mod vehicles;

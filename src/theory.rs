@@ -35,3 +35,5 @@ pub mod symmetry {}
 pub mod viscous {}
 #[doc = include_str!("../theory/10-open.md")]
 pub mod open {}
+#[doc = include_str!("../CONTRIBUTING.md")]
+pub mod extending {}

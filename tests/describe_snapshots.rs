@@ -5,6 +5,7 @@ mod models;
 use creepage::describe::{self, CreepLimits, Description};
 use creepage::effects;
 use creepage::model::Model;
+use creepage::vehicles;
 
 fn reviewed(run: impl FnOnce()) {
     let mut settings = insta::Settings::clone_current();
@@ -74,16 +75,18 @@ fn descriptions_as_json() {
 
 #[test]
 fn the_list_of_vehicles() {
-    reviewed(|| insta::assert_snapshot!("vehicles-text", describe::vehicles_text().unwrap()));
-    let json = describe::vehicles_json().unwrap();
+    reviewed(|| insta::assert_snapshot!("vehicles-text", describe::vehicles_text(vehicles::all()).unwrap()));
+    let json = describe::vehicles_json(vehicles::all()).unwrap();
     reviewed(|| insta::assert_snapshot!("vehicles-json", pretty(&json)));
     assert_eq!(json["vehicles"].as_array().unwrap().len(), creepage::vehicles::all().len() + 1);
 }
 
 #[test]
 fn the_list_of_effects() {
-    reviewed(|| insta::assert_snapshot!("effects-text", describe::effects_text(effects::all()).unwrap()));
-    let json = describe::effects_json(effects::all()).unwrap();
+    reviewed(|| {
+        insta::assert_snapshot!("effects-text", describe::effects_text(vehicles::all(), effects::all()).unwrap())
+    });
+    let json = describe::effects_json(vehicles::all(), effects::all()).unwrap();
     reviewed(|| insta::assert_snapshot!("effects-json", pretty(&json)));
     let applies = |id: &str| {
         let entries = json["effects"].as_array().unwrap();

@@ -1,10 +1,9 @@
 //! What the program derives, by name, for statements to speak of.
 
-use crate::error::Result;
 use crate::formula::{Expr, Normal, Scalar, Symbol};
 use crate::mechanism::Definitions;
 use crate::model::{Model, Trailer};
-use crate::vehicles;
+use crate::vehicles::{self, Vehicle};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, OnceLock};
 
@@ -32,15 +31,20 @@ impl Machine {
 
     /// The same with trailers behind it.
     pub fn train(vehicle: &str, trailers: usize) -> Self {
-        Self::try_train(vehicle, trailers).unwrap_or_default()
+        vehicles::named(vehicle).map_or_else(Self::default, |v| Self::of_vehicle(v, trailers))
     }
 
-    fn try_train(vehicle: &str, trailers: usize) -> Result<Self> {
-        let ones: Vec<(&str, f64)> = vehicles::named(vehicle)
-            .map(|v| v.parameters.keys().map(|p| (p.as_str(), 1.0)).collect())
-            .unwrap_or_default();
-        let trailers = vec![Trailer { length: 1.0, hitch: 0.0 }; trailers];
-        Ok(Self::of_model(&Model::new(vehicle, &ones)?.with_trailers(&trailers)))
+    /// The same of any vehicle; one whose constraints do not determine its motion defines nothing.
+    ///
+    /// ```
+    /// use creepage::{claims::Machine, library};
+    /// let vehicles = library::vehicles_with_own("examples/bus/bus.toml").unwrap();
+    /// let bus = vehicles.iter().find(|v| v.id == "articulated-bus").unwrap();
+    /// assert!(Machine::of_vehicle(bus, 0).formula("phi_1'").is_some());
+    /// ```
+    pub fn of_vehicle(vehicle: &Vehicle, trailers: usize) -> Self {
+        let behind = vec![Trailer { length: 1.0, hitch: 0.0 }; trailers];
+        Model::sample(vehicle).map_or_else(|_| Self::default(), |m| Self::of_model(&m.with_trailers(&behind)))
     }
 
     /// The equations of motion of a model, its effects included; parameters, inputs and creeps are free.

@@ -3,11 +3,11 @@
 use super::{Claim, Machine, Status, prove};
 use crate::error::Result;
 use crate::files::{ClaimEntry, read_claims};
-use crate::vehicles;
+use crate::vehicles::Vehicle;
 use std::path::Path;
 
 /// The claims of a TOML file: equations that the normal form proves or refutes, about formulas or about the derived
-/// motion of a vehicle of the catalogue.
+/// motion of one of these vehicles.
 ///
 /// ```toml
 /// [[claim]]
@@ -20,19 +20,20 @@ use std::path::Path;
 ///
 /// # Errors
 /// With file, line and column when the file is not of this form.
-pub fn read(path: &Path) -> Result<Vec<Claim>> {
-    let vehicles: Vec<&str> = vehicles::all().iter().map(|v| v.id.as_str()).collect();
-    Ok(read_claims(path, &vehicles)?.into_iter().map(|entry| claim(entry, path)).collect())
+pub fn read(path: &Path, vehicles: &[Vehicle]) -> Result<Vec<Claim>> {
+    let ids: Vec<&str> = vehicles.iter().map(|v| v.id.as_str()).collect();
+    Ok(read_claims(path, &ids)?.into_iter().map(|entry| claim(entry, path, vehicles)).collect())
 }
 
-fn claim(entry: ClaimEntry, path: &Path) -> Claim {
+fn claim(entry: ClaimEntry, path: &Path, vehicles: &[Vehicle]) -> Claim {
     let status = match entry.status.as_str() {
         "proved" => Status::Proved,
         "corrected" => Status::Corrected,
         "refuted" => Status::Refuted,
         _ => Status::Open,
     };
-    let machine = entry.vehicle.as_ref().map_or_else(Machine::default, |(v, n)| Machine::train(v, *n));
+    let spoken_of = |(id, n): &(String, usize)| Some(Machine::of_vehicle(vehicles.iter().find(|v| v.id == *id)?, *n));
+    let machine = entry.vehicle.as_ref().and_then(spoken_of).unwrap_or_default();
     let claim = Claim::new(&entry.id, status, &entry.says).at(&path.display().to_string()).under(&entry.under);
     let claim = match entry.equations.is_empty() {
         true => claim,

@@ -1,13 +1,11 @@
 //! `creepage describe`
 
 use super::lists::pretty;
-use super::own_effects::OwnEffects;
+use super::own::Own;
 use super::print;
 use clap::{Args, ValueEnum};
 use creepage::Result;
 use creepage::describe::{CreepLimits, Description, json, latex, text};
-use creepage::dynamics;
-use creepage::files::ModelFile;
 use creepage::mechanism::Limits;
 use creepage::model::Model;
 use std::path::PathBuf;
@@ -19,6 +17,7 @@ Example:
   creepage describe examples/runs/steering/model.toml
   creepage describe examples/runs/steering/model.toml --format latex > model.tex
   creepage describe report/model.patched.toml --rotation-limits=-0.2,0.2 --traverse-limits=-0.1,0.1
+  creepage describe examples/bus/model.toml
   creepage describe report/model.patched.toml --effects examples/effects/my_effects.toml
 
 A coefficient that the model gives is named by its regime; limits tell creep from sliding, and name every coefficient.")]
@@ -36,7 +35,7 @@ pub struct Arguments {
     #[arg(long, value_name = "E2,E1", allow_hyphen_values = true, value_parser = limits)]
     traverse_limits: Option<Limits>,
     #[command(flatten)]
-    own: OwnEffects,
+    own: Own,
 }
 
 fn limits(text: &str) -> std::result::Result<Limits, String> {
@@ -52,11 +51,10 @@ enum Format {
 
 /// Carries out the command.
 pub fn run(arguments: &Arguments) -> Result<()> {
-    let library = &arguments.own.library()?;
-    let file = ModelFile::read(&arguments.model, &dynamics::known(library))?;
+    let (file, library) = &arguments.own.read(&arguments.model)?;
     let roles: Vec<String> = file.columns.inputs.iter().map(|i| i.role.clone()).collect();
     let limits = CreepLimits { rotation: arguments.rotation_limits, traverse: arguments.traverse_limits };
-    let description = Description::of(&Model::from_file(&file, library, &roles)?)?.with_limits(limits);
+    let description = Description::of(&Model::from_file(file, library, &roles)?)?.with_limits(limits);
     print(&match arguments.format {
         Format::Text => text(&description),
         Format::Latex => latex(&description),

@@ -1,14 +1,13 @@
 //! `creepage discover`
 
-use super::own_effects::OwnEffects;
+use super::own::Own;
 use super::print;
 use super::progress::Progress;
 use clap::Args;
 use creepage::discrepancy::discover::{Discovery, Request, discover};
 use creepage::discrepancy::html::{gap_svg, html};
 use creepage::discrepancy::summary::summary_text;
-use creepage::dynamics;
-use creepage::files::{ModelFile, Run, write_all_or_nothing};
+use creepage::files::{ModelFile, Run, VEHICLES_FILE, write_all_or_nothing};
 use creepage::model::Model;
 use creepage::{Error, Result};
 use std::path::{Path, PathBuf};
@@ -22,7 +21,8 @@ Example:
     --model examples/runs/cornering/model.toml --out report
   creepage discover RUN.csv --model MODEL.toml --effects examples/effects/my_effects.toml --out report
 
-Writes report.json, report.html, gap.svg and model.patched.toml into the output folder.
+Writes report.json, report.html, gap.svg and model.patched.toml into the output folder, and the file of a vehicle of
+your own beside them, so that the patched model runs again.
 Exit code 0 whatever the verdict, 2 for unusable input, 1 for a failed run.")]
 pub struct Arguments {
     /// Measured runs, CSV
@@ -44,7 +44,7 @@ pub struct Arguments {
     #[arg(long, default_value_t = 0)]
     seed: u64,
     #[command(flatten)]
-    own: OwnEffects,
+    own: Own,
 }
 
 fn horizon(text: &str) -> std::result::Result<f64, String> {
@@ -58,14 +58,13 @@ fn horizon(text: &str) -> std::result::Result<f64, String> {
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let progress = Progress::new(quiet);
     progress.say("reading the runs");
-    let library = &arguments.own.library()?;
-    let file = ModelFile::read(&arguments.model, &dynamics::known(library))?;
-    Model::check_motion(&file)?;
-    let read = |paths: &[PathBuf]| paths.iter().map(|p| Run::read(p, &file)).collect::<Result<Vec<_>>>();
+    let (file, library) = &arguments.own.read(&arguments.model)?;
+    Model::check_motion(file)?;
+    let read = |paths: &[PathBuf]| paths.iter().map(|p| Run::read(p, file)).collect::<Result<Vec<_>>>();
     let (runs, held_out) = (read(&arguments.runs)?, read(&arguments.held_out)?);
     distinct(&arguments.runs, &arguments.held_out)?;
     let request = Request {
-        file: &file,
+        file,
         runs: &runs,
         held_out: &held_out,
         library,
@@ -74,7 +73,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     };
     let found = discover(&request, &|what| progress.say(what))?;
     drop(progress);
-    write(&found, &file, &arguments.out)?;
+    write(&found, file, &arguments.out)?;
     if !quiet {
         print(&screen(&found, &arguments.out));
     }
@@ -97,15 +96,15 @@ fn distinct(runs: &[PathBuf], held_out: &[PathBuf]) -> Result<()> {
 
 fn write(found: &Discovery, file: &ModelFile, out: &Path) -> Result<()> {
     let json = serde_json::to_string_pretty(&found.report).map_err(|e| Error::run(format!("no report.json: {e}")))?;
-    write_all_or_nothing(
-        out,
-        &[
-            ("report.json", format!("{json}\n").as_bytes()),
-            ("report.html", html(&found.report, &found.pictures).as_bytes()),
-            ("gap.svg", gap_svg(&found.report, &found.pictures).as_bytes()),
-            ("model.patched.toml", found.patched(file).as_bytes()),
-        ],
-    )
+    let mut files = vec![
+        ("report.json", format!("{json}\n")),
+        ("report.html", html(&found.report, &found.pictures)),
+        ("gap.svg", gap_svg(&found.report, &found.pictures)),
+        ("model.patched.toml", found.patched(file)),
+    ];
+    files.extend(file.vehicle_origin().map(|o| (VEHICLES_FILE, o.text.clone())));
+    let bytes: Vec<(&str, &[u8])> = files.iter().map(|(name, text)| (*name, text.as_bytes())).collect();
+    write_all_or_nothing(out, &bytes)
 }
 
 fn screen(found: &Discovery, out: &Path) -> String {

@@ -1,6 +1,6 @@
 //! `creepage vehicles` and `creepage effects`
 
-use super::own_effects::OwnEffects;
+use super::own::{Own, OwnVehicles};
 use super::print;
 use clap::{Args, ValueEnum};
 use creepage::Result;
@@ -8,11 +8,15 @@ use creepage::describe::{effects_json, effects_text, vehicle_effects_text, vehic
 
 /// List the vehicles a model file may name
 #[derive(Args)]
-#[command(after_help = "Example:\n  creepage vehicles --format json")]
+#[command(
+    after_help = "Examples:\n  creepage vehicles --format json\n  creepage vehicles --vehicles examples/bus/bus.toml"
+)]
 pub struct Vehicles {
     /// How to print them
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    #[command(flatten)]
+    own: OwnVehicles,
 }
 
 /// List the effects that can be named, with their equations
@@ -21,7 +25,8 @@ pub struct Vehicles {
 Examples:
   creepage effects
   creepage effects --vehicle car
-  creepage effects --effects examples/effects/my_effects.toml")]
+  creepage effects --effects examples/effects/my_effects.toml
+  creepage effects --vehicles examples/bus/bus.toml --vehicle articulated-bus")]
 pub struct Effects {
     /// Only those of one vehicle, with the equations they rewrite there and the effects that are the same
     #[arg(long, value_name = "NAME", conflicts_with = "format")]
@@ -30,7 +35,7 @@ pub struct Effects {
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
     #[command(flatten)]
-    own: OwnEffects,
+    own: Own,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -46,23 +51,24 @@ pub fn pretty(value: &serde_json::Value) -> String {
 
 /// Carries out `creepage vehicles`.
 pub fn vehicles(arguments: &Vehicles) -> Result<()> {
+    let all = arguments.own.all()?;
     print(&match arguments.format {
-        Format::Text => vehicles_text()?,
-        Format::Json => pretty(&vehicles_json()?),
+        Format::Text => vehicles_text(&all)?,
+        Format::Json => pretty(&vehicles_json(&all)?),
     });
     Ok(())
 }
 
 /// Carries out `creepage effects`.
 pub fn effects(arguments: &Effects) -> Result<()> {
-    let library = arguments.own.library()?;
+    let (vehicles, library) = arguments.own.catalogues()?;
     if let Some(vehicle) = &arguments.vehicle {
-        print(&vehicle_effects_text(vehicle, &library)?);
+        print(&vehicle_effects_text(vehicle, &vehicles, &library)?);
         return Ok(());
     }
     print(&match arguments.format {
-        Format::Text => effects_text(&library)?,
-        Format::Json => pretty(&effects_json(&library)?),
+        Format::Text => effects_text(&vehicles, &library)?,
+        Format::Json => pretty(&effects_json(&vehicles, &library)?),
     });
     Ok(())
 }

@@ -4,7 +4,7 @@ mod describe;
 mod discover;
 mod figures;
 mod lists;
-mod own_effects;
+mod own;
 mod progress;
 mod simulate;
 mod verify;

@@ -1,10 +1,10 @@
 //! `creepage simulate`
 
-use super::own_effects::OwnEffects;
+use super::own::Own;
 use super::print;
 use super::progress::Progress;
 use clap::Args;
-use creepage::dynamics::{self, Dynamics, Start, simulate_dynamics};
+use creepage::dynamics::{Dynamics, Start, simulate_dynamics};
 use creepage::files::{DynamicsEntry, Initial, Inputs, ModelFile, write_whole};
 use creepage::model::Model;
 use creepage::motion::{Integrator, Method, Signals, Table, simulate_model};
@@ -38,7 +38,7 @@ pub struct Arguments {
     #[arg(long, default_value_t = 1e-12, value_parser = tolerance)]
     atol: f64,
     #[command(flatten)]
-    own: OwnEffects,
+    own: Own,
 }
 
 fn tolerance(text: &str) -> std::result::Result<f64, String> {
@@ -52,16 +52,15 @@ fn tolerance(text: &str) -> std::result::Result<f64, String> {
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let progress = Progress::new(quiet);
     progress.say("integrating");
-    let library = &arguments.own.library()?;
-    let file = ModelFile::read(&arguments.model, &dynamics::known(library))?;
+    let (file, library) = &arguments.own.read(&arguments.model)?;
     let integrator = Integrator::default().with_tolerance(arguments.rtol, arguments.atol);
     let table = match &file.dynamics {
-        Some(entry) => forced(&file, entry, &arguments.inputs, integrator)?,
+        Some(entry) => forced(file, entry, &arguments.inputs, integrator)?,
         None => {
-            Model::check_motion(&file)?;
-            let inputs = Inputs::read(&arguments.inputs, &file)?;
-            let model = Model::from_file(&file, library, &inputs.roles)?;
-            let (signals, start) = begun(&file, &inputs);
+            Model::check_motion(file)?;
+            let inputs = Inputs::read(&arguments.inputs, file)?;
+            let model = Model::from_file(file, library, &inputs.roles)?;
+            let (signals, start) = begun(file, &inputs);
             let start: Vec<f64> = [start.x, start.y, start.heading].into_iter().chain(start.trailer_headings).collect();
             simulate_model(&model, &signals, &inputs.time, &start, &integrator)?
         }
@@ -92,7 +91,7 @@ fn forced(file: &ModelFile, entry: &DynamicsEntry, inputs: &Path, integrator: In
 }
 
 fn at_origin(file: &ModelFile) -> Initial {
-    Initial { trailer_headings: vec![0.0; file.trailer_lengths.len()], ..Initial::default() }
+    Initial { trailer_headings: vec![0.0; file.trailers()], ..Initial::default() }
 }
 
 /// The table as CSV, numbers in the shortest form that reads back.

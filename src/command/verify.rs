@@ -1,6 +1,7 @@
 //! `creepage verify` and `creepage claims`
 
 use super::lists::pretty;
+use super::own::OwnVehicles;
 use super::print;
 use super::progress::Progress;
 use clap::{Args, ValueEnum};
@@ -16,6 +17,7 @@ Examples:
   creepage verify
   creepage verify eq-21 theorem-single-body --cases 10000 --seed 7
   creepage verify --claims my_claims.toml mine-1
+  creepage verify --claims examples/bus/claims.toml --vehicles examples/bus/bus.toml bus-front
 
 Exit code 0 only if every claim earns the status stated for it.")]
 pub struct Arguments {
@@ -31,6 +33,8 @@ pub struct Arguments {
     /// Adds claims of your own: identities of formulas, see the README
     #[arg(long, value_name = "FILE.toml")]
     claims: Option<PathBuf>,
+    #[command(flatten)]
+    own: OwnVehicles,
     /// How to print the ledger
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -51,6 +55,8 @@ pub struct List {
     /// Adds claims of your own
     #[arg(long, value_name = "FILE.toml")]
     claims: Option<PathBuf>,
+    #[command(flatten)]
+    own: OwnVehicles,
     /// How to print them
     #[arg(long, value_enum, default_value_t = ListFormat::Text)]
     format: ListFormat,
@@ -64,10 +70,12 @@ enum ListFormat {
     Contents,
 }
 
-fn known(own: Option<&PathBuf>) -> Result<Vec<Claim>> {
+fn known(own: Option<&PathBuf>, vehicles: &OwnVehicles) -> Result<Vec<Claim>> {
+    // A file of vehicles is read even where no claim may speak of them: a slip in it is worth knowing.
+    let vehicles = vehicles.all()?;
     let mut all = claims::all();
     if let Some(path) = own {
-        let own = claims::read(path)?;
+        let own = claims::read(path, &vehicles)?;
         if let Some(twice) = own.iter().find(|c| all.iter().any(|a| a.id == c.id)) {
             return Err(Error::input(format!("the claim {} of {} is already known", twice.id, path.display()))
                 .help("give it another id"));
@@ -79,7 +87,7 @@ fn known(own: Option<&PathBuf>) -> Result<Vec<Claim>> {
 
 /// Carries out `creepage verify`.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
-    let all = known(arguments.claims.as_ref())?;
+    let all = known(arguments.claims.as_ref(), &arguments.own)?;
     if let Some(unknown) = arguments.only.iter().find(|id| all.iter().all(|c| c.id != **id)) {
         return Err(Error::input(format!("no claim is called {unknown:?}")).help("`creepage claims` lists them"));
     }
@@ -109,7 +117,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
 
 /// Carries out `creepage claims`.
 pub fn list(arguments: &List) -> Result<()> {
-    let all = known(arguments.claims.as_ref())?;
+    let all = known(arguments.claims.as_ref(), &arguments.own)?;
     print(&match arguments.format {
         ListFormat::Text => ledger::claims_text(&all),
         ListFormat::Json => pretty(&ledger::claims_json(&all)),

@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::formula::{Symbol, latex_symbol};
 use crate::model::Model;
 use crate::model::WITH_TRAILERS;
-use crate::vehicles;
+use crate::vehicles::Vehicle;
 use serde_json::{Map, Value, json};
 
 /// How changes are to be read.
@@ -19,7 +19,7 @@ const READING: &str = "In a change, `it` is the definition as it was; a name end
 ///
 /// # Errors
 /// When a vehicle of the catalogue cannot be built.
-pub fn effects_text(library: &[Effect]) -> Result<String> {
+pub fn effects_text(vehicles: &[Vehicle], library: &[Effect]) -> Result<String> {
     let mut page = Page::default();
     page.heading(1, "Effects");
     page.paragraph(READING);
@@ -27,7 +27,7 @@ pub fn effects_text(library: &[Effect]) -> Result<String> {
         page.heading(2, &e.id);
         page.paragraph(&format!("{}. Acts on the {}; source: {}.", e.says, e.place, e.source));
         e.parameters.iter().for_each(|(name, p)| page.entry(&format!("{name}: {}", parameter_text(p))));
-        page.entry(&format!("vehicles: {}", applies_to(e)?.join(", ")));
+        page.entry(&format!("vehicles: {}", applies_to(e, vehicles)?.join(", ")));
         e.changes.iter().for_each(|(name, f)| page.formula(&format!("{name} = {f}")));
         e.states.iter().for_each(|(name, s)| page.formula(&format!("{name}' = {}", s.rate)));
     }
@@ -43,15 +43,15 @@ fn parameter_text(p: &Parameter) -> String {
 }
 
 /// The ids of the vehicles it applies to.
-fn applies_to(e: &Effect) -> Result<Vec<&'static str>> {
+fn applies_to<'v>(e: &Effect, vehicles: &'v [Vehicle]) -> Result<Vec<&'v str>> {
     let library = std::slice::from_ref(e);
     let mut found = Vec::new();
-    for v in vehicles::all() {
+    for v in vehicles {
         if !Model::sample(v)?.applicable(library).is_empty() {
             found.push(v.id.as_str());
         }
     }
-    for v in tractors() {
+    for v in tractors(vehicles) {
         if !found.contains(&WITH_TRAILERS) && !sample_train(v)?.applicable(library).is_empty() {
             found.push(WITH_TRAILERS);
         }
@@ -63,12 +63,12 @@ fn applies_to(e: &Effect) -> Result<Vec<&'static str>> {
 ///
 /// # Errors
 /// As [`effects_text`].
-pub fn effects_json(library: &[Effect]) -> Result<Value> {
-    let entries = library.iter().map(entry).collect::<Result<Vec<_>>>()?;
+pub fn effects_json(vehicles: &[Vehicle], library: &[Effect]) -> Result<Value> {
+    let entries = library.iter().map(|e| entry(e, vehicles)).collect::<Result<Vec<_>>>()?;
     Ok(json!({ "schema": 1, "reading": READING, "effects": entries }))
 }
 
-fn entry(e: &Effect) -> Result<Value> {
+fn entry(e: &Effect, vehicles: &[Vehicle]) -> Result<Value> {
     let parameter = |p: &Parameter| json!({ "unit": p.unit, "range": p.range, "size": p.size, "positive": p.positive, "periodic": p.periodic });
     let parameters: Map<String, Value> = e.parameters.iter().map(|(name, p)| (name.clone(), parameter(p))).collect();
     let change = |(name, f): (&String, &crate::formula::Expr)| json!({ "name": name, "formula": { "text": f.to_string(), "latex": f.latex() } });
@@ -81,6 +81,6 @@ fn entry(e: &Effect) -> Result<Value> {
         "parameters": parameters,
         "changes": e.changes.iter().map(change).collect::<Vec<_>>(),
         "states": e.states.iter().map(state).collect::<Vec<_>>(),
-        "vehicles": applies_to(e)?,
+        "vehicles": applies_to(e, vehicles)?,
     }))
 }

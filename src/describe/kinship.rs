@@ -7,7 +7,7 @@ use crate::discrepancy::picture::equation;
 use crate::effects::{Applied, Effect};
 use crate::error::{Error, Result};
 use crate::model::{Model, WITH_TRAILERS};
-use crate::vehicles;
+use crate::vehicles::Vehicle;
 use rayon::prelude::*;
 
 /// Every effect that applies to a vehicle: the equations it rewrites, and the effects that are the same under another
@@ -19,12 +19,12 @@ use rayon::prelude::*;
 /// When no vehicle has that name, or its constraints do not determine its motion.
 ///
 /// ```
-/// use creepage::{describe::vehicle_effects_text, effects};
-/// let car = vehicle_effects_text("car", effects::all()).unwrap();
+/// use creepage::{describe::vehicle_effects_text, effects, vehicles};
+/// let car = vehicle_effects_text("car", vehicles::all(), effects::all()).unwrap();
 /// assert!(car.contains("identical to wheel-radius: wheel_radius.scale = -rotation_creep.e_rc"));
 /// ```
-pub fn vehicle_effects_text(vehicle: &str, library: &[Effect]) -> Result<String> {
-    let model = model_of(vehicle)?;
+pub fn vehicle_effects_text(vehicle: &str, vehicles: &[Vehicle], library: &[Effect]) -> Result<String> {
+    let model = model_of(vehicle, vehicles)?;
     model.determined()?;
     let all: Vec<Applied> = model.applicable(library).into_iter().map(|(e, t)| open(e, t)).collect();
     let related: Vec<Vec<String>> = all.par_iter().map(|a| relatives(&model, a, &all)).collect();
@@ -44,12 +44,12 @@ fn open(effect: &Effect, trailer: Option<usize>) -> Applied {
 }
 
 /// The vehicle with every parameter one and no arm to its sensor.
-fn model_of(name: &str) -> Result<Model> {
+fn model_of(name: &str, vehicles: &[Vehicle]) -> Result<Model> {
     let unknown = || Error::input(format!("no vehicle is called {name:?}")).help("`creepage vehicles` lists them");
-    match vehicles::named(name) {
+    match vehicles.iter().find(|v| v.id == name) {
         Some(vehicle) => Model::sample(vehicle),
         None if name == WITH_TRAILERS => {
-            let car = tractors().find(|v| v.id == "car").or_else(|| tractors().next());
+            let car = tractors(vehicles).find(|v| v.id == "car").or_else(|| tractors(vehicles).next());
             sample_train(car.ok_or_else(unknown)?)
         }
         None => Err(unknown()),

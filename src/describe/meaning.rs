@@ -56,3 +56,14 @@ pub(super) fn of(name: &str, trailers: usize) -> Option<(Kind, String, String)> 
     let primed = format!("{stem}{}", &name[bare.len()..]);
     TRAILER.iter().find(|r| r.0 == primed).map(|r| row(r, format!(" {number}")))
 }
+
+/// What a name means in every model, or of some trailer; `None` for a name that a vehicle may give.
+///
+/// ```
+/// use creepage::describe::universal;
+/// assert_eq!(universal("v_t").unwrap(), "speed of the reference point to the left");
+/// assert!(universal("e_tc_2").is_some() && universal("e_tc_r").is_none());
+/// ```
+pub fn universal(name: &str) -> Option<String> {
+    of(name, usize::MAX).map(|(_, _, meaning)| meaning)
+}

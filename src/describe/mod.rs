@@ -40,6 +40,7 @@ pub use jacobian::Jacobian;
 pub use json::json;
 pub use kinship::vehicle_effects_text;
 pub use latex::latex;
+pub use meaning::universal;
 pub use realised::Realised;
 pub use regime::{Coefficient, CreepLimits};
 pub use signature::Signature;

@@ -68,15 +68,15 @@ impl Structure {
     /// # Errors
     /// When an effect does not apply, or formulas use each other in a circle.
     pub fn of(model: &Model) -> Result<Self> {
-        let trailers = model.trailers.len();
+        let trailers = model.trailer_count();
         if trailers > TRAILERS_OF_RANKS {
             // The rows of a long train take long to write down and are not needed.
             let mut coordinates = mechanism(&model.vehicle, 0).coordinates;
-            coordinates.extend((1..=trailers).map(trailer_heading));
+            coordinates.extend((model.vehicle.trailers.len() + 1..=trailers).map(trailer_heading));
             let [holonomy, ranks] = [TRAILERS_OF_GROWTH, TRAILERS_OF_RANKS].map(|most| too_long(most, trailers));
             return Ok(Self { coordinates, open: vec![], holonomy: Err(holonomy), realisation: Err(ranks) });
         }
-        let mechanism = mechanism(&model.vehicle, trailers);
+        let mechanism = mechanism(&model.vehicle, model.trailers.len());
         let coordinates = mechanism.coordinates.clone();
         let General { points, open } = General::of(model, &mechanism)?;
         let holonomy = match trailers <= TRAILERS_OF_GROWTH {

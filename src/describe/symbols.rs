@@ -166,7 +166,7 @@ fn look_up(model: &Model, symbol: &Symbol) -> Option<(Kind, String, String)> {
     wheel(model, symbol)
         .or_else(|| of_constraint(model, symbol))
         .or_else(|| model.effects.iter().find_map(|e| of_effect(e, symbol)))
-        .or_else(|| meaning::of(name, model.trailers.len()))
+        .or_else(|| meaning::of(name, model.trailer_count()))
 }
 
 /// A name of a wheel: a coefficient of its creep, its angles and their rates where nothing defines them.

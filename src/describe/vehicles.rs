@@ -14,20 +14,25 @@ use serde_json::{Value, json};
 /// What the entry of vehicles with trailers says.
 const TRAIN: &str = "a tractor with trailers; one more direction constraint for each trailer";
 
-/// A vehicle of the catalogue with one trailer, every parameter one.
+/// A vehicle with one trailer behind it, every parameter one.
 pub(super) fn sample_train(vehicle: &Vehicle) -> Result<Model> {
     Ok(Model::sample(vehicle)?.with_trailers(&[Trailer { length: 1.0, hitch: 1.0 }]))
 }
 
-/// Every vehicle with parameters, inputs, signature and constraint rows, as text.
+/// Every vehicle with parameters, inputs, trailers, signature and constraint rows, as text.
+///
+/// ```
+/// use creepage::{describe::vehicles_text, vehicles};
+/// assert!(vehicles_text(vehicles::all()).unwrap().contains("## four-wheel-car"));
+/// ```
 ///
 /// # Errors
-/// When a vehicle of the catalogue cannot be built.
-pub fn vehicles_text() -> Result<String> {
+/// When a vehicle cannot be built.
+pub fn vehicles_text(vehicles: &[Vehicle]) -> Result<String> {
     let mut page = Page::default();
     page.heading(1, "Vehicles");
     page.paragraph("Every row times the rates is zero. `creepage describe` shows the whole of a model.");
-    for vehicle in vehicles::all() {
+    for vehicle in vehicles {
         page.heading(2, &vehicle.id);
         page.paragraph(&vehicle.title);
         for (name, p) in &vehicle.parameters {
@@ -38,6 +43,9 @@ pub fn vehicles_text() -> Result<String> {
             let instead = i.instead.as_ref().map(|o| format!(", or {} ({})", o.role, o.unit)).unwrap_or_default();
             page.entry(&format!("input {role} ({}){instead}: {}", i.unit, i.meaning));
         }
+        for (i, t) in (1..).zip(&vehicle.trailers) {
+            page.entry(&format!("trailer {i}: {}, {} from hitch to axle", t.name, t.length));
+        }
         if let Some(advice) = &vehicle.instead {
             page.entry(&format!("motion: not determined by its constraints; {advice}"));
         }
@@ -45,15 +53,15 @@ pub fn vehicles_text() -> Result<String> {
     }
     page.heading(2, WITH_TRAILERS);
     page.paragraph(TRAIN);
-    let ids: Vec<&str> = tractors().map(|v| v.id.as_str()).collect();
+    let ids: Vec<&str> = tractors(vehicles).map(|v| v.id.as_str()).collect();
     page.entry(&format!("tractor: {}; car when left out", ids.join(", ")));
     page.entry("parameter trailer_lengths (m): from hitch to axle, nearest first");
     page.entry("parameter hitch_offsets (m, optional): hitch behind the axle ahead of it");
-    for vehicle in tractors() {
+    for vehicle in tractors(vehicles) {
         let [r, t] = letters(vehicle)?;
         page.entry(&format!("signature of N trailers behind {}: {}T^(N+{t})", vehicle.id, power('R', r)));
     }
-    let all = sample_train(&vehicles::all()[0])?;
+    let all = sample_train(&first())?;
     let constraints = all.constraints();
     page.line("The row of the first trailer:");
     row(&mut page, &all, &constraints[constraints.len() - 1]);
@@ -61,8 +69,8 @@ pub fn vehicles_text() -> Result<String> {
 }
 
 /// The vehicles that trailers can be put behind.
-pub(super) fn tractors() -> impl Iterator<Item = &'static Vehicle> {
-    vehicles::all().iter().filter(|v| v.pulls())
+pub(super) fn tractors(vehicles: &[Vehicle]) -> impl Iterator<Item = &Vehicle> {
+    vehicles.iter().filter(|v| v.pulls())
 }
 
 /// How many constraints of type R and of type T a tractor has.
@@ -93,13 +101,18 @@ fn row(page: &mut Page, model: &Model, c: &Constraint) {
     page.formula(&format!("{} = 0", c.row().ordered(&rates(&model.coordinates()))));
 }
 
+/// The vehicle whose trailers show the row of a trailer.
+fn first() -> Vehicle {
+    vehicles::all().first().cloned().unwrap_or_default()
+}
+
 /// Every vehicle as JSON.
 ///
 /// # Errors
 /// As [`vehicles_text`].
-pub fn vehicles_json() -> Result<Value> {
-    let single = vehicles::all().iter().map(|v| entry(v, &Model::sample(v)?)).collect::<Result<Vec<Value>>>()?;
-    Ok(json!({ "schema": 1, "vehicles": single.into_iter().chain([train()?]).collect::<Vec<_>>() }))
+pub fn vehicles_json(vehicles: &[Vehicle]) -> Result<Value> {
+    let single = vehicles.iter().map(|v| entry(v, &Model::sample(v)?)).collect::<Result<Vec<Value>>>()?;
+    Ok(json!({ "schema": 1, "vehicles": single.into_iter().chain([train(vehicles)?]).collect::<Vec<_>>() }))
 }
 
 fn entry(vehicle: &Vehicle, model: &Model) -> Result<Value> {
@@ -109,15 +122,21 @@ fn entry(vehicle: &Vehicle, model: &Model) -> Result<Value> {
             i.instead.as_ref().map(|o| json!({ "role": o.role, "unit": o.unit, "formula": o.formula.to_string() }));
         json!({ "role": role, "unit": i.unit, "meaning": i.meaning, "instead": instead })
     };
+    let trailer =
+        |t: &vehicles::Section| json!({ "name": t.name, "length": t.length.to_string(), "hitch": t.hitch.to_string() });
     let constraints = model.constraints();
     let signature = Signature::of(&constraints);
-    Ok(json!({
+    let mut entry = json!({
         "id": vehicle.id, "title": vehicle.title, "undetermined": vehicle.instead,
         "parameters": vehicle.parameters.iter().map(parameter).collect::<Vec<_>>(),
         "inputs": vehicle.inputs.iter().map(input).collect::<Vec<_>>(),
         "signature": counted(&signature, &[("text", signature.to_string())]),
         "constraints": constraints.iter().map(|c| constraint(model, c)).collect::<Vec<_>>(),
-    }))
+    });
+    if !vehicle.trailers.is_empty() {
+        entry["trailers"] = vehicle.trailers.iter().map(trailer).collect();
+    }
+    Ok(entry)
 }
 
 fn constraint(model: &Model, c: &Constraint) -> Value {
@@ -128,7 +147,7 @@ fn constraint(model: &Model, c: &Constraint) -> Value {
     })
 }
 
-fn train() -> Result<Value> {
+fn train(vehicles: &[Vehicle]) -> Result<Value> {
     let parameter = |name: &str, meaning: &str, optional: bool| json!({ "name": name, "unit": "m", "meaning": meaning, "optional": optional });
     let tractor = |v: &Vehicle| -> Result<Value> {
         let [r, t] = letters(v)?;
@@ -136,7 +155,7 @@ fn train() -> Result<Value> {
             json!({ "id": v.id, "signature": { "r": r, "t": format!("N+{t}"), "text": format!("{}T^(N+{t})", power('R', r)) } }),
         )
     };
-    let model = sample_train(&vehicles::all()[0])?;
+    let model = sample_train(&first())?;
     let constraints = model.constraints();
     Ok(json!({
         "id": WITH_TRAILERS, "title": TRAIN,
@@ -144,7 +163,7 @@ fn train() -> Result<Value> {
             parameter("trailer_lengths", "from hitch to axle, nearest first", false),
             parameter("hitch_offsets", "hitch behind the axle ahead of it", true),
         ],
-        "tractors": tractors().map(tractor).collect::<Result<Vec<_>>>()?,
+        "tractors": tractors(vehicles).map(tractor).collect::<Result<Vec<_>>>()?,
         "constraints": [constraint(&model, &constraints[constraints.len() - 1])],
     }))
 }

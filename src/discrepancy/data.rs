@@ -22,7 +22,7 @@ pub(super) struct Data {
 impl Data {
     /// The records of a request's runs.
     pub fn of(request: &Request, model: &Model) -> Result<Self> {
-        let record = |r: &Run| Record::of_run(r, request.file.input_timing, model.trailers.len());
+        let record = |r: &Run| Record::of_run(r, request.file.input_timing, model.trailer_count());
         let whole: Vec<Record> = request.runs.iter().map(record).collect();
         let (fitted, held_out): (Vec<Record>, Vec<Record>) = match request.held_out.is_empty() {
             true => whole.iter().map(|r| r.split(FITTED_SHARE)).unzip(),

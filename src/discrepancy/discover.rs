@@ -136,7 +136,7 @@ fn empty_report(request: &Request, data: &Data) -> Report {
     let mut hashes: BTreeMap<String, String> =
         runs().map(|r| (r.path.to_string_lossy().into_owned(), r.sha256.clone())).collect();
     hashes.insert(request.file.path.to_string_lossy().into_owned(), request.file.sha256.clone());
-    let own = request.library.iter().filter_map(|e| e.origin.as_deref());
+    let own = request.library.iter().filter_map(|e| e.origin.as_deref()).chain(request.file.vehicle_origin());
     hashes.extend(own.map(|o| (o.path.to_string_lossy().into_owned(), o.sha256.clone())));
     let warnings = warnings.chain(data.warnings()).collect();
     Report {

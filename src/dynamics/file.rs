@@ -19,9 +19,15 @@ use crate::vehicles::{self, Vehicle};
 /// assert_eq!(file.dynamics.unwrap().friction[0].contact, "disk-rolling");
 /// ```
 pub fn known(library: &[Effect]) -> Known {
-    let mut known = model::known(library);
+    known_on(vehicles::all(), library)
+}
+
+/// As [`known`] for these vehicles.
+pub fn known_on(vehicles: &[Vehicle], library: &[Effect]) -> Known {
+    let mut known = model::known_on(vehicles, library);
     for entry in &mut known.vehicles {
-        entry.dynamics = vehicles::named(&entry.id).map(known_dynamics).unwrap_or_default();
+        let vehicle = vehicles.iter().find(|v| v.id == entry.id);
+        entry.dynamics = vehicle.map(known_dynamics).unwrap_or_default();
     }
     known
 }

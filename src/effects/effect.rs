@@ -1,9 +1,9 @@
 //! What an effect is made of.
 
 use crate::formula::{Expr, Symbol};
+use crate::origin::Origin;
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Something a vehicle really does that its model leaves out.
@@ -38,15 +38,6 @@ pub struct Effect {
     /// The file of a user that defines it; none for one of the catalogue.
     #[serde(skip)]
     pub origin: Option<Arc<Origin>>,
-}
-
-/// A file of effects.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Origin {
-    /// Where it was read.
-    pub path: PathBuf,
-    /// SHA-256 of its bytes, hexadecimal.
-    pub sha256: String,
 }
 
 /// A parameter of an effect.

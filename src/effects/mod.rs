@@ -5,7 +5,7 @@ mod applied;
 mod effect;
 
 pub use applied::Applied;
-pub use effect::{Effect, Origin, Parameter, State};
+pub use effect::{Effect, Parameter, State};
 
 use std::sync::LazyLock;
 
@@ -29,6 +29,21 @@ static CATALOGUE: LazyLock<Vec<Effect>> = LazyLock::new(|| {
 /// ```
 pub fn all() -> &'static [Effect] {
     &CATALOGUE
+}
+
+/// The effects of the catalogue followed by others, which act after them.
+///
+/// ```
+/// use creepage::effects::{self, Effect};
+/// let library = effects::with(&[Effect { id: "mine".into(), ..Effect::default() }]);
+/// assert!(library.len() == effects::all().len() + 1 && library.is_sorted_by_key(|e| e.order));
+/// ```
+pub fn with(own: &[Effect]) -> Vec<Effect> {
+    let mut library = all().to_vec();
+    for e in own {
+        library.push(Effect { order: library.len(), ..e.clone() });
+    }
+    library
 }
 
 /// The effect of that id.

@@ -90,7 +90,7 @@ impl Rig {
             let wheel = rig.wheel(wheel)?;
             rig.wheels.push(wheel);
         }
-        (1..=model.trailers.len()).try_for_each(|i| rig.trailer(i))?;
+        (1..=model.trailer_count()).try_for_each(|i| rig.trailer(i))?;
         Ok(rig)
     }
 

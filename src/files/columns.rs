@@ -67,7 +67,7 @@ impl Columns {
         let section = top.section("columns")?;
         let inputs: Vec<&KnownInput> = machine.parts().flat_map(|v| &v.inputs).collect();
         if let Some(section) = &section {
-            let mut keys = keys(&inputs, machine.tractor.is_some());
+            let mut keys = keys(&inputs, trailers > 0);
             keys.extend(forced.iter().map(String::as_str));
             section.only(&keys)?;
         }

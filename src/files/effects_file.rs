@@ -6,9 +6,11 @@ use super::near::shown;
 use super::spot::Spot;
 use super::text::read_hashed;
 use super::toml_table::{Section, Source, Value};
-use crate::effects::{Effect, Origin, State};
+use super::vehicles_file::at_most;
+use crate::effects::{Effect, State};
 use crate::error::{Error, Result};
 use crate::formula::Symbol;
+use crate::origin::Origin;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -60,11 +62,11 @@ impl EffectsFile {
                 .at_file(path)
                 .help("check that this is the file of effects you meant"));
         }
-        Self::parse(&text, &Arc::new(Origin { path: path.into(), sha256 }))
+        Self::parse(&Arc::new(Origin { path: path.into(), sha256, text }))
     }
 
-    fn parse(text: &str, origin: &Arc<Origin>) -> Result<Self> {
-        let source = Source { path: &origin.path, text };
+    fn parse(origin: &Arc<Origin>) -> Result<Self> {
+        let source = Source { path: &origin.path, text: &origin.text };
         let document = source.parse_as(
             "a file of effects holds [[effect]], lines like id = \"my-creep\", and below [effect.changes] lines like \
              \"phi'\" = \"it + bias\", where a name with ' or * stands in quotes",
@@ -85,13 +87,6 @@ impl EffectsFile {
             effects.push(own);
         }
         Ok(Self { effects })
-    }
-}
-
-fn at_most(value: &Value, found: usize, most: usize) -> Result<()> {
-    match found <= most {
-        true => Ok(()),
-        false => Err(value.error(format!("{} has {found} entries", value.name)).help(format!("give at most {most}"))),
     }
 }
 

@@ -50,6 +50,11 @@ impl FormulaText {
         Ok(Self { formula, ..unread })
     }
 
+    /// An error that was found elsewhere, put where the formula begins.
+    pub(super) fn at_start(&self, e: Error) -> Error {
+        e.moved_to(self.line, self.columns.first().copied().unwrap_or(1)).at_file(&self.path)
+    }
+
     /// An error about the formula, with a caret at its start.
     pub fn error(&self, message: impl Into<String>) -> Error {
         self.placed(caret(&self.text, 0, message))

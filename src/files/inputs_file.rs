@@ -50,7 +50,7 @@ impl Inputs {
             y: first[1],
             heading: first[2],
             trailer_headings: match first.len() - 3 {
-                0 => vec![first[2]; model.trailer_lengths.len()],
+                0 => vec![first[2]; model.trailers()],
                 _ => first[3..].to_vec(),
             },
         });

@@ -1,5 +1,7 @@
 //! What may stand in a model file.
 
+use crate::vehicles::Vehicle;
+
 /// Vehicles and effects a model file may name; the caller fills it from the catalogues.
 #[derive(Clone, Debug, Default)]
 pub struct Known {
@@ -35,6 +37,10 @@ pub struct KnownVehicle {
     pub tractor: bool,
     /// What `[dynamics]` may say of it.
     pub dynamics: KnownDynamics,
+    /// How many trailers are a part of it.
+    pub sections: usize,
+    /// What it is made of, handed through to the model; without it a vehicle of the catalogue is meant.
+    pub description: Option<Vehicle>,
 }
 
 /// What `[dynamics]` may say of a vehicle.

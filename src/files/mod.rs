@@ -26,6 +26,11 @@ mod sheet;
 mod spot;
 mod text;
 mod toml_table;
+mod vehicle_constraints;
+mod vehicle_parts;
+mod vehicle_quantities;
+mod vehicle_types;
+mod vehicles_file;
 
 pub use claims_file::{ClaimEntry, read_claims};
 pub use columns::{Columns, InputColumn, Resolved, ResolvedInput};
@@ -37,8 +42,10 @@ pub use inputs_file::Inputs;
 pub use known::{Known, KnownDynamics, KnownEffect, KnownInput, KnownLaw, KnownParameter, KnownVehicle};
 pub use model_file::{Initial, InputTiming, ModelFile, Noise, Sensor};
 pub use output::{write_all_or_nothing, write_whole};
+pub use patch::VEHICLES_FILE;
 pub use run_file::Run;
 pub use spot::Spot;
 pub use text::read_text;
+pub use vehicles_file::{OwnConstraint, OwnPart, OwnVehicle, VehiclesFile};
 
 pub(crate) use near::{advice, shown};

@@ -10,6 +10,8 @@ use super::patch;
 use super::text::{BOM, hex, read_hashed};
 use super::toml_table::{Section, Source, Value};
 use crate::error::Result;
+use crate::origin::Origin;
+use crate::vehicles::Vehicle;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -27,6 +29,10 @@ pub struct ModelFile {
     pub vehicle: String,
     /// Id of the vehicle in front, for one that pulls trailers.
     pub tractor: Option<String>,
+    /// What that vehicle is made of, or the one in front; without it one of the catalogue is meant.
+    pub description: Option<Vehicle>,
+    /// How many trailers are a part of it, ahead of those it pulls.
+    pub sections: usize,
     /// What a row of inputs means.
     pub input_timing: InputTiming,
     /// Parameters of the vehicle and its tractor, SI units.
@@ -107,13 +113,16 @@ impl ModelFile {
         let machine = Machine::read(&top, known)?;
         top.only(&top_keys(&machine))?;
         let parameters = Parameters::read(&top, &machine)?;
-        let trailers = parameters.trailer_lengths.len();
+        let sections = machine.sections();
+        let trailers = sections + parameters.trailer_lengths.len();
         Ok(Self {
             path: source.path.to_path_buf(),
             text: text.to_string(),
             sha256,
             vehicle: machine.vehicle.id.clone(),
             tractor: machine.tractor.map(|v| v.id.clone()),
+            description: machine.tractor.unwrap_or(machine.vehicle).description.clone(),
+            sections,
             input_timing: InputTiming::read(&top)?,
             dynamics: DynamicsEntry::read(&top, &machine, &parameters)?,
             columns: Columns::read(&top, &machine, trailers, &forced(&top, DynamicsEntry::roles(&machine)))?,
@@ -134,8 +143,40 @@ impl ModelFile {
 
     /// The text of the file with effects added, or their values replaced where the file already lists
     /// the same effect for the same target; everything else, comments included, stays as it is.
+    ///
+    /// A vehicle of a user's own is then looked for in the file [`VEHICLES_FILE`](super::VEHICLES_FILE) beside it.
     pub fn patched(&self, added: &[EffectEntry]) -> String {
-        patch::patched(&self.text, added)
+        let text = patch::patched(&self.text, added);
+        if self.vehicle_origin().is_some() { patch::with_vehicles(&text) } else { text }
+    }
+
+    /// How many trailers it has: those that are a part of the vehicle, then those it pulls.
+    pub fn trailers(&self) -> usize {
+        self.sections + self.trailer_lengths.len()
+    }
+
+    /// The file of a user's own that describes the vehicle, if it is none of the catalogue.
+    pub fn vehicle_origin(&self) -> Option<&Origin> {
+        self.description.as_ref()?.origin.as_deref()
+    }
+
+    /// A file of vehicles that a model file names by `vehicles = "…"`, if it does; the path is relative to the model's.
+    ///
+    /// # Errors
+    /// When the model file cannot be read, or there is no file of that name.
+    pub fn named_vehicles(path: impl AsRef<Path>) -> Result<Option<PathBuf>> {
+        let path = path.as_ref();
+        let (text, _) = read_hashed(path)?;
+        let source = Source { path, text: &text };
+        let document = source.parse()?;
+        let Some(value) = Section::top(source, &document).get("vehicles") else { return Ok(None) };
+        let found = path.parent().unwrap_or(Path::new("")).join(value.text()?);
+        match found.is_file() {
+            true => Ok(Some(found)),
+            false => Err(value
+                .error(format!("no file of vehicles is at \"{}\"", near::shown(&found.display().to_string())))
+                .help("give its path from the folder of the model file")),
+        }
     }
 }
 
@@ -145,7 +186,8 @@ fn forced(top: &Section, names: Vec<String>) -> Vec<String> {
 }
 
 fn top_keys(machine: &Machine) -> Vec<&'static str> {
-    let mut keys = vec!["vehicle", "input_timing", "parameters", "columns", "sensor", "initial", "noise", "effects"];
+    let mut keys =
+        vec!["vehicle", "vehicles", "input_timing", "parameters", "columns", "sensor", "initial", "noise", "effects"];
     keys.extend(machine.tractor.map(|_| "tractor"));
     keys.extend(machine.tractor.unwrap_or(machine.vehicle).dynamics.allowed.then_some("dynamics"));
     keys

@@ -34,6 +34,11 @@ impl<'k> Machine<'k> {
         Ok(Self { vehicle, tractor })
     }
 
+    /// How many trailers are a part of the vehicle or of its tractor.
+    pub fn sections(&self) -> usize {
+        self.parts().map(|v| v.sections).sum()
+    }
+
     /// The vehicle itself and its tractor: both bring parameters and inputs.
     pub fn parts(&self) -> impl Iterator<Item = &'k KnownVehicle> {
         std::iter::once(self.vehicle).chain(self.tractor)
@@ -59,7 +64,10 @@ fn tractor<'k>(top: &Section, known: &'k Known) -> Result<&'k KnownVehicle> {
 }
 
 fn unknown(value: &Value, noun: &str, id: &str, ids: &[&str]) -> crate::Error {
-    value.error(format!("unknown {noun} \"{id}\"")).help(near::advice(id, &format!("known {noun}s"), ids))
+    value.error(format!("unknown {noun} \"{}\"", near::shown(id))).help(format!(
+        "if it is your own, give its file with --vehicles, or name it here: vehicles = \"FILE.toml\"; {}",
+        near::advice(id, &format!("known {noun}s"), ids)
+    ))
 }
 
 impl Parameters {
@@ -121,7 +129,7 @@ pub(super) fn one_per_trailer(value: &Value, len: usize, trailers: usize) -> Res
         return Ok(());
     }
     Err(value
-        .error(format!("{} has {len} elements, but trailer_lengths has {trailers}", value.name))
+        .error(format!("{} has {len} elements, but {trailers} are needed", value.name))
         .help("give one per trailer, the one nearest the tractor first"))
 }
 

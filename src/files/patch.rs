@@ -35,6 +35,26 @@ pub(super) fn patched(text: &str, added: &[EffectEntry]) -> String {
     apply(text, edits)
 }
 
+/// What the file of a user's own vehicles is called beside a patched model.
+pub const VEHICLES_FILE: &str = "model.vehicles.toml";
+
+/// The text with the file of its vehicle named as it lies beside a patched model; see
+/// [`ModelFile::patched`](super::ModelFile::patched).
+pub(super) fn with_vehicles(text: &str) -> String {
+    let source = Source { path: Path::new(""), text };
+    let Ok(document) = source.parse() else { return text.to_string() };
+    let top = Section::top(source, &document);
+    let edit = match (top.get("vehicles"), top.get("vehicle")) {
+        (Some(named), _) => (named.span(), quote(VEHICLES_FILE)),
+        (None, Some(vehicle)) => {
+            let at = vehicle.key_at;
+            (at..at, format!("vehicles = {}{}", quote(VEHICLES_FILE), newline(text)))
+        }
+        (None, None) => return text.to_string(),
+    };
+    apply(text, vec![edit])
+}
+
 /// Later entries win over earlier ones for the same target.
 fn last_of_each(added: &[EffectEntry]) -> impl Iterator<Item = &EffectEntry> {
     added.iter().enumerate().filter(|(i, e)| !added[i + 1..].iter().any(|later| later.same_target(e))).map(|(_, e)| e)
@@ -181,6 +201,16 @@ mod tests {
         assert_eq!(patched("", std::slice::from_ref(&own)), format!("\n{note}[[effects]]\nid = \"a\"\ne = 1.0\n"));
         let list = "x = 1\neffects = []\n";
         assert_eq!(patched(list, &[own]), format!("x = 1\n{note}effects = [{{ id = \"a\", e = 1.0 }}]\n"));
+    }
+
+    #[test]
+    fn the_file_of_a_vehicle_is_named_beside_the_model() {
+        let bare = "# mine\r\nvehicle = \"bus\" # a bus\r\n[noise]\r\n";
+        let named = "# mine\r\nvehicles = \"model.vehicles.toml\"\r\nvehicle = \"bus\" # a bus\r\n[noise]\r\n";
+        assert_eq!(with_vehicles(bare), named);
+        assert_eq!(with_vehicles(named), named);
+        let other = named.replace("\"model.vehicles.toml\"", "'../my \"bus\".toml'");
+        assert_eq!(with_vehicles(&other), named);
     }
 
     #[test]

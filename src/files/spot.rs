@@ -19,6 +19,16 @@ impl Spot {
         Self { path: source.path.into(), line, column }
     }
 
+    /// The line, from one.
+    pub fn line(&self) -> usize {
+        self.line
+    }
+
+    /// An error about a part of a file, moved to the place.
+    pub fn here(&self, e: Error) -> Error {
+        e.moved_to(self.line, self.column).at_file(&self.path)
+    }
+
     /// An error at the place.
     pub fn error(&self, message: impl Into<String>) -> Error {
         Error::input(message).at_file(&self.path).at(self.line, self.column)

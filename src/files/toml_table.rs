@@ -229,10 +229,26 @@ impl<'a, 'd> Value<'a, 'd> {
 
     /// A table, under the heading the user knows it by.
     pub fn section(&self, heading: String) -> Result<Section<'a, 'd>> {
+        let example = format!("{heading} on a line of its own, and its keys below it");
+        self.section_like(heading, &example)
+    }
+
+    /// A table that is usually written as in an example.
+    pub fn section_like(&self, heading: String, example: &str) -> Result<Section<'a, 'd>> {
         match self.value.get_ref().as_table() {
             Some(table) => Ok(Section { source: self.source, heading, at: self.value.span().start, table }),
-            None => Err(self.wrong("a table", &format!("{heading} on a line of its own, and its keys below it"))),
+            None => Err(self.wrong("a table", example)),
         }
+    }
+
+    /// Whether it is a text.
+    pub fn is_text(&self) -> bool {
+        matches!(self.value.get_ref(), DeValue::String(_))
+    }
+
+    /// Whether it is a number.
+    pub fn is_number(&self) -> bool {
+        matches!(self.value.get_ref(), DeValue::Integer(_) | DeValue::Float(_))
     }
 }
 

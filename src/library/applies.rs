@@ -29,7 +29,7 @@ pub(super) struct Target {
 pub(super) fn places<'m>(own: &OwnEffect, machines: &'m [Machine]) -> Result<Vec<Place<'m>>> {
     let (mut found, mut reasons) = (Vec::new(), BTreeMap::<String, Vec<&str>>::new());
     for machine in machines {
-        let trailers = own.effect.trailers(machine.model.trailers.len());
+        let trailers = own.effect.trailers(machine.model.trailer_count());
         if trailers.is_empty() {
             reasons.entry("no trailer".into()).or_default().push(&machine.label);
         }

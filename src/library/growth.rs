@@ -12,17 +12,20 @@ const MOST: Size = Size { nodes: 5000, depth: 300, degree: 1000 };
 
 /// That the definitions stay small with all effects of a library, the last of which is the user's.
 pub(super) fn check(own: &OwnEffect, library: &[Effect], machines: &[Machine]) -> Result<()> {
-    for machine in machines {
-        let Some(name) = outgrown(library, machine) else { continue };
+    if let Some((name, on)) = outgrown_of(library, machines) {
         let touches =
             |key: &str| key.trim_end_matches('*').starts_with(name.as_str()) || name.as_str().starts_with(key);
         let at = own.changes.iter().find(|(key, _)| touches(key)).or(own.changes.iter().next());
-        let message =
-            format!("with all effects together the formula of {name} grows beyond all bounds on {}", machine.label);
+        let message = format!("with all effects together the formula of {name} grows beyond all bounds on {on}");
         let error = at.map_or_else(|| own.id.error(message.clone()), |(_, (_, f))| f.error(message.clone()));
         return Err(error.help("write `it` once in a formula, use smaller powers, or put fewer effects on one name"));
     }
     Ok(())
+}
+
+/// A definition that is too large with the effects, and the vehicle it is too large on.
+pub(super) fn outgrown_of<'m>(library: &[Effect], machines: &'m [Machine]) -> Option<(Symbol, &'m str)> {
+    machines.iter().find_map(|m| Some((outgrown(library, m)?, m.label.as_str())))
 }
 
 /// A definition that is too large with the effects, if there is one.
@@ -33,7 +36,7 @@ fn outgrown(library: &[Effect], machine: &Machine) -> Option<Symbol> {
     let mut parts = machine.definitions.clone();
     let mut degrees: BTreeMap<Symbol, usize> = BTreeMap::new();
     for e in library {
-        let trailers = e.trailers(machine.model.trailers.len());
+        let trailers = e.trailers(machine.model.trailer_count());
         for (name, formula) in trailers.into_iter().filter_map(|t| machine.model.targets(e, t, &names)).flatten() {
             let old = *sizes.get(&name).unwrap_or(&Size::SYMBOL);
             let is_old = |s: &Symbol| s.as_str() == "it" || *s == name;

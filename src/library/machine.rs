@@ -5,7 +5,7 @@ use crate::error::Result;
 use crate::formula::{Symbol, Unit};
 use crate::mechanism::Definitions;
 use crate::model::{Model, Trailer, WITH_TRAILERS};
-use crate::vehicles;
+use crate::vehicles::Vehicle;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A model without effects, with the unit of every name that a formula may speak of.
@@ -18,25 +18,35 @@ pub(super) struct Machine {
 }
 
 impl Machine {
-    /// Every vehicle of the catalogue, once for each column that may stand for an input, and with two trailers.
-    pub fn all() -> Result<Vec<Self>> {
-        let mut found = Vec::new();
-        for vehicle in vehicles::all() {
-            let alone = Model::sample(vehicle)?;
-            found.push(Self::of(vehicle.id.clone(), alone.clone())?);
-            for (role, input) in &vehicle.inputs {
-                if let Some(other) = &input.instead {
-                    let mut logged = alone.clone();
-                    logged.inputs.iter_mut().filter(|i| *i == role).for_each(|i| i.clone_from(&other.role));
-                    found.push(Self::of(format!("{} logged by {}", vehicle.id, other.role), logged)?);
-                }
+    /// Every vehicle, once for each column that may stand for an input; then each that pulls, with two trailers.
+    pub fn all(vehicles: &[Vehicle]) -> Result<Vec<Self>> {
+        let each: Vec<Vec<Self>> = vehicles.iter().map(Self::alone).collect::<Result<_>>()?;
+        let pulling = vehicles.iter().filter(|v| v.pulls());
+        let trains: Vec<Self> = pulling.map(Self::train).collect::<Result<_>>()?;
+        Ok(each.into_iter().flatten().chain(trains).collect())
+    }
+
+    /// One vehicle in all these ways.
+    pub fn of_vehicle(vehicle: &Vehicle) -> Result<Vec<Self>> {
+        Self::all(std::slice::from_ref(vehicle))
+    }
+
+    fn alone(vehicle: &Vehicle) -> Result<Vec<Self>> {
+        let alone = Model::sample(vehicle)?;
+        let mut found = vec![Self::of(vehicle.id.clone(), alone.clone())?];
+        for (role, input) in &vehicle.inputs {
+            if let Some(other) = &input.instead {
+                let mut logged = alone.clone();
+                logged.inputs.iter_mut().filter(|i| *i == role).for_each(|i| i.clone_from(&other.role));
+                found.push(Self::of(format!("{} logged by {}", vehicle.id, other.role), logged)?);
             }
         }
-        for vehicle in vehicles::all().iter().filter(|v| v.pulls()) {
-            let train = Model::sample(vehicle)?.with_trailers(&[Trailer { length: 1.0, hitch: 1.0 }; 2]);
-            found.push(Self::of(format!("{WITH_TRAILERS} behind {}", vehicle.id), train)?);
-        }
         Ok(found)
+    }
+
+    fn train(vehicle: &Vehicle) -> Result<Self> {
+        let train = Model::sample(vehicle)?.with_trailers(&[Trailer { length: 1.0, hitch: 1.0 }; 2]);
+        Self::of(format!("{WITH_TRAILERS} behind {}", vehicle.id), train)
     }
 
     fn of(label: String, model: Model) -> Result<Self> {

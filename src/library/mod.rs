@@ -1,4 +1,4 @@
-//! The library of effects: those of the catalogue, and a user's own from a file.
+//! The library of effects and vehicles: those of the catalogues, and a user's own from a file.
 //!
 //! An effect of a user's own is held against every vehicle it applies to before anything else is done with it: names,
 //! units, the value at which it vanishes, what the sensor may depend on, how far formulas grow when they are put into
@@ -11,12 +11,15 @@ mod names;
 mod neutral;
 mod sensor;
 mod units;
+mod vehicle;
+
+pub use vehicle::vehicles_with_own;
 
 use crate::effects::{self, Effect};
 use crate::error::Result;
 use crate::files::{EffectsFile, OwnEffect};
 use crate::formula::Expr;
-use crate::model::known;
+use crate::vehicles::{self, Vehicle};
 use machine::Machine;
 use std::path::Path;
 
@@ -45,9 +48,17 @@ use std::path::Path;
 /// assert!(own.iter().any(|e| e.id == "yaw-slip") && own.iter().any(|e| e.id == "rotation-creep"));
 /// ```
 pub fn with_own(path: impl AsRef<Path>) -> Result<Vec<Effect>> {
+    with_own_on(path, vehicles::all())
+}
+
+/// As [`with_own`], where the effects may also speak of other vehicles than the catalogue's.
+///
+/// # Errors
+/// As [`with_own`].
+pub fn with_own_on(path: impl AsRef<Path>, vehicles: &[Vehicle]) -> Result<Vec<Effect>> {
     let file = EffectsFile::read(path.as_ref())?;
     let mut library = effects::all().to_vec();
-    let machines = Machine::all()?;
+    let machines = Machine::all(vehicles)?;
     for own in file.effects {
         distinct(&own, &library)?;
         check(&own, &machines)?;
@@ -60,7 +71,7 @@ pub fn with_own(path: impl AsRef<Path>) -> Result<Vec<Effect>> {
 /// That the name of an effect, and the symbols made from it, are no other's.
 fn distinct(own: &OwnEffect, library: &[Effect]) -> Result<()> {
     let id = &own.effect.id;
-    let is_taken = library.iter().any(|e| e.id == *id && e.origin.is_none()) || known(&[]).effect(id).is_some();
+    let is_taken = library.iter().any(|e| e.id == *id && e.origin.is_none()) || crate::model::is_term(id);
     if is_taken {
         return Err(own.id.error(format!("the library has an effect \"{id}\"")).help("give yours another id"));
     }

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 /// What a log can show of a model: the rates of the pose and what the sensor measures.
 pub(super) fn visible(model: &Model) -> Vec<Symbol> {
     let fixed = ["x'", "y'", "phi'", "x_m", "y_m", "heading_m", "delay"].map(Symbol::from);
-    let trailers = (1..=model.trailers.len()).map(|i| trailer_heading(i).rate());
+    let trailers = (1..=model.trailer_count()).map(|i| trailer_heading(i).rate());
     fixed.into_iter().chain(trailers).collect()
 }
 

@@ -49,7 +49,7 @@ fn expect(
 ) -> Result<()> {
     let on = &place.machine.label;
     match formula.formula.eval(of) {
-        None => Err(mixed(formula, of, on)),
+        None => Err(mixed(formula, of, &format!(" on {on}"))),
         Some(found) if found.fits(wanted) => Ok(()),
         Some(found) => Err(formula
             .error(format!("the formula for {name} is in {found}, but {name} is in {wanted} on {on}"))
@@ -57,14 +57,18 @@ fn expect(
     }
 }
 
-/// The error of a formula that has no unit: the smallest part that has none.
-fn mixed(formula: &FormulaText, of: &impl Fn(&Symbol) -> Unit, on: &str) -> Error {
-    let mut part = &formula.formula;
+/// The error of a formula that has no unit: the smallest part that has none; `on` says where.
+pub(super) fn mixed(formula: &FormulaText, of: &impl Fn(&Symbol) -> Unit, on: &str) -> Error {
+    formula.error(unlike(&formula.formula, of, on)).help("add only what has one unit; functions take and give numbers")
+}
+
+/// What of a formula has no unit, and what it is made of.
+pub(super) fn unlike(formula: &Expr, of: &impl Fn(&Symbol) -> Unit, on: &str) -> String {
+    let mut part = formula;
     while let Some(inner) = part.children().into_iter().find(|c| c.eval(of).is_none()) {
         part = inner;
     }
     let unit = |e: &&Expr| e.eval(of).map_or_else(String::new, |u| format!("{} is in {u}", shown(&e.to_string())));
     let parts: Vec<String> = part.children().iter().map(unit).collect();
-    let message = format!("{} has no unit on {on}: {}", shown(&part.to_string()), parts.join(", "));
-    formula.error(message).help("add only what has one unit; functions take and give numbers")
+    format!("{} has no unit{on}: {}", shown(&part.to_string()), parts.join(", "))
 }

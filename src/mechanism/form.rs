@@ -7,7 +7,7 @@ use crate::formula::{Expr, Symbol};
 use std::sync::Arc;
 
 /// The generic form of a type with what a constraint puts in its slots.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Form {
     kind: Arc<ConstraintType>,
     slots: Vec<(Symbol, Part)>,

@@ -1,11 +1,11 @@
 //! The definitions of a model: constraints solved for the motion, effects applied.
 
-use super::constraints::{trailer_creep, trailer_direction, trailer_lengths};
+use super::constraints::{behind, section_heading, trailer_creep, trailer_direction, trailer_lengths};
 use super::{Model, trailer_heading};
 use crate::effects::{Applied, Effect};
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
-use crate::mechanism::{Definitions, Heading, Velocity, solve};
+use crate::mechanism::{Definitions, Velocity, solve};
 use std::collections::BTreeSet;
 
 /// A formula of this file; a malformed one would be a fault of the program, seen by every test.
@@ -53,7 +53,7 @@ impl Model {
         self.ideal_definitions().unwrap_or_else(|_| {
             let mut d = Definitions::default();
             self.define_vehicle(&mut d);
-            (1..=self.trailers.len()).for_each(|i| define_trailer(i, &mut d));
+            (1..=self.trailer_count()).for_each(|i| self.define_trailer(i, &mut d));
             d
         })
     }
@@ -145,8 +145,27 @@ impl Model {
         Ok(d)
     }
 
+    /// The constraints that break where the others hold, by name; `None` where these do not determine the motion.
+    pub(crate) fn contradictions(&self) -> Option<Vec<String>> {
+        let mut d = Definitions::default();
+        self.define_vehicle(&mut d);
+        let rows = match self.vehicle.coordinates.is_empty() {
+            true => self.solve_front(&mut d).map(|()| self.all_rows()),
+            false => self.solve_some(&mut d),
+        };
+        Some(self.broken(&d, &rows.ok()?))
+    }
+
     /// The motion of a body with wheels in the plane, and of its trailers.
     fn solve_in_plane(&self, d: &mut Definitions) -> Result<()> {
+        self.solve_front(d)?;
+        self.check(d, &self.all_rows())?;
+        self.solve_passive(d)?;
+        (self.vehicle.trailers.len() + 1..=self.trailer_count()).try_for_each(|i| self.solve_trailer(i, d))
+    }
+
+    /// The motion of the body and of the vehicle's own trailers, by as many constraints as it takes.
+    fn solve_front(&self, d: &mut Definitions) -> Result<()> {
         self.solve_body(d)?;
         for (name, text) in [
             ("v_l", "v_d"),
@@ -159,9 +178,7 @@ impl Model {
         if self.vehicle.line {
             d.define("s'", formula("v_l"));
         }
-        self.check_rows(d)?;
-        self.solve_passive(d)?;
-        (1..=self.trailers.len()).try_for_each(|i| solve_trailer(i, d))
+        (1..=self.vehicle.trailers.len()).try_for_each(|i| self.solve_trailer(i, d))
     }
 
     /// Symbols of parameters, inputs and creep coefficients; an input that is logged otherwise is replaced.
@@ -176,32 +193,38 @@ impl Model {
         }
         self.vehicle.creeps().for_each(|creep| d.define(creep.clone(), Expr::int(0)));
     }
+
+    /// Lengths and coefficient of a trailer.
+    fn define_trailer(&self, i: usize, d: &mut Definitions) {
+        let (length, hitch) = trailer_lengths(i);
+        let towed = |stem: &str| Expr::sym(Symbol::new(&format!("{stem}_{i}")));
+        let own = self.vehicle.trailers.get(i - 1).map(|own| [own.length.clone(), own.hitch.clone()]);
+        let [bar, behind] = own.unwrap_or_else(|| [towed("trailer_length"), towed("hitch_offset")]);
+        d.define(length, bar);
+        d.define(hitch, behind);
+        d.define(trailer_creep(i), Expr::int(0));
+    }
+
+    /// Adds a trailer: its forward speed v_i, sideways speed vt_i and the rate of its heading.
+    pub(super) fn solve_trailer(&self, i: usize, d: &mut Definitions) -> Result<()> {
+        self.define_trailer(i, d);
+        let axle = behind(&moving(i - 1), i);
+        let rate = trailer_heading(i).rate();
+        let row = trailer_direction(&self.vehicle, i, &axle).row();
+        let solved = solve::chained(&[row], std::slice::from_ref(&rate));
+        let solved = solved.ok_or_else(|| Error::run(format!("trailer {i} does not follow its hitch")))?;
+        solved.into_iter().for_each(|(name, f)| d.define(name, f));
+        d.define(Symbol::new(&format!("v_{i}")), axle.along(&section_heading(i)).expr());
+        d.define(Symbol::new(&format!("vt_{i}")), formula(&format!("e_tc_{i}*v_{i}")));
+        Ok(())
+    }
 }
 
-/// Lengths and coefficient of a trailer.
-fn define_trailer(i: usize, d: &mut Definitions) {
-    let (length, hitch) = trailer_lengths(i);
-    d.define(length, Expr::sym(Symbol::new(&format!("trailer_length_{i}"))));
-    d.define(hitch, Expr::sym(Symbol::new(&format!("hitch_offset_{i}"))));
-    d.define(trailer_creep(i), Expr::int(0));
-}
-
-/// Adds a trailer: its forward speed v_i, sideways speed vt_i and the rate of its heading.
-fn solve_trailer(i: usize, d: &mut Definitions) -> Result<()> {
-    define_trailer(i, d);
-    let (ahead, heading) = match i {
-        1 => (["v_l".into(), "v_t".into()], Symbol::from("phi")),
-        _ => ([format!("v_{}", i - 1), format!("vt_{}", i - 1)].map(|s| Symbol::new(&s)), trailer_heading(i - 1)),
+/// The velocity of the reference point (zero) or of a trailer's axle, by the names of its components.
+pub(super) fn moving(i: usize) -> Velocity {
+    let [forward, sideways] = match i {
+        0 => ["v_l".to_string(), "v_t".to_string()],
+        _ => [format!("v_{i}"), format!("vt_{i}")],
     };
-    let [forward, sideways] = ahead;
-    let axle = super::constraints::behind(&Velocity::in_body(forward, sideways, &Heading::along(heading)), i);
-    let rate = trailer_heading(i).rate();
-    let row = trailer_direction(i, &axle).row();
-    let solved = solve::chained(&[row], std::slice::from_ref(&rate));
-    let solved = solved.ok_or_else(|| Error::run(format!("trailer {i} does not follow its hitch")))?;
-    solved.into_iter().for_each(|(name, f)| d.define(name, f));
-    let own = Heading::along(trailer_heading(i));
-    d.define(Symbol::new(&format!("v_{i}")), axle.along(&own).expr());
-    d.define(Symbol::new(&format!("vt_{i}")), formula(&format!("e_tc_{i}*v_{i}")));
-    Ok(())
+    Velocity::in_body(Symbol::new(&forward), Symbol::new(&sideways), &section_heading(i))
 }

@@ -47,23 +47,27 @@ pub(super) fn trailer_lengths(i: usize) -> (Symbol, Symbol) {
 }
 
 /// The direction constraint of a trailer's axle, given the velocity of the axle.
-pub(super) fn trailer_direction(i: usize, axle: &Velocity) -> Constraint {
+pub(super) fn trailer_direction(vehicle: &Vehicle, i: usize, axle: &Velocity) -> Constraint {
     let creep = trailer_creep(i);
     let direction = Direction::new(axle, &Heading::along(trailer_heading(i)), &Expr::sym(creep.clone()));
-    direction.constraint(&format!("trailer {i}, direction"), &creep)
+    let name = match vehicle.trailers.get(i - 1) {
+        Some(own) => format!("{}, trailer {i}, direction", own.name),
+        None => format!("trailer {i}, direction"),
+    };
+    direction.constraint(&name, &creep)
 }
 
 /// The velocity of an axle from that of the axle ahead: back to the hitch, back along the trailer.
 pub(crate) fn behind(ahead: &Velocity, i: usize) -> Velocity {
-    let before = if i == 1 { Symbol::from("phi") } else { trailer_heading(i - 1) };
     let (length, hitch) = trailer_lengths(i);
-    let hitch_point = ahead.at_offset(&Heading::along(before), &-&Expr::sym(hitch));
+    let hitch_point = ahead.at_offset(&section_heading(i - 1), &-&Expr::sym(hitch));
     hitch_point.at_offset(&Heading::along(trailer_heading(i)), &-&Expr::sym(length))
 }
 
-/// The coordinates and constraints of a vehicle with a number of trailers, derived from the description alone.
+/// The coordinates and constraints of a vehicle with a number of trailers behind it, derived from the description alone.
 ///
-/// Each wheel gives its rolling constraint and its direction constraint, each trailer a direction constraint.
+/// Each wheel gives its rolling constraint and its direction constraint, each trailer a direction constraint; trailers
+/// that are a part of the vehicle come first.
 /// Coordinates: x, y, phi (along a line s), the angles that are steered or free, the angles of the wheels, and phi_1, phi_2, … of the
 /// trailers. An angle that is a formula of others, as on an Ackermann axle, is written out.
 ///
@@ -90,7 +94,7 @@ pub fn mechanism(vehicle: &Vehicle, trailers: usize) -> Mechanism {
     let turns = vehicle.wheels.iter().filter_map(|w| w.rate.as_ref());
     let turns = turns.map(|r| Symbol::new(r.as_str().trim_end_matches('\'')));
     let mut coordinates = body_coordinates(vehicle);
-    for q in angles.into_iter().chain(turns).chain((1..=trailers).map(trailer_heading)) {
+    for q in angles.into_iter().chain(turns).chain((1..=vehicle.trailers.len() + trailers).map(trailer_heading)) {
         if !coordinates.contains(&q) {
             coordinates.push(q);
         }
@@ -114,17 +118,32 @@ fn constraints_of(vehicle: &Vehicle, trailers: usize) -> Vec<Constraint> {
         false => Velocity::of_reference_point(),
     };
     let mut found = Vec::new();
-    for wheel in &vehicle.wheels {
-        found.extend(rolling(wheel, &reference, &body));
-        found.extend(direction(wheel, &reference, &body));
-    }
-    found.extend(vehicle.constraints.iter().cloned());
-    let mut axle = reference;
-    for i in 1..=trailers {
-        axle = behind(&axle, i);
-        found.push(trailer_direction(i, &axle));
+    for (i, axle) in bodies(reference, vehicle.trailers.len() + trailers).iter().enumerate() {
+        let heading = section_heading(i);
+        found.extend((i > 0).then(|| trailer_direction(vehicle, i, axle)));
+        for wheel in vehicle.wheels_on(i) {
+            found.extend(rolling(wheel, axle, &heading));
+            found.extend(direction(wheel, axle, &heading));
+        }
+        if i == 0 {
+            found.extend(vehicle.constraints.iter().cloned());
+        }
     }
     found
+}
+
+/// The velocities of the reference point and of the axle of every trailer behind it.
+pub(super) fn bodies(reference: Velocity, trailers: usize) -> Vec<Velocity> {
+    let mut found = vec![reference];
+    for i in 1..=trailers {
+        found.push(behind(&found[i - 1], i));
+    }
+    found
+}
+
+/// The heading of the body (zero) or of a trailer.
+pub(super) fn section_heading(i: usize) -> Heading {
+    if i == 0 { Heading::along("phi") } else { Heading::along(trailer_heading(i)) }
 }
 
 impl Model {

@@ -37,9 +37,9 @@ impl Model {
     /// Values of every fixed symbol of the model's formulas.
     pub fn values(&self) -> BTreeMap<Symbol, f64> {
         let mut values: BTreeMap<Symbol, f64> = self.parameters.iter().map(|(k, v)| (Symbol::new(k), *v)).collect();
-        for (i, t) in self.trailers.iter().enumerate() {
-            values.insert(Symbol::new(&format!("trailer_length_{}", i + 1)), t.length);
-            values.insert(Symbol::new(&format!("hitch_offset_{}", i + 1)), t.hitch);
+        for (i, t) in (self.vehicle.trailers.len() + 1..).zip(&self.trailers) {
+            values.insert(Symbol::new(&format!("trailer_length_{i}")), t.length);
+            values.insert(Symbol::new(&format!("hitch_offset_{i}")), t.hitch);
         }
         values.insert("sensor.a".into(), self.sensor.lever_arm[0]);
         values.insert("sensor.b".into(), self.sensor.lever_arm[1]);
@@ -53,7 +53,7 @@ impl Model {
     /// The symbols of the states: pose, trailer headings, hidden states: coordinates of its own, states of effects.
     pub fn states(&self) -> Vec<Symbol> {
         let mut states: Vec<Symbol> = ["x", "y", "phi"].map(Symbol::from).to_vec();
-        states.extend((1..=self.trailers.len()).map(trailer_heading));
+        states.extend((1..=self.trailer_count()).map(trailer_heading));
         states.extend(self.own_states());
         states.extend(self.effects.iter().flat_map(|e| e.states()).map(|(s, _)| s));
         states
@@ -68,7 +68,7 @@ impl Model {
         let mut graph = Graph::default();
         definitions.insert_into(&mut graph)?;
         let states = self.states();
-        let visible = 3 + self.trailers.len();
+        let visible = 3 + self.trailer_count();
         let mut rates: Vec<NodeId> = states[..visible].iter().map(|s| graph.insert(&Expr::sym(s.rate()))).collect();
         rates.extend(self.own_states().iter().map(|q| graph.insert(&Expr::sym(q.rate()))));
         for (_, rate) in self.effects.iter().flat_map(|e| e.states()) {
@@ -88,7 +88,7 @@ impl Model {
         let jacobian = with_derivatives(&mut graph, &rates, &[&states[..], &inputs, free].concat());
         let jacobian = compile(&graph, &jacobian)?;
         let mut measured: Vec<NodeId> = ["x_m", "y_m", "heading_m"].map(|s| graph.insert(&Expr::sym(s))).to_vec();
-        measured.extend((1..=self.trailers.len()).map(|i| graph.insert(&Expr::sym(trailer_heading(i)))));
+        measured.extend((1..=self.trailer_count()).map(|i| graph.insert(&Expr::sym(trailer_heading(i)))));
         let measured = with_derivatives(&mut graph, &measured, &[&states[..visible], free].concat());
         let outputs = compile(&graph, &measured)?;
         let delay = graph.insert(&Expr::sym("delay"));

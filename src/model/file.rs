@@ -13,9 +13,20 @@ pub const WITH_TRAILERS: &str = "n-trailer";
 
 /// What a model file may name: the vehicles of the catalogue and the effects of a library.
 pub fn known(library: &[Effect]) -> Known {
+    known_on(vehicles::all(), library)
+}
+
+/// What a model file may name: these vehicles and the effects of a library.
+///
+/// ```
+/// use creepage::{effects, library, model};
+/// let vehicles = library::vehicles_with_own("examples/bus/bus.toml").unwrap();
+/// assert!(model::known_on(&vehicles, effects::all()).vehicle("articulated-bus").is_some());
+/// ```
+pub fn known_on(vehicles: &[Vehicle], library: &[Effect]) -> Known {
     let train = KnownVehicle { id: WITH_TRAILERS.into(), trailers: true, ..KnownVehicle::default() };
     Known {
-        vehicles: vehicles::all().iter().map(known_vehicle).chain([train]).collect(),
+        vehicles: vehicles.iter().map(known_vehicle).chain([train]).collect(),
         effects: library.iter().map(known_effect).collect(),
         terms: super::terms::ids().into_iter().map(known_term).collect(),
     }
@@ -44,6 +55,8 @@ fn known_vehicle(v: &Vehicle) -> KnownVehicle {
         trailers: false,
         tractor: v.pulls(),
         dynamics: KnownDynamics::default(),
+        sections: v.trailers.len(),
+        description: Some(v.clone()),
     }
 }
 
@@ -77,7 +90,8 @@ impl Model {
     /// When an effect of the file does not apply to its vehicle.
     pub fn from_file(file: &ModelFile, library: &[Effect], roles: &[String]) -> Result<Model> {
         let id = file.tractor.as_deref().unwrap_or(&file.vehicle);
-        let vehicle = vehicles::named(id).ok_or_else(|| Error::input(format!("no vehicle is called {id:?}")))?;
+        let vehicle = file.description.as_ref().or_else(|| vehicles::named(id));
+        let vehicle = vehicle.ok_or_else(|| Error::input(format!("no vehicle is called {id:?}")))?;
         let trailers = file.trailer_lengths.iter().zip(&file.hitch_offsets);
         let mut model = Model {
             vehicle: vehicle.clone(),

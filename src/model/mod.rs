@@ -15,8 +15,8 @@ mod terms;
 pub(crate) use constraints::behind as axle_behind;
 pub use constraints::mechanism;
 pub use equations::{Equations, Workspace};
-pub use file::{WITH_TRAILERS, known};
-pub use terms::{COEFFICIENT, PREFIX};
+pub use file::{WITH_TRAILERS, known, known_on};
+pub use terms::{COEFFICIENT, PREFIX, is_term};
 
 use crate::effects::{Applied, Effect};
 use crate::error::{Error, Result};
@@ -54,7 +54,7 @@ pub struct Sensor {
 pub struct Model {
     /// The tractor.
     pub vehicle: Vehicle,
-    /// Its trailers, nearest first.
+    /// The trailers behind it, nearest first; those that are a part of the vehicle stand ahead of them.
     pub trailers: Vec<Trailer>,
     /// Values of the vehicle's parameters.
     pub parameters: BTreeMap<String, f64>,
@@ -67,13 +67,31 @@ pub struct Model {
 }
 
 impl Model {
-    /// A vehicle of the catalogue with parameters, logged by its own inputs, without trailers or effects.
+    /// A vehicle of the catalogue by its id; otherwise as [`Model::of`].
     ///
     /// # Errors
     /// When the vehicle or a parameter is unknown, or a parameter is missing.
     pub fn new(vehicle: &str, parameters: &[(&str, f64)]) -> Result<Self> {
         let found =
             crate::vehicles::named(vehicle).ok_or_else(|| Error::input(format!("no vehicle is called {vehicle:?}")))?;
+        Self::of(found, parameters)
+    }
+
+    /// Any vehicle with parameters, logged by its own inputs, without trailers behind it or effects.
+    ///
+    /// ```
+    /// use creepage::model::Model;
+    /// use creepage::vehicles::{Vehicle, Wheel};
+    /// let blade = Wheel { name: "blade".into(), traverse_creep: Some("e_tc".into()), ..Wheel::default() };
+    /// let skate = Vehicle { id: "skate".into(), wheels: vec![blade], ..Vehicle::default() };
+    /// let skate = Model::of(&skate, &[]).unwrap();
+    /// assert_eq!(skate.constraints()[0].ideal_row().to_string(), "sin(phi)*x' - cos(phi)*y'");
+    /// ```
+    ///
+    /// # Errors
+    /// When a parameter is unknown or missing.
+    pub fn of(found: &Vehicle, parameters: &[(&str, f64)]) -> Result<Self> {
+        let vehicle = &found.id;
         let parameters: BTreeMap<String, f64> = parameters.iter().map(|(k, v)| ((*k).to_string(), *v)).collect();
         if let Some(extra) = parameters.keys().find(|k| !found.parameters.contains_key(*k)) {
             return Err(Error::input(format!("{vehicle} has no parameter {extra:?}")));
@@ -93,13 +111,18 @@ impl Model {
         })
     }
 
-    /// A vehicle of the catalogue with every parameter one: enough for its formulas.
+    /// A vehicle with every parameter one: enough for its formulas.
     ///
     /// # Errors
-    /// When the vehicle is not of the catalogue.
+    /// As [`Model::of`].
     pub fn sample(vehicle: &Vehicle) -> Result<Self> {
         let ones: Vec<(&str, f64)> = vehicle.parameters.keys().map(|name| (name.as_str(), 1.0)).collect();
-        Self::new(&vehicle.id, &ones)
+        Self::of(vehicle, &ones)
+    }
+
+    /// How many trailers it has: those that are a part of the vehicle, then those behind it.
+    pub fn trailer_count(&self) -> usize {
+        self.vehicle.trailers.len() + self.trailers.len()
     }
 
     /// The model with trailers behind it.
@@ -117,14 +140,19 @@ impl Model {
 
     /// The effects of a library that apply to the vehicle, one entry for each trailer they may belong to.
     ///
-    /// A user's own effect does not where its formulas would close a circle with those of the model.
+    /// One does not where its formulas would close a circle with those of the model; in the catalogues none can.
     pub fn applicable<'a>(&self, library: &'a [Effect]) -> Vec<(&'a Effect, Option<usize>)> {
         let bare = self.bare_definitions();
         let names: Vec<Symbol> = bare.iter().map(|(n, _)| n.clone()).collect();
-        let open = |e: &Effect, t: Option<usize>| e.origin.is_none() || self.stays_open(&bare, e, t);
+        let open = |e: &Effect, t: Option<usize>| self.is_of_catalogue(e) || self.stays_open(&bare, e, t);
         let fits = |e: &Effect, t: Option<usize>| self.targets(e, t, &names).is_some() && open(e, t);
-        let all = library.iter().flat_map(|e| e.trailers(self.trailers.len()).into_iter().map(move |t| (e, t)));
+        let all = library.iter().flat_map(|e| e.trailers(self.trailer_count()).into_iter().map(move |t| (e, t)));
         all.filter(|(e, t)| fits(e, *t)).collect()
+    }
+
+    fn is_of_catalogue(&self, e: &Effect) -> bool {
+        let known = crate::effects::named(&e.id).is_some() || e.id.starts_with(PREFIX);
+        known && e.origin.is_none() && crate::vehicles::named(&self.vehicle.id).is_some()
     }
 
     /// Coordinates: x, y, phi (along a line s), the angles of castors, the angles turned by the wheels, and phi_1,
@@ -134,7 +162,7 @@ impl Model {
         found.extend(self.vehicle.wheels.iter().filter_map(|w| w.steering.clone().filter(|s| self.vehicle.is_free(s))));
         let rates = self.vehicle.wheels.iter().filter_map(|w| w.rate.as_ref());
         found.extend(rates.map(|r| Symbol::new(r.as_str().trim_end_matches('\''))));
-        found.extend((1..=self.trailers.len()).map(trailer_heading));
+        found.extend((1..=self.trailer_count()).map(trailer_heading));
         found
     }
 }

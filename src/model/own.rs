@@ -3,36 +3,34 @@
 use super::Model;
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
-use crate::mechanism::{Constraint, Definitions, Printed, Sample, solve};
-
-/// Points at which constraints that are left over must vanish, as in `body.rs`.
-const POINTS: u32 = 5;
+use crate::mechanism::{Constraint, Definitions, Printed, solve};
 
 impl Model {
     /// Solves the constraints for the rates of coordinates that nothing defines; the pose follows from them.
     pub(super) fn solve_own(&self, d: &mut Definitions) -> Result<()> {
-        let id = &self.vehicle.id;
         if !self.trailers.is_empty() {
+            let id = &self.vehicle.id;
             return Err(Error::input(format!("{id} has coordinates of its own and pulls no trailer"))
                 .help("leave the trailers out"));
         }
+        let left = self.solve_some(d)?;
+        self.check(d, &left)
+    }
+
+    /// The motion by as many constraints as it takes, and those that are left over.
+    pub(super) fn solve_some(&self, d: &mut Definitions) -> Result<Vec<Constraint>> {
         let mut unknown = self.unknown_rates();
         let mut left = self.constraints();
         while let Some((c, rate)) = single(&left, &unknown) {
-            let solved = isolated(&left.remove(c), &rate).ok_or_else(|| self.free())?;
+            let solved = isolated(&left.remove(c), &rate).ok_or_else(|| self.free(&[], &[rate.clone()]))?;
             unknown.retain(|r| *r != rate);
             d.define(rate, solved);
         }
         let rows: Vec<_> = left.iter().map(Constraint::row).collect();
-        let solved = solve::together(&rows, &unknown).ok_or_else(|| self.free())?;
+        let solved = solve::together(&rows, &unknown).ok_or_else(|| self.free(&rows, &unknown))?;
         solved.into_iter().for_each(|(rate, f)| d.define(rate, f));
         self.define_pose(d);
-        let free = d.without(&|name| self.vehicle.creeps().any(|creep| creep == name));
-        let holds = |c: &Constraint| (0..POINTS).all(|k| Sample::of(&free, k).is_some_and(|s| s.annihilates(&c.row())));
-        match left.iter().all(holds) {
-            true => Ok(()),
-            false => Err(self.unmoved("contradict each other for general inputs")),
-        }
+        Ok(left)
     }
 
     /// The rates of its own coordinates that neither they themselves nor their rates are defined by inputs.

@@ -144,6 +144,11 @@ fn products() -> impl Iterator<Item = [&'static Factor; 2]> {
     yaw.chain(heading)
 }
 
+/// Whether an id is that of a term.
+pub fn is_term(id: &str) -> bool {
+    ids().iter().any(|term| term == id)
+}
+
 /// Smallest and largest coefficient.
 pub const RANGE: [f64; 2] = [-1e6, 1e6];
 

@@ -1,8 +1,9 @@
-//! The vehicles: descriptions as data. To add one, add it to `catalogue.toml`.
+//! The vehicles: descriptions as data. To add one, add it to `catalogue.toml`; a user adds one without recompiling,
+//! see [`library`](crate::library).
 
 mod vehicle;
 
-pub use vehicle::{Coordinate, Definition, Input, Instead, Quantity, Vehicle, Wheel};
+pub use vehicle::{Coordinate, Definition, Input, Instead, Quantity, Section, Vehicle, Wheel};
 
 use std::sync::LazyLock;
 

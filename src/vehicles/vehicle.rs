@@ -2,11 +2,13 @@
 
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::Constraint;
+use crate::origin::Origin;
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// A body with wheels: the description from which constraints and motion are derived.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Vehicle {
     /// Its name in model files.
@@ -33,6 +35,9 @@ pub struct Vehicle {
     pub coordinates: Vec<Coordinate>,
     /// The coordinate that is its heading, for a vehicle with coordinates of its own; phi where it has that.
     pub heading: Option<Symbol>,
+    /// Trailers that are a part of it, the one behind the body first.
+    #[serde(default)]
+    pub trailers: Vec<Section>,
     /// It moves along a line in the direction of its heading: one coordinate s, no yaw, no sideways motion.
     #[serde(default)]
     pub line: bool,
@@ -42,6 +47,9 @@ pub struct Vehicle {
     pub held: Vec<Symbol>,
     /// What to use instead, for a vehicle whose constraints do not determine its motion.
     pub instead: Option<String>,
+    /// The file of a user that describes it; none for one of the catalogue.
+    #[serde(skip)]
+    pub origin: Option<Arc<Origin>>,
 }
 
 impl Vehicle {
@@ -78,6 +86,19 @@ impl Vehicle {
         self.held.contains(name) || !self.coordinates.is_empty() && moves()
     }
 
+    /// The number of the trailer that a wheel stands on, from one; zero for a wheel of the body.
+    ///
+    /// A name that no trailer has means the body; a file with such a name is refused.
+    pub fn section_of(&self, wheel: &Wheel) -> usize {
+        let on = |name: &String| self.trailers.iter().position(|t| t.name == *name);
+        wheel.on.as_ref().and_then(on).map_or(0, |i| i + 1)
+    }
+
+    /// The wheels of the body (zero) or of one of its trailers.
+    pub fn wheels_on(&self, section: usize) -> impl Iterator<Item = &Wheel> {
+        self.wheels.iter().filter(move |w| self.section_of(w) == section)
+    }
+
     /// Whether a symbol is no formula of the inputs: the angle of a castor, the rate of a passive wheel.
     pub fn is_free(&self, symbol: &Symbol) -> bool {
         !self.define.contains_key(symbol)
@@ -85,7 +106,7 @@ impl Vehicle {
 }
 
 /// A coordinate of its own.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Coordinate {
     /// Its symbol.
@@ -97,7 +118,7 @@ pub struct Coordinate {
 }
 
 /// Unit and meaning of a number.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Quantity {
     /// SI unit.
@@ -110,7 +131,7 @@ pub struct Quantity {
 }
 
 /// A measured input.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Input {
     /// SI unit.
@@ -122,7 +143,7 @@ pub struct Input {
 }
 
 /// A column that may stand for an input, and the formula that gives the input from it.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Instead {
     /// Role of the column.
@@ -134,7 +155,7 @@ pub struct Instead {
 }
 
 /// A symbol of the vehicle's formulas.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Definition {
     /// Its formula in parameters and inputs.
@@ -145,12 +166,29 @@ pub struct Definition {
     pub meaning: String,
 }
 
+/// A trailer that is a part of a vehicle: a bar from its hitch back to an axle that keeps its direction.
+///
+/// Its heading is phi_i, the coefficient of its traverse creep e_tc_i, with i its number from one.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Section {
+    /// What it is called.
+    pub name: String,
+    /// From its hitch back to its axle, m.
+    pub length: Expr,
+    /// The hitch behind the reference point of the body, or behind the axle of the trailer ahead, m.
+    #[serde(default = "zero")]
+    pub hitch: Expr,
+}
+
 /// A wheel, or an axle's worth of aligned wheels.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Wheel {
     /// What it is called.
     pub name: String,
+    /// The trailer it stands on, by name; the body when left out. Its place is then counted from that trailer's axle.
+    pub on: Option<String>,
     /// Distance ahead of the reference point, m.
     #[serde(default = "zero")]
     pub forward: Expr,

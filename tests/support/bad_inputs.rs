@@ -340,11 +340,11 @@ pub const BAD_MODELS: &[Case] = &[
     bad_model(
         "too few hitch offsets",
         "vehicle = \"n-trailer\"\n[parameters]\nwheel_radius = 1\nwheelbase = 2\ntrailer_lengths = [3, 3]\nhitch_offsets = [0]\n",
-        &["model.toml:6:17: hitch_offsets has 1 elements, but trailer_lengths has 2", "one per trailer"],
+        &["model.toml:6:17: hitch_offsets has 1 elements, but 2 are needed", "one per trailer"],
     ),
     bad_model(
         "too many trailer headings",
         "vehicle = \"n-trailer\"\n[parameters]\nwheel_radius = 1\nwheelbase = 2\ntrailer_lengths = [3]\n[columns]\ntrailer_headings = [\"a\", \"b\"]\n",
-        &["model.toml:7:20: trailer_headings has 2 elements, but trailer_lengths has 1"],
+        &["model.toml:7:20: trailer_headings has 2 elements, but 1 are needed"],
     ),
 ];

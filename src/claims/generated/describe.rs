@@ -38,6 +38,7 @@ impl Placed {
         let rolls = |s: Symbol| self.radius.as_ref().map(|_| s);
         Wheel {
             name: self.name.clone(),
+            on: None,
             forward: number(&self.place[0]),
             left: number(&self.place[1]),
             steering: self.angle(),

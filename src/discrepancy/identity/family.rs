@@ -131,7 +131,7 @@ pub fn points(model: &Model) -> Vec<Point> {
         let mut next = numbers.iter().cycle().map(|(p, q)| BigRational::new((*p).into(), (*q).into()));
         let mut angle = || next.next().map_or_else(|| int(0), |u| Normal::call(Fun::Atan, &Normal::number(&u)));
         let mut at = Values::from([("x".into(), int(0)), ("y".into(), int(0)), ("phi".into(), angle())]);
-        at.extend((1..=model.trailers.len()).map(|i| (trailer_heading(i), angle())));
+        at.extend((1..=model.trailer_count()).map(|i| (trailer_heading(i), angle())));
         for (i, (role, is_angle)) in inputs.iter().enumerate() {
             let speed = BigRational::new((2 + (3 * k + 5 * i * (k + 1)) as i64 % 11).into(), 2.into());
             at.insert(role.clone(), if *is_angle { angle() } else { Normal::number(&speed) });

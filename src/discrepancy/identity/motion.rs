@@ -37,7 +37,7 @@ impl Motion {
         let roots = ["x'", "y'", "phi'", "delay"].map(Symbol::from).into_iter();
         let seen = rests_on(&definitions, roots.chain(hidden.iter().flat_map(|(_, rate)| rate.symbols())).collect());
         let shown = |s: &Symbol| measured.trailers || seen.contains(s);
-        let trailers = (1..=model.trailers.len()).map(trailer_heading).filter(shown).collect();
+        let trailers = (1..=model.trailer_count()).map(trailer_heading).filter(shown).collect();
         Some(Self { definitions, measured, trailers, hidden })
     }
 

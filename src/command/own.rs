@@ -1,0 +1,72 @@
+//! `--vehicles FILE.toml` and `--effects FILE.toml`
+
+use clap::Args;
+use creepage::dynamics;
+use creepage::effects::{self, Effect};
+use creepage::files::ModelFile;
+use creepage::vehicles::{self, Vehicle};
+use creepage::{Result, library};
+use std::path::{Path, PathBuf};
+
+/// The user's own vehicles, beside those of the catalogue.
+#[derive(Args)]
+pub struct OwnVehicles {
+    /// Vehicles of your own, as in examples/bus/bus.toml; a model file may name them by vehicles = "FILE.toml" too
+    #[arg(long, value_name = "FILE.toml")]
+    vehicles: Option<PathBuf>,
+}
+
+/// The user's own vehicles and effects, beside those of the catalogues.
+#[derive(Args)]
+pub struct Own {
+    #[command(flatten)]
+    vehicles: OwnVehicles,
+    /// Effects of your own, as in examples/effects/my_effects.toml; they join the library
+    #[arg(long, value_name = "FILE.toml")]
+    effects: Option<PathBuf>,
+}
+
+impl OwnVehicles {
+    /// The catalogue with the user's own vehicles.
+    pub fn all(&self) -> Result<Vec<Vehicle>> {
+        match &self.vehicles {
+            Some(path) => library::vehicles_with_own(path),
+            None => Ok(vehicles::all().to_vec()),
+        }
+    }
+
+    /// The same with those of the file that a model names; of two with one name, that of the command line.
+    fn with_model(&self, model: &Path) -> Result<Vec<Vehicle>> {
+        let mut all = self.all()?;
+        if let Some(path) = ModelFile::named_vehicles(model)? {
+            let named = library::vehicles_with_own(path)?;
+            let new: Vec<Vehicle> = named.into_iter().filter(|v| all.iter().all(|a| a.id != v.id)).collect();
+            all.extend(new);
+        }
+        Ok(all)
+    }
+}
+
+impl Own {
+    /// The vehicles, and the library of effects.
+    pub fn catalogues(&self) -> Result<(Vec<Vehicle>, Vec<Effect>)> {
+        let vehicles = self.vehicles.all()?;
+        let library = self.library(&vehicles)?;
+        Ok((vehicles, library))
+    }
+
+    /// A model file and the library of effects; the vehicles that the model names join the catalogue.
+    pub fn read(&self, path: &Path) -> Result<(ModelFile, Vec<Effect>)> {
+        let vehicles = self.vehicles.with_model(path)?;
+        let library = self.library(&vehicles)?;
+        let file = ModelFile::read(path, &dynamics::known_on(&vehicles, &library))?;
+        Ok((file, library))
+    }
+
+    fn library(&self, vehicles: &[Vehicle]) -> Result<Vec<Effect>> {
+        match &self.effects {
+            Some(path) => library::with_own_on(path, vehicles),
+            None => Ok(effects::all().to_vec()),
+        }
+    }
+}

@@ -31,3 +31,7 @@ pub mod simulation {}
 pub mod planning {}
 #[doc = include_str!("../theory/10-open.md")]
 pub mod open {}
+#[doc = include_str!("../theory/ERRATA.md")]
+pub mod errata {}
+#[doc = include_str!("../theory/CONTENTS.md")]
+pub mod contents {}

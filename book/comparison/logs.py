@@ -19,12 +19,11 @@ class Log:
     pose: np.ndarray  # x, y, unwrapped heading
     wheels: np.ndarray  # unicycle: speed, yaw rate; differential drive: right and left wheel speeds, m/s
     track: float | None  # nominal track width of a differential drive
-    means: bool  # inputs are means since the row before
 
     def part(self, first, last):
         """A share of the rows."""
         rows = slice(round(first * len(self.pose)), round(last * len(self.pose)))
-        return Log(self.name, self.step, self.pose[rows], self.wheels[rows], self.track, self.means)
+        return Log(self.name, self.step, self.pose[rows], self.wheels[rows], self.track)
 
     def inputs(self):
         """Nominal speed and yaw rate of each row."""
@@ -58,20 +57,22 @@ def read(path, model):
     else:
         wheels = radius * np.column_stack([column["wheel_rate_right"], column["wheel_rate_left"]])
     pose = np.column_stack([column["x"], column["y"], np.unwrap(column["heading"])])
-    step = float(np.median(np.diff(column["time"])))
-    return Log(Path(path).stem, step, pose, wheels, track, model.get("input_timing") == "interval-mean")
+    if model.get("input_timing") == "interval-mean":
+        # What holds at a row lies between the mean before it and the mean behind it.
+        wheels[:-1] = (wheels[:-1] + wheels[1:]) / 2
+    return Log(Path(path).stem, float(np.median(np.diff(column["time"]))), pose, wheels, track)
 
 
-def windows(log, horizon=HORIZON):
-    """Rows at which the non-overlapping windows begin, and how many rows they last."""
-    margin, length = round(MARGIN / log.step), round(horizon / log.step)
-    return np.arange(margin, len(log.pose) - margin - length, length), length
+def windows(log, every):
+    """Rows at which the windows begin, and how many rows they last."""
+    margin, length = round(MARGIN / log.step), round(HORIZON / log.step)
+    return np.arange(margin, len(log.pose) - margin - length, round(every / log.step)), length
 
 
-def predicted(log, velocities, horizon=HORIZON):
+def predicted(log, velocities, every=HORIZON):
     """Poses at the ends of all windows from velocities (ahead, left, yaw) of every row, and those measured."""
-    starts, length = windows(log, horizon)
-    mean = velocities[1:] if log.means else (velocities[1:] + velocities[:-1]) / 2
+    starts, length = windows(log, every)
+    mean = (velocities[1:] + velocities[:-1]) / 2
     pose = log.smoothed()[starts].copy()
     for k in range(length):
         ahead, left, yaw = mean[starts + k].T * log.step

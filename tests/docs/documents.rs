@@ -40,8 +40,7 @@ pub fn all() -> Vec<Document> {
 pub fn in_folder(folder: &str) -> Vec<String> {
     let entries = std::fs::read_dir(root().join(folder)).unwrap_or_else(|e| panic!("{folder}: {e}"));
     let names = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).filter(|n| n.ends_with(".md"));
-    let mut found: Vec<String> =
-        names.map(|n| if folder.is_empty() { n } else { format!("{folder}/{n}") }).collect();
+    let mut found: Vec<String> = names.map(|n| if folder.is_empty() { n } else { format!("{folder}/{n}") }).collect();
     found.sort();
     found
 }

@@ -72,31 +72,35 @@ fn slug(heading: &str) -> String {
 pub fn book() -> Vec<String> {
     let summary = Document::read("book/src/SUMMARY.md");
     let listed: Vec<String> = of(&summary).collect();
-    let chapters = in_folder("book/src/guide").into_iter().chain(in_folder("book/src/theory"));
-    let left_out = chapters.filter_map(|c| {
+    let chapters = || in_folder("book/src/guide").into_iter().chain(in_folder("book/src/theory"));
+    let left_out = chapters().filter_map(|c| {
         let name = c.strip_prefix("book/src/")?.to_string();
         (!listed.contains(&name)).then(|| format!("SUMMARY.md leaves {name} out"))
     });
     // Through the book's own folder the theory's links must stay inside it, too.
-    let leaving = in_folder("book/src/guide").into_iter().chain(in_folder("book/src/theory")).flat_map(|c| {
-        let links = of(&Document::read(&c)).filter(|l| !is_external(l)).collect::<Vec<_>>();
-        links.into_iter().filter(|l| !stays(&c, l)).map(move |l| format!("{c}: ({l}) leaves the book")).collect::<Vec<_>>()
+    let leaving = chapters().flat_map(|page| {
+        let away = |l: &String| !is_external(l) && !stays(&page, l);
+        let links: Vec<String> = of(&Document::read(&page)).filter(away).collect();
+        links.into_iter().map(|l| format!("{page}: ({l}) leaves the book")).collect::<Vec<_>>()
     });
     left_out.chain(leaving).collect()
 }
 
-/// Whether a link from a page of the book ends in the book.
+/// Whether a link from a page of the book ends in the book, where it is put together: `theory` there is a folder.
 fn stays(page: &str, link: &str) -> bool {
     let path = link.split('#').next().unwrap_or_default();
-    let mut depth: Vec<&str> = page.split('/').collect();
-    depth.pop();
+    let mut place: Vec<&str> = page.split('/').collect();
+    if path.is_empty() {
+        return true;
+    }
+    place.pop();
     for part in path.split('/') {
         match part {
-            ".." => drop(depth.pop()),
-            part => depth.push(part),
+            ".." => drop(place.pop()),
+            part => place.push(part),
         }
     }
-    path.is_empty() || depth.starts_with(&["book", "src"])
+    place.starts_with(&["book", "src"]) && root().join(place.join("/")).exists()
 }
 
 /// Chapters of the theory whose module, which their links become in rustdoc, is not there.
@@ -111,5 +115,9 @@ pub fn modules() -> Vec<String> {
         let entry = format!("#[doc = include_str!(\"../{file}\")]\npub mod {} {{}}", module(file));
         !modules.contains(&entry)
     };
-    in_folder("theory").into_iter().filter(missing).map(|file| format!("src/theory.rs has no module {}", module(&file))).collect()
+    in_folder("theory")
+        .into_iter()
+        .filter(missing)
+        .map(|file| format!("src/theory.rs has no module {}", module(&file)))
+        .collect()
 }

@@ -17,6 +17,10 @@ impl Sandbox {
         let dir = tempfile::tempdir().unwrap();
         copy(&root().join("examples"), &dir.path().join("examples"));
         copy(&root().join(OWN), dir.path());
+        // The names that stand for a reader's own files.
+        for (own, name) in [("eights.csv", "RUN.csv"), ("model.toml", "MODEL.toml")] {
+            std::fs::copy(dir.path().join(own), dir.path().join(name)).unwrap();
+        }
         Self(dir)
     }
 
@@ -36,7 +40,10 @@ impl Sandbox {
             return vec![at(format!("{}\n{}", output.status, String::from_utf8_lossy(&output.stderr)))];
         }
         let printed = String::from_utf8_lossy(&output.stdout);
-        missing(&command.shown, &printed).map(|line| at(format!("does not print {line:?}, but\n{printed}"))).into_iter().collect()
+        missing(&command.shown, &printed)
+            .map(|line| at(format!("does not print {line:?}, but\n{printed}")))
+            .into_iter()
+            .collect()
     }
 }
 

@@ -31,7 +31,10 @@ pub mod simulation {}
 pub mod planning {}
 #[doc = include_str!("../theory/10-open.md")]
 pub mod open {}
+// Generated text quotes the paper's references, such as [8,9].
+#[allow(rustdoc::broken_intra_doc_links)]
 #[doc = include_str!("../theory/ERRATA.md")]
 pub mod errata {}
+#[allow(rustdoc::broken_intra_doc_links)]
 #[doc = include_str!("../theory/CONTENTS.md")]
 pub mod contents {}

@@ -87,7 +87,7 @@ def compare(binary, folder):
         subprocess.run([binary, "discover", *paths, "--model", folder / "model.toml", "--out", out, "--quiet"],
                        check=True, capture_output=True)
         report = json.loads((out / "report.json").read_text())
-        names = [f"`{e['id']}` " + ", ".join(f"{k} = {p['value']:.5f} ± {p['std'] or 0:.5f}"
+        names = [f"`{e['id']}` " + ", ".join(f"{k} = {p['value']:.5f} ± {p['std'] or 0:.0e}"
                                              for k, p in e["parameters"].items()) for e in report["effects"]]
         yield (f"| {story} | {ratio:.5f} | {base:.5f} | {report['verdict']}"
                + (": " + "; ".join(names) if names else "") + " |")

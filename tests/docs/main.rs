@@ -18,7 +18,7 @@ fn every_relative_link_and_anchor_resolves() {
     let documents = all();
     let checked: usize = documents.iter().map(|d| links::of(d).count()).sum();
     assert!(checked > 100, "only {checked} links were found");
-    none(documents.iter().flat_map(|d| links::faults(d)).collect());
+    none(documents.iter().flat_map(links::faults).collect());
 }
 
 #[test]

@@ -37,3 +37,10 @@ pub mod viscous {}
 pub mod open {}
 #[doc = include_str!("../CONTRIBUTING.md")]
 pub mod extending {}
+// Generated text quotes the paper's references, such as [8,9].
+#[allow(rustdoc::broken_intra_doc_links)]
+#[doc = include_str!("../theory/ERRATA.md")]
+pub mod errata {}
+#[allow(rustdoc::broken_intra_doc_links)]
+#[doc = include_str!("../theory/CONTENTS.md")]
+pub mod contents {}

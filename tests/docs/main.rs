@@ -1,0 +1,103 @@
+//! The documents hold: their links lead somewhere, their commands run and print what is shown.
+
+mod commands;
+mod documents;
+mod fences;
+mod links;
+mod sandbox;
+
+use documents::{Document, all};
+
+/// Faults of all documents, one a line.
+fn none(faults: Vec<String>) {
+    assert!(faults.is_empty(), "\n{}\n", faults.join("\n"));
+}
+
+#[test]
+fn every_relative_link_and_anchor_resolves() {
+    let documents = all();
+    let checked: usize = documents.iter().map(|d| links::of(d).count()).sum();
+    assert!(checked > 100, "only {checked} links were found");
+    none(documents.iter().flat_map(links::faults).collect());
+}
+
+#[test]
+fn external_links_are_listed() {
+    let documents = all();
+    let mut external: Vec<String> = documents.iter().flat_map(links::of).filter(|l| links::is_external(l)).collect();
+    external.sort();
+    external.dedup();
+    external.iter().for_each(|link| println!("{link}"));
+    none(external.into_iter().filter(|l| !l.starts_with("https://")).collect());
+}
+
+#[test]
+fn the_book_has_every_chapter_and_leads_nowhere_else() {
+    none(links::book());
+}
+
+#[test]
+fn every_chapter_of_the_theory_is_a_module() {
+    none(links::modules());
+}
+
+#[test]
+fn every_command_is_marked_as_one() {
+    none(all().iter().flat_map(commands::unmarked).collect());
+}
+
+/// Runs the commands of one document in a folder of their own, in their order.
+fn runs(name: &str) {
+    let document = Document::read(name);
+    let commands = commands::of(&document);
+    assert!(!commands.is_empty(), "{name} has no command");
+    let sandbox = sandbox::Sandbox::new();
+    none(commands.iter().flat_map(|c| sandbox.faults(c)).map(|fault| format!("{name}: {fault}")).collect());
+}
+
+#[test]
+fn commands_of_the_readme_run() {
+    runs("README.md");
+}
+
+#[test]
+fn commands_of_the_examples_run() {
+    runs("examples/README.md");
+}
+
+#[test]
+fn commands_of_installation_run() {
+    runs("book/src/guide/install.md");
+}
+
+#[test]
+fn commands_of_the_first_discovery_run() {
+    runs("book/src/guide/first.md");
+}
+
+#[test]
+fn commands_of_the_guide_run() {
+    for page in ["own-log", "report", "effects", "vehicles"] {
+        runs(&format!("book/src/guide/{page}.md"));
+    }
+}
+
+#[test]
+fn no_document_with_commands_is_left_out() {
+    let tested = [
+        "README.md",
+        "examples/README.md",
+        "book/src/guide/install.md",
+        "book/src/guide/first.md",
+        "book/src/guide/own-log.md",
+        "book/src/guide/report.md",
+        "book/src/guide/effects.md",
+        "book/src/guide/vehicles.md",
+    ];
+    let left: Vec<String> = all()
+        .iter()
+        .filter(|d| !tested.contains(&d.name.as_str()) && !commands::of(d).is_empty())
+        .map(|d| d.name.clone())
+        .collect();
+    none(left);
+}

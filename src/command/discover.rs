@@ -81,7 +81,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
 }
 
 /// A run that is fitted cannot be held out.
-fn distinct(runs: &[PathBuf], held_out: &[PathBuf]) -> Result<()> {
+pub(super) fn distinct(runs: &[PathBuf], held_out: &[PathBuf]) -> Result<()> {
     let same = |a: &Path, b: &Path| a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
     for (i, run) in runs.iter().enumerate() {
         if held_out.iter().any(|h| same(run, h)) {

@@ -1,8 +1,10 @@
 //! The command line: arguments → one library call → print.
 
+mod check;
 mod describe;
 mod discover;
 mod figures;
+mod init;
 mod lists;
 mod own_effects;
 mod progress;
@@ -35,6 +37,8 @@ struct Common {
 
 #[derive(Subcommand)]
 enum Command {
+    Init(init::Arguments),
+    Check(check::Arguments),
     Discover(discover::Arguments),
     Simulate(simulate::Arguments),
     Describe(describe::Arguments),
@@ -56,6 +60,8 @@ impl Cli {
             pool.map_err(|e| Error::run(format!("no threads could be started: {e}")))?;
         }
         match self.command {
+            Command::Init(arguments) => init::run(&arguments, self.common.quiet),
+            Command::Check(arguments) => check::run(&arguments, self.common.quiet),
             Command::Discover(arguments) => discover::run(&arguments, self.common.quiet),
             Command::Simulate(arguments) => simulate::run(&arguments, self.common.quiet),
             Command::Describe(arguments) => describe::run(&arguments),

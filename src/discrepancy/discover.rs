@@ -59,7 +59,7 @@ impl Discovery {
 /// # Errors
 /// When runs log different inputs, or the model file's effects do not apply to its vehicle.
 pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery> {
-    let roles = common_roles(request)?;
+    let roles = common_roles(request.runs, request.held_out)?;
     let model = Model::from_file(request.file, request.library, &roles)?;
     let data = Data::of(request, &model)?;
     let known = request.file.noise;
@@ -106,8 +106,8 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
 }
 
 /// The input roles that all runs log.
-fn common_roles(request: &Request) -> Result<Vec<String>> {
-    let mut all = request.runs.iter().chain(request.held_out);
+pub(super) fn common_roles(runs: &[Run], held_out: &[Run]) -> Result<Vec<String>> {
+    let mut all = runs.iter().chain(held_out);
     let first = all.next().ok_or_else(|| Error::input("no run was given").help("name at least one CSV file"))?;
     for run in all {
         if run.roles != first.roles {

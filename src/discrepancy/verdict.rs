@@ -141,7 +141,7 @@ fn mismatched(clocks: &[Drift]) -> Option<String> {
 }
 
 /// Effects every vehicle has in one form or another: if one of plausible size could hide, silence means nothing.
-const BASIC: [&str; 6] =
+pub(super) const BASIC: [&str; 6] =
     ["rotation-creep", "traverse-creep", "yaw-rate-bias", "yaw-rate-scale", "track-width", "steering-offset"];
 
 /// A basic effect that would not have stood out at its plausible size.

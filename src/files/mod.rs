@@ -4,6 +4,7 @@
 //! [`Error`](crate::Error) with file, line, column and advice. The catalogues of vehicles and effects
 //! are not known here; the caller passes what may stand in a model file as [`Known`].
 
+mod apart;
 mod cell;
 mod claims_file;
 mod columns;
@@ -11,6 +12,7 @@ mod effect_entry;
 mod effect_parameter;
 mod effects_file;
 mod formula_text;
+mod header;
 mod inputs_file;
 mod known;
 mod model_file;
@@ -26,16 +28,18 @@ mod spot;
 mod text;
 mod toml_table;
 
+pub use apart::Clock;
 pub use claims_file::{ClaimEntry, read_claims};
 pub use columns::{Columns, InputColumn, Resolved, ResolvedInput};
 pub use effect_entry::EffectEntry;
 pub use effects_file::{EffectsFile, OwnEffect};
 pub use formula_text::FormulaText;
+pub use header::read_header;
 pub use inputs_file::Inputs;
 pub use known::{Known, KnownEffect, KnownInput, KnownParameter, KnownVehicle};
 pub use model_file::{Initial, InputTiming, ModelFile, Noise, Sensor};
 pub use output::{write_all_or_nothing, write_whole};
-pub use run_file::Run;
+pub use run_file::{Apart, Run};
 pub use spot::Spot;
 pub use text::read_text;
 

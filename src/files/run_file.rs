@@ -41,6 +41,19 @@ pub struct Run {
     pub why_dropped: BTreeMap<String, usize>,
     /// What a user should know of the file.
     pub warnings: Vec<String>,
+    /// Of a run whose inputs were logged apart from its poses: their own times, and the file of the poses.
+    pub apart: Option<Apart>,
+}
+
+/// Inputs that were logged apart from the measured poses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Apart {
+    /// Strictly increasing times of the inputs, s: by their own clock, or by that of the poses once they are aligned.
+    pub time: Vec<f64>,
+    /// The file of the poses.
+    pub truth: PathBuf,
+    /// SHA-256 of its bytes, hexadecimal.
+    pub truth_sha256: String,
 }
 
 impl Run {
@@ -67,7 +80,7 @@ impl Run {
         Ok(Self::build(path, found, numbers, warnings))
     }
 
-    fn build(path: &Path, found: Resolved, numbers: Numbers, warnings: Vec<String>) -> Self {
+    pub(super) fn build(path: &Path, found: Resolved, numbers: Numbers, warnings: Vec<String>) -> Self {
         let mut columns = numbers.columns.into_iter();
         let mut next = || columns.next().unwrap_or_default();
         let (time, x, y) = (next(), next(), next());
@@ -92,12 +105,13 @@ impl Run {
             rows_dropped: numbers.dropped.values().sum(),
             why_dropped: numbers.dropped,
             warnings,
+            apart: None,
         }
     }
 }
 
 /// The columns to read, in the order [`Run::build`] takes them.
-fn wanted(found: &Resolved) -> Vec<usize> {
+pub(super) fn wanted(found: &Resolved) -> Vec<usize> {
     let mut wanted = vec![found.time, found.x, found.y];
     wanted.extend(found.heading);
     wanted.extend(&found.trailer_headings);
@@ -106,7 +120,7 @@ fn wanted(found: &Resolved) -> Vec<usize> {
 }
 
 /// Sorts rows and settles repeated times; gives warnings.
-fn arrange(numbers: &mut Numbers) -> Vec<String> {
+pub(super) fn arrange(numbers: &mut Numbers) -> Vec<String> {
     let back = order::sort(&mut numbers.columns);
     let repeats = order::merge(&mut numbers.columns);
     let mut drop_for = |why: &str, rows: usize| {
@@ -122,7 +136,7 @@ fn arrange(numbers: &mut Numbers) -> Vec<String> {
     }
 }
 
-fn enough(numbers: &Numbers) -> Result<()> {
+pub(super) fn enough(numbers: &Numbers) -> Result<()> {
     let usable = numbers.columns[0].len();
     if usable >= FEWEST {
         return Ok(());

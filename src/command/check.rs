@@ -4,9 +4,11 @@ use super::lists::Format;
 use super::own_effects::OwnEffects;
 use super::print;
 use super::progress::Progress;
+use super::runs;
 use clap::Args;
-use creepage::discrepancy::identifiable::{Checked, check, check_text};
-use creepage::files::{ModelFile, Run};
+use creepage::discrepancy::align::check_aligned;
+use creepage::discrepancy::identifiable::{Checked, check_text};
+use creepage::files::ModelFile;
 use creepage::model::{self, Model};
 use creepage::{Error, Result};
 use std::path::PathBuf;
@@ -28,6 +30,12 @@ pub struct Arguments {
     /// The model as it is believed to be
     #[arg(long, value_name = "MODEL.toml")]
     model: PathBuf,
+    /// Measured poses in files of their own, one for each run and in their order
+    #[arg(long, num_args = 1.., value_name = "POSE.csv")]
+    truth: Vec<PathBuf>,
+    /// About where the clock of the poses reads against that of the inputs, s
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = runs::seconds, requires = "truth")]
+    clock_offset: Option<f64>,
     /// How to print it
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -42,9 +50,10 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let library = &arguments.own.library()?;
     let file = ModelFile::read(&arguments.model, &model::known(library))?;
     Model::check_motion(&file)?;
-    let runs = arguments.runs.iter().map(|p| Run::read(p, &file)).collect::<Result<Vec<_>>>()?;
-    super::discover::distinct(&arguments.runs, &[])?;
-    let answer = check(&Checked { file: &file, runs: &runs, library }, &|what| progress.say(what))?;
+    let runs = runs::read(&arguments.runs, &arguments.truth, "--truth", &file)?;
+    runs::distinct(&arguments.runs, &[])?;
+    let of = Checked { file: &file, runs: &runs, library };
+    let answer = check_aligned(&of, arguments.clock_offset, &|what| progress.say(what))?;
     drop(progress);
     let json = || serde_json::to_string_pretty(&answer).map_err(|e| Error::run(format!("no JSON: {e}")));
     match arguments.format {

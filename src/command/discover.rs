@@ -3,11 +3,13 @@
 use super::own_effects::OwnEffects;
 use super::print;
 use super::progress::Progress;
+use super::runs;
 use clap::Args;
-use creepage::discrepancy::discover::{Discovery, Request, discover};
+use creepage::discrepancy::align::discover_aligned;
+use creepage::discrepancy::discover::{Discovery, Request};
 use creepage::discrepancy::html::{gap_svg, html};
 use creepage::discrepancy::summary::summary_text;
-use creepage::files::{ModelFile, Run, write_all_or_nothing};
+use creepage::files::{ModelFile, write_all_or_nothing};
 use creepage::model::{self, Model};
 use creepage::{Error, Result};
 use std::path::{Path, PathBuf};
@@ -19,6 +21,7 @@ Example:
   creepage discover examples/runs/cornering/eights.csv examples/runs/cornering/rosette.csv \\
     --held-out examples/runs/cornering/square_held_out.csv \\
     --model examples/runs/cornering/model.toml --out report
+  creepage discover INPUTS.csv --truth POSES.csv --model MODEL.toml --out report
   creepage discover RUN.csv --model MODEL.toml --effects examples/effects/my_effects.toml --out report
 
 Writes report.json, report.html, gap.svg and model.patched.toml into the output folder.
@@ -36,6 +39,15 @@ pub struct Arguments {
     /// Runs that are only judged, opened after the last choice; without it the last quarter of every run
     #[arg(long, num_args = 1.., value_name = "RUN.csv")]
     held_out: Vec<PathBuf>,
+    /// Measured poses in files of their own, one for each run and in their order: the clocks of both are aligned
+    #[arg(long, num_args = 1.., value_name = "POSE.csv")]
+    truth: Vec<PathBuf>,
+    /// The same for the held-out runs
+    #[arg(long, num_args = 1.., value_name = "POSE.csv")]
+    held_out_truth: Vec<PathBuf>,
+    /// About where the clock of the poses reads against that of the inputs, s; found from the motion when left out
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = runs::seconds, requires = "truth")]
+    clock_offset: Option<f64>,
     /// A horizon of the gap, s (repeatable) [default: 1, 5 and 30]
     #[arg(long = "horizon", value_name = "S", value_parser = horizon)]
     horizons: Vec<f64>,
@@ -60,9 +72,19 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let library = &arguments.own.library()?;
     let file = ModelFile::read(&arguments.model, &model::known(library))?;
     Model::check_motion(&file)?;
-    let read = |paths: &[PathBuf]| paths.iter().map(|p| Run::read(p, &file)).collect::<Result<Vec<_>>>();
-    let (runs, held_out) = (read(&arguments.runs)?, read(&arguments.held_out)?);
-    distinct(&arguments.runs, &arguments.held_out)?;
+    let Arguments { runs, held_out, truth, held_out_truth, .. } = arguments;
+    if truth.is_empty() && !held_out_truth.is_empty() {
+        return Err(
+            Error::input("--held-out-truth is given without --truth").help("name the poses of the other runs too")
+        );
+    }
+    if !truth.is_empty() && held_out_truth.is_empty() && !held_out.is_empty() {
+        return Err(Error::input("--held-out is given without --held-out-truth").help("name the poses of every run"));
+    }
+    let distinct = runs::distinct(runs, held_out).and_then(|()| runs::distinct(truth, held_out_truth));
+    let (runs, held_out) =
+        (runs::read(runs, truth, "--truth", &file)?, runs::read(held_out, held_out_truth, "--held-out-truth", &file)?);
+    distinct?;
     let request = Request {
         file: &file,
         runs: &runs,
@@ -71,25 +93,11 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
         horizons: &arguments.horizons,
         seed: arguments.seed,
     };
-    let found = discover(&request, &|what| progress.say(what))?;
+    let found = discover_aligned(&request, arguments.clock_offset, &|what| progress.say(what))?;
     drop(progress);
     write(&found, &file, &arguments.out)?;
     if !quiet {
         print(&screen(&found, &arguments.out));
-    }
-    Ok(())
-}
-
-/// A run that is fitted cannot be held out.
-pub(super) fn distinct(runs: &[PathBuf], held_out: &[PathBuf]) -> Result<()> {
-    let same = |a: &Path, b: &Path| a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
-    for (i, run) in runs.iter().enumerate() {
-        if held_out.iter().any(|h| same(run, h)) {
-            return Err(Error::input("the run is fitted and held out at once").at_file(run).help("name it once"));
-        }
-        if runs[..i].iter().any(|r| same(run, r)) {
-            return Err(Error::input("the run is named twice").at_file(run).help("name it once"));
-        }
     }
     Ok(())
 }

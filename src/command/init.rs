@@ -50,7 +50,9 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     // What is written must be readable, whatever the columns are called.
     ModelFile::parse(&starter.text, &arguments.out, &model::known(effects::all()))?;
     if !arguments.force && arguments.out.symlink_metadata().is_ok_and(|m| m.is_file() || m.is_symlink()) {
-        return Err(Error::input("is there already").at_file(&arguments.out).help("choose another --out, or give --force"));
+        return Err(Error::input("is there already")
+            .at_file(&arguments.out)
+            .help("choose another --out, or give --force"));
     }
     write_whole(&arguments.out, starter.text.as_bytes())?;
     if !quiet {

@@ -1,13 +1,16 @@
 //! The command line: arguments → one library call → print.
 
 mod check;
+mod completions;
 mod describe;
 mod discover;
 mod figures;
 mod init;
 mod lists;
+mod man;
 mod own_effects;
 mod progress;
+mod runs;
 mod simulate;
 mod verify;
 
@@ -47,6 +50,8 @@ enum Command {
     Effects(lists::Effects),
     Verify(verify::Arguments),
     Claims(verify::List),
+    Completions(completions::Arguments),
+    Man(man::Arguments),
 }
 
 impl Cli {
@@ -70,6 +75,8 @@ impl Cli {
             Command::Effects(arguments) => lists::effects(&arguments),
             Command::Verify(arguments) => verify::run(&arguments, self.common.quiet),
             Command::Claims(arguments) => verify::list(&arguments),
+            Command::Completions(arguments) => completions::run(&arguments),
+            Command::Man(arguments) => man::run(&arguments, self.common.quiet),
         }
     }
 }

@@ -1,9 +1,10 @@
 //! A run in two files, inputs and measured poses, each with a clock and a rate of its own.
 
+use super::log::Log;
 use super::model_file::ModelFile;
 use super::run_file::{Apart, Run, arrange, enough, wanted};
-use super::sheet::{Numbers, Sheet};
-use crate::error::Result;
+use super::sheet::Numbers;
+use crate::error::{Error, Result};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -49,19 +50,20 @@ impl Run {
     /// As [`Run::read`], for either file.
     pub fn read_apart(inputs: impl AsRef<Path>, truth: impl AsRef<Path>, model: &ModelFile) -> Result<Self> {
         let (inputs, truth) = (inputs.as_ref(), truth.as_ref());
-        let sheet = Sheet::open(inputs)?;
-        let (time, found) = model.columns.resolve_inputs(&sheet.header).map_err(|e| sheet.at_header(e))?;
+        let sheet = Log::open(inputs)?;
+        let (time, found) = model.columns.resolve_inputs(sheet.header()).map_err(|e| sheet.at_header(e))?;
         let places: Vec<usize> = std::iter::once(time).chain(found.iter().map(|i| i.index)).collect();
         let (driven, mut warnings) = read(sheet, &places, inputs)?;
-        let sheet = Sheet::open(truth)?;
-        let pose = model.columns.resolve_truth(&sheet.header).map_err(|e| sheet.at_header(e))?;
+        let sheet = Log::open(truth)?;
+        let pose = model.columns.resolve_truth(sheet.header()).map_err(|e| sheet.at_header(e))?;
         let (measured, more) = read(sheet, &wanted(&pose), truth)?;
         warnings.extend(more.into_iter().map(|w| format!("{}: {w}", truth.display())));
         let truth_sha256 = measured.sha256.clone();
         let dropped = joined(&driven.dropped, &measured.dropped);
         let run = Self::build(inputs, pose, measured, warnings);
         let mut columns = driven.columns.into_iter();
-        let apart = Apart { time: columns.next().unwrap_or_default(), truth: truth.to_path_buf(), truth_sha256 };
+        let time = columns.next().unwrap_or_default();
+        let apart = Apart { time, truth: truth.to_path_buf(), truth_sha256, one_clock: false };
         Ok(Self {
             sha256: driven.sha256,
             roles: found.into_iter().map(|i| i.role).collect(),
@@ -71,6 +73,22 @@ impl Run {
             apart: Some(apart),
             ..run
         })
+    }
+
+    /// A run whose inputs and poses are topics of one bag; times begin with the second of the first input.
+    pub(super) fn read_bag(path: &Path, model: &ModelFile) -> Result<Self> {
+        let mut run = Self::read_apart(path, path, model)?;
+        let Some(apart) = &mut run.apart else { return Ok(run) };
+        let start = apart.time.first().map_or(0.0, |t| t.floor());
+        apart.one_clock = true;
+        apart.time.iter_mut().chain(&mut run.time).for_each(|t| *t -= start);
+        let run = run.aligned(&Clock { offset: 0.0, drift: 0.0, at: 0.0 });
+        match run.time.len() {
+            0 | 1 => Err(Error::input("its poses have no inputs at their times").at_file(path).help(
+                "check the stamps of both topics, or name the bag under --truth as well, and its clocks are aligned",
+            )),
+            _ => Ok(run),
+        }
     }
 
     /// The run with its inputs by the clock of the poses; poses without inputs around them are left out.
@@ -113,7 +131,7 @@ impl Run {
     }
 }
 
-fn read(sheet: Sheet, places: &[usize], path: &Path) -> Result<(Numbers, Vec<String>)> {
+fn read(sheet: Log, places: &[usize], path: &Path) -> Result<(Numbers, Vec<String>)> {
     let mut numbers = sheet.numbers(places)?;
     let warnings = arrange(&mut numbers);
     enough(&numbers).map_err(|e| e.at_file(path))?;

@@ -5,6 +5,8 @@
 //! are not known here; the caller passes what may stand in a model file as [`Known`].
 
 mod apart;
+#[cfg(feature = "mcap")]
+mod bag;
 mod cell;
 mod claims_file;
 mod columns;
@@ -15,11 +17,14 @@ mod formula_text;
 mod header;
 mod inputs_file;
 mod known;
+mod log;
 mod model_file;
 mod near;
 mod order;
 mod output;
 mod parameters;
+#[cfg(feature = "parquet")]
+mod parquet_log;
 mod patch;
 mod records;
 mod run_file;
@@ -27,6 +32,8 @@ mod sheet;
 mod spot;
 mod text;
 mod toml_table;
+#[cfg(any(feature = "parquet", feature = "mcap"))]
+mod usable;
 
 pub use apart::Clock;
 pub use claims_file::{ClaimEntry, read_claims};

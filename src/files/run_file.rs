@@ -1,12 +1,12 @@
 //! A logged run: times, measured poses and inputs, ready to compute with.
 
 use super::columns::Resolved;
+use super::log::Log;
 use super::model_file::ModelFile;
 use super::order;
 use super::sheet::{Numbers, Sheet};
 use crate::error::{Error, Result};
 use std::collections::BTreeMap;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// Rows a run needs.
@@ -54,13 +54,20 @@ pub struct Apart {
     pub truth: PathBuf,
     /// SHA-256 of its bytes, hexadecimal.
     pub truth_sha256: String,
+    /// Whether both have one clock, as the topics of a bag.
+    pub one_clock: bool,
 }
 
 impl Run {
-    /// Reads a log by the columns of a model file, in one pass.
+    /// Reads a log by the columns of a model file, in one pass; a bag, whose topics have times of their own, in two.
     pub fn read(path: impl AsRef<Path>, model: &ModelFile) -> Result<Self> {
         let path = path.as_ref();
-        Self::of(Sheet::open(path)?, path, model)
+        let log = Log::open(path)?;
+        if log.has_topics() {
+            return Self::read_bag(path, model);
+        }
+        let found = model.columns.resolve(log.header()).map_err(|e| log.at_header(e))?;
+        Self::of(path, log.numbers(&wanted(&found))?, found)
     }
 
     /// A log that is at hand as text; `name` stands for its file.
@@ -69,12 +76,12 @@ impl Run {
     /// As [`Run::read`].
     pub fn parse(name: &str, text: &str, model: &ModelFile) -> Result<Self> {
         let path = Path::new(name);
-        Self::of(Sheet::new(text.as_bytes(), path)?, path, model)
+        let sheet = Sheet::new(text.as_bytes(), path)?;
+        let found = model.columns.resolve(&sheet.header).map_err(|e| sheet.at_header(e))?;
+        Self::of(path, sheet.numbers(&wanted(&found))?, found)
     }
 
-    fn of<R: Read>(sheet: Sheet<R>, path: &Path, model: &ModelFile) -> Result<Self> {
-        let found = model.columns.resolve(&sheet.header).map_err(|e| sheet.at_header(e))?;
-        let mut numbers = sheet.numbers(&wanted(&found))?;
+    fn of(path: &Path, mut numbers: Numbers, found: Resolved) -> Result<Self> {
         let warnings = arrange(&mut numbers);
         enough(&numbers).map_err(|e| e.at_file(path))?;
         Ok(Self::build(path, found, numbers, warnings))

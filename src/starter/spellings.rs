@@ -14,8 +14,20 @@ const USUAL: &[Usual] = &[
     Usual {
         role: "yaw_rate",
         names: &[
-            "yaw_rate", "yawrate", "phi_dot", "yaw_dot", "gyro_z", "wz", "omega_z", "angular_velocity_z", "heading_rate",
-            "turn_rate", "omega", "gyro", "psi_dot", "r",
+            "yaw_rate",
+            "yawrate",
+            "phi_dot",
+            "yaw_dot",
+            "gyro_z",
+            "wz",
+            "omega_z",
+            "angular_velocity_z",
+            "heading_rate",
+            "turn_rate",
+            "omega",
+            "gyro",
+            "psi_dot",
+            "r",
         ],
     },
     Usual {
@@ -26,15 +38,37 @@ const USUAL: &[Usual] = &[
     Usual {
         role: "wheel_rate_left",
         names: &[
-            "wheel_rate_left", "omega_left", "left_wheel_rate", "left_omega", "w_left", "wl", "omega_l", "w_l",
-            "left_wheel_velocity", "theta_2_dot", "left_wheel", "left_rate", "left",
+            "wheel_rate_left",
+            "omega_left",
+            "left_wheel_rate",
+            "left_omega",
+            "w_left",
+            "wl",
+            "omega_l",
+            "w_l",
+            "left_wheel_velocity",
+            "theta_2_dot",
+            "left_wheel",
+            "left_rate",
+            "left",
         ],
     },
     Usual {
         role: "wheel_rate_right",
         names: &[
-            "wheel_rate_right", "omega_right", "right_wheel_rate", "right_omega", "w_right", "wr", "omega_r", "w_r",
-            "right_wheel_velocity", "theta_1_dot", "right_wheel", "right_rate", "right",
+            "wheel_rate_right",
+            "omega_right",
+            "right_wheel_rate",
+            "right_omega",
+            "w_right",
+            "wr",
+            "omega_r",
+            "w_r",
+            "right_wheel_velocity",
+            "theta_1_dot",
+            "right_wheel",
+            "right_rate",
+            "right",
         ],
     },
     Usual {
@@ -44,11 +78,27 @@ const USUAL: &[Usual] = &[
 ];
 
 /// Words of what a vehicle was told or reckons itself, not of what was measured.
-const DOUBTFUL: &[&str] = &["cmd", "command", "set", "setpoint", "target", "desired", "est", "nominal", "odom", "odometry"];
+const DOUBTFUL: &[&str] =
+    &["cmd", "command", "set", "setpoint", "target", "desired", "est", "nominal", "odom", "odometry"];
 /// Words of another quantity, whatever stands beside them.
 const OTHER: &[&str] = &[
-    "acc", "accel", "acceleration", "jerk", "tick", "ticks", "count", "counts", "std", "sigma", "var", "variance", "cov",
-    "covariance", "current", "effort", "torque",
+    "acc",
+    "accel",
+    "acceleration",
+    "jerk",
+    "tick",
+    "ticks",
+    "count",
+    "counts",
+    "std",
+    "sigma",
+    "var",
+    "variance",
+    "cov",
+    "covariance",
+    "current",
+    "effort",
+    "torque",
 ];
 /// Words of a unit behind a name.
 const UNITS: &[&str] = &["m", "s", "rad", "rads", "mps", "radps"];
@@ -112,13 +162,31 @@ mod tests {
     #[test]
     fn usual_names_are_known() {
         for (role, column) in [
-            ("time", "t"), ("time", "Time [s]"), ("time", "timestamp"), ("x", "gt_x"), ("x", "X_m"), ("y", "pose.position.y"),
-            ("heading", "yaw_rad"), ("wheel_rate_left", "wheelRateLeft"), ("wheel_rate_left", "/joints:left_wheel.velocity"),
-            ("yaw_rate", "gyro_z"), ("speed", "v_wheel"), ("steering_angle", "delta"), ("wheel_rate", "theta_dot"),
+            ("time", "t"),
+            ("time", "Time [s]"),
+            ("time", "timestamp"),
+            ("x", "gt_x"),
+            ("x", "X_m"),
+            ("y", "pose.position.y"),
+            ("heading", "yaw_rad"),
+            ("wheel_rate_left", "wheelRateLeft"),
+            ("wheel_rate_left", "/joints:left_wheel.velocity"),
+            ("yaw_rate", "gyro_z"),
+            ("speed", "v_wheel"),
+            ("steering_angle", "delta"),
+            ("wheel_rate", "theta_dot"),
         ] {
             assert!(rank(role, column).is_some(), "{column} for {role}");
         }
-        for (role, column) in [("x", "vx"), ("x", "acc_x"), ("wheel_rate_left", "ticks_left"), ("time", "throttle"), ("heading", "yaw_rated"), ("wheel_rate", "wheel"), ("y", "")] {
+        for (role, column) in [
+            ("x", "vx"),
+            ("x", "acc_x"),
+            ("wheel_rate_left", "ticks_left"),
+            ("time", "throttle"),
+            ("heading", "yaw_rated"),
+            ("wheel_rate", "wheel"),
+            ("y", ""),
+        ] {
             assert_eq!(rank(role, column), None, "{column} for {role}");
         }
     }

@@ -68,7 +68,9 @@ impl Starter {
     }
 
     fn head(&mut self, wanted: &Wanted, vehicle: &Vehicle, trailers: usize) {
-        self.line("# What is believed of the vehicle. SI units: m, rad, s, kg; x forward, y left, angles counter-clockwise.");
+        self.line(
+            "# What is believed of the vehicle. SI units: m, rad, s, kg; x forward, y left, angles counter-clockwise.",
+        );
         self.line("# Lines that begin with # are comments; `creepage describe` shows what this file says.");
         self.line("");
         let title = if trailers > 0 { "a tractor with trailers" } else { &vehicle.title };
@@ -76,7 +78,10 @@ impl Starter {
         if trailers > 0 {
             self.entry(&format!("tractor = \"{}\"", vehicle.id), &vehicle.title);
         }
-        self.entry("input_timing = \"sample\"", "\"interval-mean\" if a row holds the mean since the row before (encoder counts)");
+        self.entry(
+            "input_timing = \"sample\"",
+            "\"interval-mean\" if a row holds the mean since the row before (encoder counts)",
+        );
         if let Some(advice) = &vehicle.instead {
             self.line(&format!("# It can be described, not fitted: {advice}."));
         }
@@ -86,7 +91,9 @@ impl Starter {
         if vehicle.parameters.is_empty() && trailers == 0 {
             return;
         }
-        self.line("\n[parameters]                      # placeholders: put what you measured, or what the drawing says");
+        self.line(
+            "\n[parameters]                      # placeholders: put what you measured, or what the drawing says",
+        );
         for (name, p) in &vehicle.parameters {
             let usual = USUAL.iter().find(|(usual, _)| usual == name).map(|(_, value)| *value);
             let value = usual.unwrap_or(if name.ends_with("offset") { 0.0 } else { 1.0 });
@@ -99,7 +106,10 @@ impl Starter {
         }
         if trailers > 0 {
             let list = |value: &str| vec![value; trailers].join(", ");
-            self.entry(&format!("trailer_lengths = [{}]", list("1.0")), "m; from hitch to axle, nearest the tractor first");
+            self.entry(
+                &format!("trailer_lengths = [{}]", list("1.0")),
+                "m; from hitch to axle, nearest the tractor first",
+            );
             self.entry(&format!("hitch_offsets = [{}]", list("0.0")), "m; hitch behind the axle ahead of it");
             self.placeholders.extend(["trailer_lengths".into(), "hitch_offsets".into()]);
         }
@@ -144,7 +154,10 @@ impl Starter {
             }
             None if known && !role.optional && !replaced && role.instead_of.is_none() => {
                 self.missing.push(name.clone());
-                self.entry(&format!("# {name} = \"…\""), &format!("{what}; not found in the log: name its column{others}"));
+                self.entry(
+                    &format!("# {name} = \"…\""),
+                    &format!("{what}; not found in the log: name its column{others}"),
+                );
             }
             None if known || role.optional => {
                 self.entry(&format!("# {name} = \"{name}\""), &format!("{what}{others}"));

@@ -102,6 +102,13 @@ pub fn check(of: &Checked, progress: &dyn Fn(&str)) -> Result<Check> {
     Ok(Check { schema: 1, verdict, summary, data, effects, not_separated, next_experiment })
 }
 
+impl Check {
+    /// The answer for runs that cannot be put to the model, and why.
+    pub(in crate::discrepancy) fn unusable(why: String) -> Self {
+        without_fit(Health::default(), verdict::unusable(why))
+    }
+}
+
 fn without_fit(data: Health, outcome: verdict::Outcome) -> Check {
     let verdict = match outcome.verdict {
         Verdict::UnusableData => Standing::UnusableData,

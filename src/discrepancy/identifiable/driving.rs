@@ -67,9 +67,7 @@ fn steps(model: &Model, record: &Record) -> Result<Vec<Step>> {
         let y = predictor.outputs(from, to);
         let last = y.last()?;
         let (a, b) = (measured_at(&equations, record, from), measured_at(&equations, record, to));
-        let way = |p: &[f64], q: &[f64], heading: f64| {
-            (q[0] - p[0]) * heading.cos() + (q[1] - p[1]) * heading.sin()
-        };
+        let way = |p: &[f64], q: &[f64], heading: f64| (q[0] - p[0]) * heading.cos() + (q[1] - p[1]) * heading.sin();
         let chord = |p: &[f64], q: &[f64]| {
             let length = (q[0] - p[0]).hypot(q[1] - p[1]);
             let middle = p[2] + 0.5 * wrapped(q[2] - p[2]);

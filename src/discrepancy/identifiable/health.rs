@@ -34,9 +34,10 @@ pub(super) fn health(model: &Model, runs: &[Run], records: &[Record], gross: &[u
     let each: Vec<RunHealth> = runs.iter().zip(records).zip(gross).map(one).collect::<Result<_>>()?;
     let mut health = Health { runs: each, ..Health::default() };
     health.findings = findings(&health.runs, records);
-    health.findings.extend(runs.iter().flat_map(|r| {
-        r.warnings.iter().map(|w| Finding { id: "order".into(), says: format!("{}: {w}", r.name) })
-    }));
+    health.findings.extend(
+        runs.iter()
+            .flat_map(|r| r.warnings.iter().map(|w| Finding { id: "order".into(), says: format!("{}: {w}", r.name) })),
+    );
     Ok(health)
 }
 
@@ -114,7 +115,10 @@ fn findings(runs: &[RunHealth], records: &[Record]) -> Vec<Finding> {
         }
         if r.jitter > UNEVEN {
             let percent = significant(100.0 * r.jitter, 2);
-            say("uneven-times", format!("{name}: times between rows scatter by {percent} %: are they those of measuring?"));
+            say(
+                "uneven-times",
+                format!("{name}: times between rows scatter by {percent} %: are they those of measuring?"),
+            );
         }
         if let Some(ratio) = r.way_ratio.filter(|x| !(RIGHT[0]..RIGHT[1]).contains(x)) {
             say("way", format!("{name}: {}", wrong_way(ratio)));
@@ -143,7 +147,10 @@ fn findings(runs: &[RunHealth], records: &[Record]) -> Vec<Finding> {
     let fast = runs.iter().filter_map(|r| r.speed).map(|s| s[2]).fold(0.0, f64::max);
     if fast > 0.0 && fast < ONE_SPEED * slow {
         let speed = significant(fast, 2);
-        say("one-speed", format!("these runs have one speed, {speed} m/s: what grows with speed looks like what does not"));
+        say(
+            "one-speed",
+            format!("these runs have one speed, {speed} m/s: what grows with speed looks like what does not"),
+        );
     }
     if records.iter().all(|r| !r.has_heading) {
         say("no-heading", "no heading is measured: it is told from the path, and small angles hide in it".into());
@@ -191,7 +198,9 @@ mod tests {
         for (ratio, word) in [(1010.0, "millimetres?"), (0.1, "per minute"), (0.27, "km/h"), (0.7, "wheel_radius")] {
             assert!(wrong_way(ratio).contains(word), "{ratio}: {}", wrong_way(ratio));
         }
-        for (ratio, word) in [(57.0, "heading in degrees"), (-1.02, "swapped"), (0.0175, "yaw rate"), (0.6, "track_width")] {
+        for (ratio, word) in
+            [(57.0, "heading in degrees"), (-1.02, "swapped"), (0.0175, "yaw rate"), (0.6, "track_width")]
+        {
             assert!(wrong_turn(ratio).contains(word), "{ratio}: {}", wrong_turn(ratio));
         }
     }

@@ -1,6 +1,6 @@
 //! What `check` says, as data; its JSON form is documented in the README.
 
-use crate::discrepancy::report::NextExperiment;
+use crate::discrepancy::report::{NextExperiment, RunClock};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -101,6 +101,9 @@ pub struct Health {
     pub heading_noise: Option<f64>,
     /// How many rows in a row are alike in their noise; 1 is white.
     pub rows_alike: Option<f64>,
+    /// The clocks of runs whose inputs and poses stand in files of their own.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub clocks: Vec<RunClock>,
     /// What the driver of these runs should know.
     pub findings: Vec<Finding>,
 }

@@ -1,6 +1,7 @@
 //! The check as text.
 
 use super::outcome::{Check, Health, Parameter, Prospect, RunHealth, Seen, Standing};
+use crate::discrepancy::summary::clock_line;
 use crate::picture::number::{prefixed, significant};
 use crate::picture::svg::cut;
 use std::fmt::Write;
@@ -32,7 +33,11 @@ fn printable(line: &str) -> String {
 }
 
 fn data(text: &mut String, data: &Health) {
-    let _ = writeln!(text, "\n  {:<28}{:>8}{:>9}{:>9}  {:<16}{:>6}{:>7}{:>7}", "run", "rows", "time", "rate", "speed, 90 %", "left", "right", "stands");
+    let _ = writeln!(
+        text,
+        "\n  {:<28}{:>8}{:>9}{:>9}  {:<16}{:>6}{:>7}{:>7}",
+        "run", "rows", "time", "rate", "speed, 90 %", "left", "right", "stands"
+    );
     data.runs.iter().for_each(|r| run(text, r));
     let noise = [(data.position_noise, "m", "position"), (data.heading_noise, "rad", "heading")];
     let noise = noise.into_iter().filter_map(|(v, unit, what)| {
@@ -44,6 +49,7 @@ fn data(text: &mut String, data: &Health) {
     if !noise.is_empty() {
         let _ = writeln!(text, "  noise: {}", noise.join(", "));
     }
+    data.clocks.iter().for_each(|c| text.push_str(&format!("  {}\n", clock_line(c))));
     for finding in &data.findings {
         let _ = writeln!(text, "  note: {}", finding.says);
     }

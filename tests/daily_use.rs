@@ -268,3 +268,13 @@ fn completions_and_manual_pages_know_every_command() {
     let page = std::fs::read_to_string(folder.path().join("man1/creepage-discover.1")).unwrap();
     assert!(page.contains("held\\-out") && page.contains("Examples"), "{page}");
 }
+
+#[test]
+fn effects_of_a_vehicle_are_there_for_scripts() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = creepage(folder.path(), &["effects", "--vehicle", "car", "--format", "json"]);
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let offset = found["effects"].as_array().unwrap().iter().find(|e| e["id"] == "front-traverse-creep").unwrap();
+    assert!(offset["relatives"][0].as_str().unwrap().contains("identical to steering-offset"), "{offset}");
+    assert!(offset["equations"][0].as_str().unwrap().contains("phi'"), "{offset}");
+}

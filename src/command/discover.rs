@@ -1,5 +1,6 @@
 //! `creepage discover`
 
+use super::lists::Format;
 use super::own_effects::OwnEffects;
 use super::print;
 use super::progress::Progress;
@@ -51,6 +52,9 @@ pub struct Arguments {
     /// A horizon of the gap, s (repeatable) [default: 1, 5 and 30]
     #[arg(long = "horizon", value_name = "S", value_parser = horizon)]
     horizons: Vec<f64>,
+    /// What to print: the summary, or the report as JSON
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
     /// Seed of the noise floor's random numbers
     #[arg(long, default_value_t = 0)]
     seed: u64,
@@ -96,18 +100,24 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let found = discover_aligned(&request, arguments.clock_offset, &|what| progress.say(what))?;
     drop(progress);
     write(&found, &file, &arguments.out)?;
-    if !quiet {
-        print(&screen(&found, &arguments.out));
+    match arguments.format {
+        Format::Json => print(&json(&found)?),
+        Format::Text if !quiet => print(&screen(&found, &arguments.out)),
+        Format::Text => {}
     }
     Ok(())
 }
 
-fn write(found: &Discovery, file: &ModelFile, out: &Path) -> Result<()> {
+fn json(found: &Discovery) -> Result<String> {
     let json = serde_json::to_string_pretty(&found.report).map_err(|e| Error::run(format!("no report.json: {e}")))?;
+    Ok(json + "\n")
+}
+
+fn write(found: &Discovery, file: &ModelFile, out: &Path) -> Result<()> {
     write_all_or_nothing(
         out,
         &[
-            ("report.json", format!("{json}\n").as_bytes()),
+            ("report.json", json(found)?.as_bytes()),
             ("report.html", html(&found.report, &found.pictures).as_bytes()),
             ("gap.svg", gap_svg(&found.report, &found.pictures).as_bytes()),
             ("model.patched.toml", found.patched(file).as_bytes()),

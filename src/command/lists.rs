@@ -4,7 +4,9 @@ use super::own_effects::OwnEffects;
 use super::print;
 use clap::{Args, ValueEnum};
 use creepage::Result;
-use creepage::describe::{effects_json, effects_text, vehicle_effects_text, vehicles_json, vehicles_text};
+use creepage::describe::{
+    effects_json, effects_text, vehicle_effects_json, vehicle_effects_text, vehicles_json, vehicles_text,
+};
 
 /// List the vehicles a model file may name
 #[derive(Args)]
@@ -24,7 +26,7 @@ Examples:
   creepage effects --effects examples/effects/my_effects.toml")]
 pub struct Effects {
     /// Only those of one vehicle, with the equations they rewrite there and the effects that are the same
-    #[arg(long, value_name = "NAME", conflicts_with = "format")]
+    #[arg(long, value_name = "NAME")]
     vehicle: Option<String>,
     /// How to print them
     #[arg(long, value_enum, default_value_t = Format::Text)]
@@ -57,7 +59,10 @@ pub fn vehicles(arguments: &Vehicles) -> Result<()> {
 pub fn effects(arguments: &Effects) -> Result<()> {
     let library = arguments.own.library()?;
     if let Some(vehicle) = &arguments.vehicle {
-        print(&vehicle_effects_text(vehicle, &library)?);
+        print(&match arguments.format {
+            Format::Text => vehicle_effects_text(vehicle, &library)?,
+            Format::Json => pretty(&vehicle_effects_json(vehicle, &library)?),
+        });
         return Ok(());
     }
     print(&match arguments.format {

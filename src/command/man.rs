@@ -29,8 +29,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     };
     let mut pages = vec![("creepage.1".to_string(), page(all.clone())?)];
     for command in all.get_subcommands().filter(|c| c.get_name() != "help") {
-        let name = format!("creepage-{}", command.get_name());
-        pages.push((format!("{name}.1"), page(command.clone().name(name).display_name(None::<&str>))?));
+        pages.push((format!("creepage-{}.1", command.get_name()), page(command.clone())?));
     }
     let files: Vec<(&str, &[u8])> = pages.iter().map(|(name, text)| (name.as_str(), text.as_bytes())).collect();
     write_all_or_nothing(out, &files)?;

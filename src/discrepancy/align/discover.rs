@@ -204,7 +204,7 @@ fn beside(a: &Aligned, share: f64, request: &Request, model: &Model, progress: &
 impl Aligned {
     /// As the report lists it.
     pub fn clock(&self, held_out: bool) -> RunClock {
-        let Fitted { clock, offset_std, drift_std } = self.fitted;
+        let Fitted { clock, offset_std, drift_std, .. } = self.fitted;
         RunClock {
             run: self.run.name.clone(),
             truth: self.run.apart.as_ref().map(|a| file_name(&a.truth)).unwrap_or_default(),

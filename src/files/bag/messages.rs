@@ -5,7 +5,7 @@ use mcap::Channel;
 
 /// A piece of a message.
 #[derive(Clone, Copy)]
-enum Part {
+pub(super) enum Part {
     /// A text that is of no interest.
     Text,
     /// A number and its name.

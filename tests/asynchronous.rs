@@ -152,6 +152,18 @@ fn files_of_two_drives_do_not_fit() {
     assert_eq!(report.verdict, Verdict::UnusableData, "{}", report.summary);
 }
 
+/// Times in nanoseconds would be a file of years: an answer, and no memory for it.
+#[test]
+fn times_that_are_no_seconds_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), "a", &drive(Tractor::Unicycle, vec![], 73), SKEW);
+    let (file, mut run) = read(folder.path(), "a");
+    run.time.iter_mut().for_each(|t| *t *= 1e9);
+    let of = Checked { file: &file, runs: &[run], library: effects::all() };
+    let found = check_aligned(&of, None, &|_| ()).unwrap();
+    assert!(found.summary.contains("is its time in seconds?"), "{}", found.summary);
+}
+
 fn creepage(folder: &Path, arguments: &str) -> (Option<i32>, String, String) {
     let output = Command::new(env!("CARGO_BIN_EXE_creepage"))
         .current_dir(folder)

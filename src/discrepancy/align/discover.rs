@@ -20,6 +20,8 @@ use rayon::prelude::*;
 const GRID: f64 = 0.1;
 /// Deviance that tells one offset from another beyond doubt.
 const SURE: f64 = 40.0;
+/// Longest file whose clock is looked for, s: what is tried grows with it.
+const LONGEST: f64 = 2e5;
 /// Motions that agree less are not of one drive.
 const ALIKE: f64 = 0.5;
 
@@ -135,6 +137,9 @@ fn aligned(
 ) -> Result<std::result::Result<Vec<Aligned>, Obstacle>> {
     let one = |run: &Run| -> Result<std::result::Result<Aligned, Obstacle>> {
         let part = run.beginning(share);
+        if let Some(obstacle) = endless(&part) {
+            return Ok(Err(obstacle));
+        }
         let driven = Driven::of(model, &part, request.file.input_timing.into())?;
         let poses = [part.time[0], part.time[part.time.len() - 1]];
         let found = search(&driven, &Measured::of(&part, GRID), poses, near);
@@ -167,6 +172,21 @@ fn settled(first: Fitted, rival: Option<Fitted>) -> (Fitted, Option<f64>) {
     (good, (!told).then_some(bad.clock.offset))
 }
 
+/// Files too long to lay upon each other, or to be in seconds.
+fn endless(run: &Run) -> Option<Obstacle> {
+    let inputs = run.apart.as_ref().map_or(&run.time, |a| &a.time);
+    let span = |time: &[f64]| time.last().zip(time.first()).map_or(0.0, |(last, first)| last - first);
+    let longest = span(inputs).max(span(&run.time));
+    (longest.is_nan() || longest > LONGEST).then(|| {
+        format!(
+            "The clocks of {} cannot be aligned: it lasts {} s, and at most {} s can be; is its time in seconds?",
+            run.name,
+            significant(longest, 3),
+            significant(LONGEST, 2)
+        )
+    })
+}
+
 fn unlike(run: &Run) -> Obstacle {
     let truth = run.apart.as_ref().map(|a| file_name(&a.truth)).unwrap_or_default();
     format!(
@@ -180,7 +200,7 @@ fn unlike(run: &Run) -> Obstacle {
 fn with_effects(request: &Request, model: &Model, first: &[Aligned], progress: &dyn Fn(&str)) -> Result<Model> {
     let runs: Vec<Run> = first.iter().map(|a| a.run.clone()).collect();
     let request = Request { runs: &runs, held_out: &[], ..*request };
-    // The share that is fitted is the same as in the end.
+    // Three quarters of the rows are enough to choose by.
     let data = Data::of(&request, model)?;
     let problem = Problem::new(data.fitted, request.file.noise.position, request.file.noise.heading);
     if crate::discrepancy::verdict::before_fitting(&problem).is_some() {

@@ -65,7 +65,7 @@ fn sums(time: &[f64], rate: &[f64], timing: Timing) -> Vec<f64> {
 /// A column between its rows; `None` beyond the ends.
 fn between(time: &[f64], column: &[f64], t: f64) -> Option<f64> {
     let after = time.partition_point(|k| *k <= t);
-    if after == 0 || (after == time.len() && time[after - 1] < t) {
+    if time.len() < 2 || after == 0 || (after == time.len() && time[after - 1] < t) {
         return None;
     }
     let i = (after - 1).min(time.len() - 2);

@@ -266,7 +266,7 @@ fn completions_and_manual_pages_know_every_command() {
     assert!(page.contains(".TH creepage 1") && page.contains("discover"), "{page}");
     assert!(creepage(folder.path(), &["man", "--out", "man1"]).status.success());
     let page = std::fs::read_to_string(folder.path().join("man1/creepage-discover.1")).unwrap();
-    assert!(page.contains("held\\-out") && page.contains("Examples"), "{page}");
+    assert!(page.contains("held\\-out") && page.contains("creepage discover INPUTS.csv"), "{page}");
 }
 
 #[test]
@@ -274,7 +274,7 @@ fn effects_of_a_vehicle_are_there_for_scripts() {
     let folder = tempfile::tempdir().unwrap();
     let output = creepage(folder.path(), &["effects", "--vehicle", "car", "--format", "json"]);
     let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    let offset = found["effects"].as_array().unwrap().iter().find(|e| e["id"] == "front-traverse-creep").unwrap();
-    assert!(offset["relatives"][0].as_str().unwrap().contains("identical to steering-offset"), "{offset}");
-    assert!(offset["equations"][0].as_str().unwrap().contains("phi'"), "{offset}");
+    let offset = found["effects"].as_array().unwrap().iter().find(|e| e["id"] == "rotation-creep").unwrap();
+    assert!(offset["relatives"][0].as_str().unwrap().contains("identical to wheel-radius"), "{offset}");
+    assert!(offset["equations"][0].as_str().unwrap().contains("e_rc"), "{offset}");
 }

@@ -1,8 +1,9 @@
 //! The manoeuvre that would mend most of what the runs leave open.
 
 use super::information::Driven;
+use super::marks::Ground;
 use super::pairs::{misfit, separating};
-use super::prospects::{Bar, Candidate, Group, Table};
+use super::prospects::{Bar, Candidate, Group, Shown, Table, gain};
 use crate::discrepancy::chain::Variances;
 use crate::discrepancy::experiment::Thought;
 use crate::discrepancy::fit::Fit;
@@ -22,6 +23,8 @@ const NAMED: usize = 4;
 /// What is to be mended.
 pub(super) struct Open<'a> {
     pub all: &'a [Candidate],
+    pub shown: &'a [Shown],
+    pub ground: Ground,
     /// Candidates that would be missed.
     pub missed: Vec<usize>,
     /// Pairs that would not be told apart, though they differ.
@@ -55,7 +58,7 @@ impl Open<'_> {
         let mend = |m: &'static Manoeuvre| -> Result<Option<Mended>> {
             let Some(driven) = self.driven(&thought, fit, m)? else { return Ok(None) };
             let new = Table::of(&fit.model, &driven, self.all, &wanted, &self.scaled(&thought), self.dependence)?;
-            Ok(Some(Mended { manoeuvre: m, shares: self.shares(&joined(table, new)) }))
+            Ok(Some(Mended { manoeuvre: m, shares: self.shares(&joined(table, new), &driven, &thought, fit)? }))
         };
         let all: Vec<&'static Manoeuvre> = library(&thought.envelope).collect();
         let tried: Vec<Mended> =
@@ -99,10 +102,17 @@ impl Open<'_> {
         Ok(Some(Driven { records, plan, starts }))
     }
 
-    fn shares(&self, table: &Table) -> Vec<f64> {
-        let seen = self.missed.iter().map(|c| table.strength(self.all, *c, 0, &self.bar));
+    fn shares(&self, table: &Table, driven: &Driven, thought: &Thought, fit: &Fit) -> Result<Vec<f64>> {
+        let ground = Ground { calm: thought.scaled(self.ground.calm), ..self.ground };
+        let seen = |c: &usize| -> Result<f64> {
+            let marks = driven.marks(&fit.model, &[&self.all[*c].applied])?;
+            let new = marks.map_or(0.0, |m| gain(&m, &self.all[*c], &ground));
+            let both = Shown { gain: self.shown[*c].gain + new, smallest: vec![] };
+            Ok(both.strength(self.all, *c, &self.bar))
+        };
+        let seen: Vec<f64> = self.missed.iter().map(seen).collect::<Result<_>>()?;
         let told = self.pairs.iter().map(|[a, b]| misfit(table, self.all, *a, *b).unwrap_or(0.0) / separating());
-        seen.chain(told).map(|s| s.min(1.0)).collect()
+        Ok(seen.into_iter().chain(told).map(|s| s.min(1.0)).collect())
     }
 
     fn said(&self, best: &Mended, sentence: &str) -> NextExperiment {

@@ -3,9 +3,10 @@
 use super::advice::Open;
 use super::health::health;
 use super::information::Driven;
+use super::marks::Ground;
 use super::outcome::{Check, Health, Prospect, Seen, Standing};
-use super::pairs::unseparated;
-use super::prospects::{Bar, Table, candidates, groups};
+use super::pairs::{told_apart, unseparated};
+use super::prospects::{Bar, Candidate, Shown, Table, candidates, groups};
 use crate::discrepancy::outliers::without_gross_errors;
 use crate::discrepancy::problem::Problem;
 use crate::discrepancy::record::Record;
@@ -73,24 +74,29 @@ pub fn check(of: &Checked, progress: &dyn Fn(&str)) -> Result<Check> {
     let bar = Bar { sample_size: fit.sample_size, candidates: model.applicable(of.library).len().max(1) as f64 };
     let driven = Driven { records: problem.records.clone(), plan: problem.plan.clone(), starts: fit.starts.clone() };
     let table = Table::of(&model, &driven, &all, &groups(&all), &variances, dependence)?;
+    let ground = Ground { calm, free: problem.free, alike: fit.colour };
+    let shown = |c: &Candidate| Shown::of(&model, &driven, c, &bar, &ground);
+    let shown: Vec<Shown> = all.par_iter().map(shown).collect::<Result<_>>()?;
     // Of an effect that is looked at in several directions the one that shows least.
     let weakest = |i: &usize| {
         let same = (0..all.len()).filter(|j| all[*j].applied.same_as(&all[*i].applied));
-        let strength = |j: &usize| table.strength(&all, *j, 0, &bar);
-        same.min_by(|a, b| strength(a).total_cmp(&strength(b))) == Some(*i)
+        same.min_by(|a, b| shown[*a].gain.total_cmp(&shown[*b].gain)) == Some(*i)
     };
     let listed: Vec<usize> = (0..all.len()).filter(weakest).collect();
-    let effects: Vec<Prospect> = listed.iter().map(|i| table.prospect(&all, *i, &bar)).collect();
+    let effects: Vec<Prospect> = listed.iter().map(|i| table.prospect(&all, *i, &shown[*i], &bar)).collect();
     let of_kind = |wanted: &dyn Fn(Seen) -> bool| -> Vec<usize> {
         listed.iter().zip(&effects).filter(|(_, e)| wanted(e.seen)).map(|(i, _)| *i).collect()
     };
     let seen = of_kind(&|s| s != Seen::No);
-    let pairs = unseparated(&model, &table, &all, &seen, measured(&problem.records[0]));
+    let told = |a: usize, b: usize| told_apart(&model, &driven, &all, a, b, &ground);
+    let pairs = unseparated(&model, &table, &all, &seen, measured(&problem.records[0]), &told)?;
     progress("thinking manoeuvres through");
     let open = Open {
         missed: of_kind(&|s| s == Seen::No),
         pairs: pairs.iter().filter(|u| u.pair.why == "data").map(|u| u.candidates).collect(),
         all: &all,
+        shown: &shown,
+        ground,
         bar,
         variances,
         dependence,

@@ -1,12 +1,13 @@
 //! The information that records hold about effects, poses and jumps eliminated.
 
-use crate::discrepancy::chain::{Variances, eliminate};
+use crate::discrepancy::chain::{Chain, Eliminated, Variances};
 use crate::discrepancy::record::Record;
-use crate::discrepancy::windows::{Segment, Starts, linearise};
+use crate::discrepancy::windows::{Segment, Starts, each_window};
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
 use nalgebra::DMatrix;
+use rayon::prelude::*;
 
 /// Records cut into windows, with the poses a model passes through.
 pub(super) struct Driven {
@@ -36,18 +37,34 @@ impl Driven {
         let joint = effects.iter().fold(bare, |m, e| m.with_effect(e.clone().freed()));
         let free = joint.free_parameters();
         let equations = joint.equations(&free)?;
-        let linear = linearise(&equations, &joint.free_values(), &self.records, &self.plan, &self.starts);
-        let Some(linear) = linear else { return Ok(None) };
+        let p = joint.free_values();
+        // Windows are eliminated as they come: those of a large library could not be kept.
+        let along = |(segment, starts): (&Segment, &Vec<Vec<f64>>)| {
+            let mut chains: Vec<Chain> = variances.iter().map(|v| Chain::new(v, p.len(), false)).collect();
+            let record = &self.records[segment.record];
+            each_window(&equations, &p, record, segment, starts, |w| chains.iter_mut().try_for_each(|c| c.push(&w)))?;
+            Some(chains)
+        };
+        let chains: Option<Vec<Vec<Chain>>> = self.plan.par_iter().zip(&self.starts).map(along).collect();
+        let Some(chains) = chains else { return Ok(None) };
+        let mut totals = vec![Eliminated::nothing(p.len()); variances.len()];
+        for chain in chains {
+            for (total, chain) in totals.iter_mut().zip(chain) {
+                if total.add(chain).is_none() {
+                    return Ok(None);
+                }
+            }
+        }
         let position = |e: &Applied| -> Vec<usize> {
             e.parameters().iter().filter_map(|s| free.iter().position(|f| f == s)).collect()
         };
         let columns: Vec<Vec<usize>> = effects.iter().map(position).collect();
-        let one = |v: &Variances| {
-            let matrix = eliminate(&linear, v, free.len())?.normal().0;
+        let one = |e: &Eliminated| {
+            let matrix = e.normal().0;
             let good = matrix.iter().all(|x| x.is_finite());
             good.then(|| Information { matrix, columns: columns.clone() })
         };
-        Ok(variances.iter().map(one).collect())
+        Ok(totals.iter().map(one).collect())
     }
 }
 

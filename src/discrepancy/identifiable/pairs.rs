@@ -1,14 +1,19 @@
 //! Effects that runs would not tell apart.
 
+use super::information::Driven;
+use super::marks::Ground;
 use super::outcome::Pair;
 use super::prospects::{Candidate, Table};
 use crate::discrepancy::identity::{Measured, relation};
 use crate::effects::Applied;
+use crate::error::Result;
 use crate::model::Model;
 use rayon::prelude::*;
 
 /// Evidence below which `discover` lists a rival.
 const CLOSE: f64 = 6.0;
+/// Beyond so many times what is needed, jumps do not imitate the difference.
+const FAR: f64 = 20.0;
 /// Quantile of the normal distribution that leaves 5 % below.
 const POWER: f64 = 1.644_853_626_951_472_2;
 
@@ -28,6 +33,22 @@ pub(super) fn misfit(table: &Table, all: &[Candidate], a: usize, b: usize) -> Op
     Some(short.fold(f64::INFINITY, f64::min))
 }
 
+/// As [`misfit`], unexplained motion being the other explanation.
+pub(super) fn told_apart(
+    model: &Model,
+    driven: &Driven,
+    all: &[Candidate],
+    a: usize,
+    b: usize,
+    ground: &Ground,
+) -> Result<f64> {
+    let Some(marks) = driven.marks(model, &[&all[a].applied, &all[b].applied])? else { return Ok(0.0) };
+    let gain = |truth: usize, sizes: &[Vec<f64>]| {
+        sizes.iter().map(|s| marks.gain(truth, s, Some(1 - truth), ground)).fold(f64::INFINITY, f64::min)
+    };
+    Ok(gain(0, &all[a].sizes).min(gain(1, &all[b].sizes)))
+}
+
 /// Two candidates by their places, and how they are listed.
 pub(super) struct Unseparated {
     pub candidates: [usize; 2],
@@ -41,11 +62,18 @@ pub(super) fn unseparated(
     all: &[Candidate],
     seen: &[usize],
     measured: Measured,
-) -> Vec<Unseparated> {
+    told: &(impl Fn(usize, usize) -> Result<f64> + Sync),
+) -> Result<Vec<Unseparated>> {
     let two = seen.iter().enumerate().flat_map(|(k, a)| seen[k + 1..].iter().map(move |b| [*a, *b]));
     let two = two.filter(|[a, b]| !all[*a].applied.same_as(&all[*b].applied));
-    let close = two.filter_map(|c| misfit(table, all, c[0], c[1]).filter(|m| *m < separating()).map(|m| (c, m)));
-    let close: Vec<([usize; 2], f64)> = close.collect();
+    let near = two.filter_map(|c| misfit(table, all, c[0], c[1]).filter(|m| *m < FAR * separating()).map(|m| (c, m)));
+    let near: Vec<([usize; 2], f64)> = near.collect();
+    // What noise alone tells apart, jumps may still imitate.
+    let closer = |(c, m): &([usize; 2], f64)| -> Result<([usize; 2], f64)> {
+        Ok((*c, if *m < separating() { *m } else { told(c[0], c[1])? }))
+    };
+    let near: Vec<([usize; 2], f64)> = near.par_iter().map(closer).collect::<Result<_>>()?;
+    let close: Vec<([usize; 2], f64)> = near.into_iter().filter(|(_, m)| *m < separating()).collect();
     let bare = Model { effects: vec![], ..model.clone() };
     let listed = |([a, b], misfit): &([usize; 2], f64)| {
         let (a_, b_) = (&all[*a].applied, &all[*b].applied);
@@ -65,5 +93,5 @@ pub(super) fn unseparated(
         names.push(u.pair.effects.clone());
         new
     });
-    found
+    Ok(found)
 }

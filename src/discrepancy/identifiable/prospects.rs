@@ -1,6 +1,7 @@
 //! What is to be expected of each effect.
 
 use super::information::{Driven, Information};
+use super::marks::{Ground, Marks};
 use super::outcome::{Parameter, Prospect, Seen};
 use crate::discrepancy::chain::Variances;
 use crate::effects::{Applied, Effect};
@@ -114,16 +115,16 @@ impl Table {
         })
     }
 
-    /// √λ of a candidate at its plausible size over what it needs, of kind 0 (noise) or 1 (unexplained motion too).
-    pub fn strength(&self, all: &[Candidate], candidate: usize, kind: usize, bar: &Bar) -> f64 {
+    /// √λ of a candidate at its plausible size over what it needs, beside the motion that is unexplained now.
+    fn strength(&self, all: &[Candidate], candidate: usize, bar: &Bar) -> f64 {
         let Some((group, at)) = self.with(&[candidate]) else { return 0.0 };
-        let misfit = |s: &Vec<f64>| group.information[kind].misfit(at[0], s).max(0.0).sqrt();
+        let misfit = |s: &Vec<f64>| group.information[1].misfit(at[0], s).max(0.0).sqrt();
         let least = all[candidate].sizes.iter().map(misfit).fold(f64::INFINITY, f64::min);
         least / bar.needed(all[candidate].applied.values.len())
     }
 
     /// What is to be expected of a candidate.
-    pub fn prospect(&self, all: &[Candidate], candidate: usize, bar: &Bar) -> Prospect {
+    pub fn prospect(&self, all: &[Candidate], candidate: usize, shown: &Shown, bar: &Bar) -> Prospect {
         let Candidate { applied, .. } = &all[candidate];
         let effect = &applied.effect;
         let nothing = vec![None; applied.values.len()];
@@ -132,9 +133,8 @@ impl Table {
             found.unwrap_or_else(|| nothing.clone())
         };
         let (calm, now) = (deviations(0), deviations(1));
-        let needed = bar.needed(applied.values.len());
         let parameter = |(i, (name, p)): (usize, (&String, &crate::effects::Parameter))| {
-            let smallest = if p.periodic { None } else { calm[i].map(|s| s * needed) };
+            let smallest = shown.smallest.get(i).copied().flatten().filter(|_| !p.periodic);
             let found = Parameter {
                 unit: p.unit.clone(),
                 std: calm[i],
@@ -144,19 +144,56 @@ impl Table {
             };
             (name.clone(), found)
         };
-        let strength = |kind| self.strength(all, candidate, kind, bar);
+        let now = self.strength(all, candidate, bar) > 1.0;
         Prospect {
             id: effect.id.clone(),
             trailer: applied.trailer,
             place: effect.place.clone(),
-            seen: match (strength(1) > 1.0, strength(0) > 1.0) {
-                (true, _) => Seen::Yes,
-                (false, true) => Seen::OnceExplained,
-                _ => Seen::No,
+            seen: match (shown.strength(all, candidate, bar) > 1.0, now) {
+                (true, true) => Seen::Yes,
+                (true, false) => Seen::OnceExplained,
+                (false, _) => Seen::No,
             },
             parameters: effect.parameters.iter().enumerate().map(parameter).collect(),
         }
     }
+}
+
+/// What naming a candidate would gain against noise alone.
+#[derive(Clone, Debug)]
+pub(super) struct Shown {
+    /// Expected gain at its plausible size, the least of its sizes.
+    pub gain: f64,
+    /// The smallest value of each parameter that would be seen.
+    pub smallest: Vec<Option<f64>>,
+}
+
+impl Shown {
+    /// What a candidate would gain in records.
+    pub fn of(model: &Model, driven: &Driven, c: &Candidate, bar: &Bar, ground: &Ground) -> Result<Self> {
+        let k = c.applied.values.len();
+        let Some(marks) = driven.marks(model, &[&c.applied])? else {
+            return Ok(Self { gain: 0.0, smallest: vec![None; k] });
+        };
+        let root = bar.needed(k);
+        let factors: Vec<Option<f64>> = c.sizes.iter().map(|s| marks.smallest(0, s, root, ground)).collect();
+        let smallest = |i: usize| {
+            let s = c.sizes.iter().position(|s| s[i] != 0.0)?;
+            factors[s].map(|f| (f * c.sizes[s][i]).abs())
+        };
+        let gain = gain(&marks, c, ground);
+        Ok(Self { gain, smallest: (0..k).map(smallest).collect() })
+    }
+
+    /// √gain at the plausible size over what it needs.
+    pub fn strength(&self, all: &[Candidate], candidate: usize, bar: &Bar) -> f64 {
+        self.gain.sqrt() / bar.needed(all[candidate].applied.values.len())
+    }
+}
+
+/// The expected gain of a candidate at its plausible size, the least of its sizes.
+pub(super) fn gain(marks: &Marks, c: &Candidate, ground: &Ground) -> f64 {
+    c.sizes.iter().map(|s| marks.gain(0, s, None, ground)).fold(f64::INFINITY, f64::min)
 }
 
 /// The groups to look at: the regular candidates, each of the others beside them, and these two by two.

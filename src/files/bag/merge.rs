@@ -3,8 +3,8 @@
 /// Times further apart than this are not bridged, s.
 const GAP: f64 = 0.5;
 
-/// A column at other times by the cubic through the two rows on either side, or the line near the ends; NaN beyond them
-/// and in gaps.
+/// A column at other times by the cubic through four rows around each, or the line where rows are far apart; NaN beyond
+/// the ends and in gaps.
 pub(super) fn at_times(time: &[f64], column: &[f64], times: &[f64]) -> Vec<f64> {
     let value = |t: &f64| {
         let after = time.partition_point(|k| k <= t);
@@ -14,8 +14,9 @@ pub(super) fn at_times(time: &[f64], column: &[f64], times: &[f64]) -> Vec<f64> 
         if after == 0 || after == time.len() || time[after] - time[after - 1] > GAP {
             return f64::NAN;
         }
-        let wide = after >= 2 && after + 1 < time.len() && time[after + 1] - time[after - 2] <= 3.0 * GAP;
-        let rows = if wide { after - 2..after + 2 } else { after - 1..after + 1 };
+        let first = after.saturating_sub(2).min(time.len().saturating_sub(4));
+        let wide = time.len() >= 4 && time[first + 3] - time[first] <= 3.0 * GAP;
+        let rows = if wide { first..first + 4 } else { after - 1..after + 1 };
         let distinct = time[rows.clone()].windows(2).all(|w| w[0] < w[1]);
         if distinct { lagrange(&time[rows.clone()], &column[rows], *t) } else { column[after - 1] }
     };

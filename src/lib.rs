@@ -17,6 +17,7 @@ pub mod model;
 pub mod motion;
 pub mod origin;
 pub mod picture;
+pub mod starter;
 pub mod theory;
 pub mod vehicles;
 

@@ -1,13 +1,16 @@
 //! `creepage discover`
 
+use super::lists::Format;
 use super::own::Own;
 use super::print;
 use super::progress::Progress;
+use super::runs;
 use clap::Args;
-use creepage::discrepancy::discover::{Discovery, Request, discover};
+use creepage::discrepancy::align::discover_aligned;
+use creepage::discrepancy::discover::{Discovery, Request};
 use creepage::discrepancy::html::{gap_svg, html};
 use creepage::discrepancy::summary::summary_text;
-use creepage::files::{ModelFile, Run, VEHICLES_FILE, write_all_or_nothing};
+use creepage::files::{ModelFile, VEHICLES_FILE, write_all_or_nothing};
 use creepage::model::Model;
 use creepage::{Error, Result};
 use std::path::{Path, PathBuf};
@@ -19,6 +22,7 @@ Example:
   creepage discover examples/runs/cornering/eights.csv examples/runs/cornering/rosette.csv \\
     --held-out examples/runs/cornering/square_held_out.csv \\
     --model examples/runs/cornering/model.toml --out report
+  creepage discover INPUTS.csv --truth POSES.csv --model MODEL.toml --out report
   creepage discover RUN.csv --model MODEL.toml --effects examples/effects/my_effects.toml --out report
 
 Writes report.json, report.html, gap.svg and model.patched.toml into the output folder, and the file of a vehicle of
@@ -37,9 +41,21 @@ pub struct Arguments {
     /// Runs that are only judged, opened after the last choice; without it the last quarter of every run
     #[arg(long, num_args = 1.., value_name = "RUN.csv")]
     held_out: Vec<PathBuf>,
+    /// Measured poses in files of their own, one for each run and in their order: the clocks of both are aligned
+    #[arg(long, num_args = 1.., value_name = "POSE.csv")]
+    truth: Vec<PathBuf>,
+    /// The same for the held-out runs
+    #[arg(long, num_args = 1.., value_name = "POSE.csv")]
+    held_out_truth: Vec<PathBuf>,
+    /// About where the clock of the poses reads against that of the inputs, s; found from the motion when left out
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = runs::seconds, requires = "truth")]
+    clock_offset: Option<f64>,
     /// A horizon of the gap, s (repeatable) [default: 1, 5 and 30]
     #[arg(long = "horizon", value_name = "S", value_parser = horizon)]
     horizons: Vec<f64>,
+    /// What to print: the summary, or the report as JSON
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
     /// Seed of the noise floor's random numbers
     #[arg(long, default_value_t = 0)]
     seed: u64,
@@ -60,9 +76,19 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     progress.say("reading the runs");
     let (file, library) = &arguments.own.read(&arguments.model)?;
     Model::check_motion(file)?;
-    let read = |paths: &[PathBuf]| paths.iter().map(|p| Run::read(p, file)).collect::<Result<Vec<_>>>();
-    let (runs, held_out) = (read(&arguments.runs)?, read(&arguments.held_out)?);
-    distinct(&arguments.runs, &arguments.held_out)?;
+    let Arguments { runs, held_out, truth, held_out_truth, .. } = arguments;
+    if truth.is_empty() && !held_out_truth.is_empty() {
+        return Err(
+            Error::input("--held-out-truth is given without --truth").help("name the poses of the other runs too")
+        );
+    }
+    if !truth.is_empty() && held_out_truth.is_empty() && !held_out.is_empty() {
+        return Err(Error::input("--held-out is given without --held-out-truth").help("name the poses of every run"));
+    }
+    let distinct = runs::distinct(runs, held_out).and_then(|()| runs::distinct(truth, held_out_truth));
+    let (runs, held_out) =
+        (runs::read(runs, truth, "--truth", file)?, runs::read(held_out, held_out_truth, "--held-out-truth", file)?);
+    distinct?;
     let request = Request {
         file,
         runs: &runs,
@@ -71,33 +97,25 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
         horizons: &arguments.horizons,
         seed: arguments.seed,
     };
-    let found = discover(&request, &|what| progress.say(what))?;
+    let found = discover_aligned(&request, arguments.clock_offset, &|what| progress.say(what))?;
     drop(progress);
     write(&found, file, &arguments.out)?;
-    if !quiet {
-        print(&screen(&found, &arguments.out));
+    match arguments.format {
+        Format::Json => print(&json(&found)?),
+        Format::Text if !quiet => print(&screen(&found, &arguments.out)),
+        Format::Text => {}
     }
     Ok(())
 }
 
-/// A run that is fitted cannot be held out.
-fn distinct(runs: &[PathBuf], held_out: &[PathBuf]) -> Result<()> {
-    let same = |a: &Path, b: &Path| a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
-    for (i, run) in runs.iter().enumerate() {
-        if held_out.iter().any(|h| same(run, h)) {
-            return Err(Error::input("the run is fitted and held out at once").at_file(run).help("name it once"));
-        }
-        if runs[..i].iter().any(|r| same(run, r)) {
-            return Err(Error::input("the run is named twice").at_file(run).help("name it once"));
-        }
-    }
-    Ok(())
+fn json(found: &Discovery) -> Result<String> {
+    let json = serde_json::to_string_pretty(&found.report).map_err(|e| Error::run(format!("no report.json: {e}")))?;
+    Ok(json + "\n")
 }
 
 fn write(found: &Discovery, file: &ModelFile, out: &Path) -> Result<()> {
-    let json = serde_json::to_string_pretty(&found.report).map_err(|e| Error::run(format!("no report.json: {e}")))?;
     let mut files = vec![
-        ("report.json", format!("{json}\n")),
+        ("report.json", json(found)?),
         ("report.html", html(&found.report, &found.pictures)),
         ("gap.svg", gap_svg(&found.report, &found.pictures)),
         ("model.patched.toml", found.patched(file)),

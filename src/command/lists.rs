@@ -4,7 +4,9 @@ use super::own::{Own, OwnVehicles};
 use super::print;
 use clap::{Args, ValueEnum};
 use creepage::Result;
-use creepage::describe::{effects_json, effects_text, vehicle_effects_text, vehicles_json, vehicles_text};
+use creepage::describe::{
+    effects_json, effects_text, vehicle_effects_json, vehicle_effects_text, vehicles_json, vehicles_text,
+};
 
 /// List the vehicles a model file may name
 #[derive(Args)]
@@ -29,7 +31,7 @@ Examples:
   creepage effects --vehicles examples/bus/bus.toml --vehicle articulated-bus")]
 pub struct Effects {
     /// Only those of one vehicle, with the equations they rewrite there and the effects that are the same
-    #[arg(long, value_name = "NAME", conflicts_with = "format")]
+    #[arg(long, value_name = "NAME")]
     vehicle: Option<String>,
     /// How to print them
     #[arg(long, value_enum, default_value_t = Format::Text)]
@@ -39,7 +41,7 @@ pub struct Effects {
 }
 
 #[derive(Clone, Copy, ValueEnum)]
-enum Format {
+pub(super) enum Format {
     Text,
     Json,
 }
@@ -63,7 +65,10 @@ pub fn vehicles(arguments: &Vehicles) -> Result<()> {
 pub fn effects(arguments: &Effects) -> Result<()> {
     let (vehicles, library) = arguments.own.catalogues()?;
     if let Some(vehicle) = &arguments.vehicle {
-        print(&vehicle_effects_text(vehicle, &vehicles, &library)?);
+        print(&match arguments.format {
+            Format::Text => vehicle_effects_text(vehicle, &vehicles, &library)?,
+            Format::Json => pretty(&vehicle_effects_json(vehicle, &vehicles, &library)?),
+        });
         return Ok(());
     }
     print(&match arguments.format {

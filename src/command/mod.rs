@@ -1,11 +1,16 @@
 //! The command line: arguments → one library call → print.
 
+mod check;
+mod completions;
 mod describe;
 mod discover;
 mod figures;
+mod init;
 mod lists;
+mod man;
 mod own;
 mod progress;
+mod runs;
 mod simulate;
 mod verify;
 
@@ -35,6 +40,8 @@ struct Common {
 
 #[derive(Subcommand)]
 enum Command {
+    Init(init::Arguments),
+    Check(check::Arguments),
     Discover(discover::Arguments),
     Simulate(simulate::Arguments),
     Describe(describe::Arguments),
@@ -43,6 +50,8 @@ enum Command {
     Effects(lists::Effects),
     Verify(verify::Arguments),
     Claims(verify::List),
+    Completions(completions::Arguments),
+    Man(man::Arguments),
 }
 
 impl Cli {
@@ -56,6 +65,8 @@ impl Cli {
             pool.map_err(|e| Error::run(format!("no threads could be started: {e}")))?;
         }
         match self.command {
+            Command::Init(arguments) => init::run(&arguments, self.common.quiet),
+            Command::Check(arguments) => check::run(&arguments, self.common.quiet),
             Command::Discover(arguments) => discover::run(&arguments, self.common.quiet),
             Command::Simulate(arguments) => simulate::run(&arguments, self.common.quiet),
             Command::Describe(arguments) => describe::run(&arguments),
@@ -64,6 +75,8 @@ impl Cli {
             Command::Effects(arguments) => lists::effects(&arguments),
             Command::Verify(arguments) => verify::run(&arguments, self.common.quiet),
             Command::Claims(arguments) => verify::list(&arguments),
+            Command::Completions(arguments) => completions::run(&arguments),
+            Command::Man(arguments) => man::run(&arguments, self.common.quiet),
         }
     }
 }

@@ -9,6 +9,7 @@ use crate::error::{Error, Result};
 use crate::model::{Model, WITH_TRAILERS};
 use crate::vehicles::Vehicle;
 use rayon::prelude::*;
+use serde_json::{Value, json};
 
 /// Every effect that applies to a vehicle: the equations it rewrites, and the effects that are the same under another
 /// name, as text.
@@ -37,6 +38,25 @@ pub fn vehicle_effects_text(vehicle: &str, vehicles: &[Vehicle], library: &[Effe
         equation(a, &model).split("; ").for_each(|line| page.formula(line));
     }
     Ok(page.finished())
+}
+
+/// As [`vehicle_effects_text`], as JSON: id, trailer, meaning, equations and relatives of every effect.
+///
+/// # Errors
+/// As [`vehicle_effects_text`].
+pub fn vehicle_effects_json(vehicle: &str, vehicles: &[Vehicle], library: &[Effect]) -> Result<Value> {
+    let model = model_of(vehicle, vehicles)?;
+    model.determined()?;
+    let all: Vec<Applied> = model.applicable(library).into_iter().map(|(e, t)| open(e, t)).collect();
+    let entry = |a: &Applied| {
+        let equation = equation(a, &model);
+        json!({
+            "id": a.effect.id, "trailer": a.trailer, "where": a.effect.place, "says": a.effect.says,
+            "equations": equation.split("; ").collect::<Vec<_>>(), "relatives": relatives(&model, a, &all),
+        })
+    };
+    let entries: Vec<Value> = all.par_iter().map(entry).collect();
+    Ok(json!({ "schema": 1, "vehicle": vehicle, "effects": entries }))
 }
 
 fn open(effect: &Effect, trailer: Option<usize>) -> Applied {

@@ -9,7 +9,7 @@ use crate::model::Model;
 use rayon::prelude::*;
 
 /// Share of every run that is fitted when no run is held out.
-const FITTED_SHARE: f64 = 0.75;
+pub(super) const FITTED_SHARE: f64 = 0.75;
 
 /// Runs cut into what is fitted and what is held out.
 pub(super) struct Data {

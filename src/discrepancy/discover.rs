@@ -59,7 +59,7 @@ impl Discovery {
 /// # Errors
 /// When runs log different inputs, or the model file's effects do not apply to its vehicle.
 pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery> {
-    let roles = common_roles(request)?;
+    let roles = common_roles(request.runs, request.held_out)?;
     let model = Model::from_file(request.file, request.library, &roles)?;
     let data = Data::of(request, &model)?;
     let known = request.file.noise;
@@ -106,8 +106,8 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
 }
 
 /// The input roles that all runs log.
-fn common_roles(request: &Request) -> Result<Vec<String>> {
-    let mut all = request.runs.iter().chain(request.held_out);
+pub(super) fn common_roles(runs: &[Run], held_out: &[Run]) -> Result<Vec<String>> {
+    let mut all = runs.iter().chain(held_out);
     let first = all.next().ok_or_else(|| Error::input("no run was given").help("name at least one CSV file"))?;
     for run in all {
         if run.roles != first.roles {
@@ -135,6 +135,8 @@ fn empty_report(request: &Request, data: &Data) -> Report {
     let warnings = runs().flat_map(|r| r.warnings.iter().map(move |w| format!("{}: {w}", r.name)));
     let mut hashes: BTreeMap<String, String> =
         runs().map(|r| (r.path.to_string_lossy().into_owned(), r.sha256.clone())).collect();
+    let truths = runs().filter_map(|r| r.apart.as_ref());
+    hashes.extend(truths.map(|a| (a.truth.to_string_lossy().into_owned(), a.truth_sha256.clone())));
     hashes.insert(request.file.path.to_string_lossy().into_owned(), request.file.sha256.clone());
     let own = request.library.iter().filter_map(|e| e.origin.as_deref()).chain(request.file.vehicle_origin());
     hashes.extend(own.map(|o| (o.path.to_string_lossy().into_owned(), o.sha256.clone())));
@@ -156,9 +158,16 @@ fn empty_report(request: &Request, data: &Data) -> Report {
             rows_dropped: runs().map(|r| r.rows_dropped).sum::<usize>() + data.gross,
             why_dropped,
             warnings,
+            clocks: vec![],
         },
         provenance: Provenance { version: env!("CARGO_PKG_VERSION").into(), seed: request.seed, inputs_sha256: hashes },
     }
+}
+
+/// The answer for runs that cannot be put to the model, and why.
+pub(super) fn unusable(request: &Request, why: String) -> Result<Discovery> {
+    let data = Data { fitted: vec![], held_out: vec![], gross: 0 };
+    Ok(nothing_to_fit(request, &data, verdict::unusable(why)))
 }
 
 fn nothing_to_fit(request: &Request, data: &Data, outcome: verdict::Outcome) -> Discovery {

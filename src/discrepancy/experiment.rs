@@ -64,8 +64,8 @@ impl Known {
 }
 
 /// What is needed to think a manoeuvre through.
-struct Thought<'a> {
-    envelope: Envelope,
+pub(super) struct Thought<'a> {
+    pub(super) envelope: Envelope,
     like: &'a Record,
     variances: Variances,
     sample_size: f64,
@@ -150,12 +150,17 @@ fn most_different(relatives: &[Relative]) -> Vec<&Relative> {
 }
 
 impl<'a> Thought<'a> {
-    fn of(problem: &'a Problem, fit: &Fit) -> Option<Self> {
+    pub(super) fn of(problem: &'a Problem, fit: &Fit) -> Option<Self> {
         let like = problem.records.first()?;
         let envelope = Envelope::of(&fit.model, &problem.records)?;
-        let mut variances = fit.variances;
-        variances.noise.iter_mut().for_each(|v| *v *= (like.step() * RATE).min(1e3));
-        Some(Self { envelope, like, variances, sample_size: fit.sample_size })
+        let of = Self { envelope, like, variances: fit.variances, sample_size: fit.sample_size };
+        Some(Self { variances: of.scaled(fit.variances), ..of })
+    }
+
+    /// Variances at the rows of a manoeuvre that says as much as one with the rows of the runs.
+    pub(super) fn scaled(&self, mut v: Variances) -> Variances {
+        v.noise.iter_mut().for_each(|v| *v *= (self.like.step() * RATE).min(1e3));
+        v
     }
 
     /// The manoeuvre of the most worth, or the simplest of those that are nearly as good.
@@ -188,7 +193,7 @@ impl<'a> Thought<'a> {
 
     /// By how much the BIC of `other` is expected to exceed that of `truth` after a manoeuvre.
     fn misfit(&self, m: &Manoeuvre, truth: &Known, other: &Known) -> Option<f64> {
-        let record = self.driven(m, truth)?;
+        let record = self.driven(m, &truth.model)?;
         let equations = other.model.free_equations().ok()?;
         let records = [record];
         let plan = plan(&records);
@@ -220,10 +225,10 @@ impl<'a> Thought<'a> {
     }
 
     /// What the sensors would log of a manoeuvre, without noise.
-    fn driven(&self, m: &Manoeuvre, truth: &Known) -> Option<Record> {
+    pub(super) fn driven(&self, m: &Manoeuvre, truth: &Model) -> Option<Record> {
         let times: Vec<f64> = (0..=(LENGTH * RATE) as usize).map(|i| i as f64 / RATE).collect();
         let inputs = m.inputs(&self.envelope, &times);
-        let equations = truth.model.equations(&[]).ok()?;
+        let equations = truth.equations(&[]).ok()?;
         let mut record = Record::new(
             "manoeuvre",
             times,

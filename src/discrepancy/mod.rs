@@ -12,6 +12,7 @@
 //! traverse constraint, and the third is yaw. With q = 0 a run is one trajectory; with large q windows stand
 //! alone. q and σ are estimated with the parameters, so noise, unexplained motion and effects are told apart.
 
+pub mod align;
 pub mod angle;
 pub mod bootstrap;
 mod bounds;
@@ -29,6 +30,7 @@ pub mod experiment;
 pub mod fit;
 pub mod gap;
 pub mod html;
+pub mod identifiable;
 pub mod identity;
 mod judged;
 pub mod locate;

@@ -56,8 +56,10 @@ impl Record {
         let mut columns = vec![run.x.clone(), run.y.clone()];
         columns.extend(run.heading.clone());
         columns.extend(run.trailer_headings.iter().cloned());
-        let record = Self::new(&run.name, run.time.clone(), columns, run.heading.is_some(), &run.inputs, timing.into());
-        Self { trailers, ..record }
+        let input_time = run.apart.as_ref().map_or(&run.time, |a| &a.time);
+        let signals = Signals::new(input_time, &run.inputs, timing.into());
+        let (rows, has_heading) = (0..run.time.len(), run.heading.is_some());
+        Self { name: run.name.clone(), time: run.time.clone(), columns, has_heading, signals, trailers, rows }
     }
 
     /// The kind of each measured column.

@@ -229,6 +229,31 @@ pub struct DataSummary {
     pub why_dropped: BTreeMap<String, usize>,
     /// Things a user should know of the data.
     pub warnings: Vec<String>,
+    /// The clocks of runs whose inputs and poses stand in files of their own.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub clocks: Vec<RunClock>,
+}
+
+/// The clock of a run whose inputs and poses were logged apart: time of the poses = time of the inputs + offset +
+/// drift·(time of the inputs − at).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RunClock {
+    /// File name of the inputs.
+    pub run: String,
+    /// File name of the poses.
+    pub truth: String,
+    /// Whether it was only judged.
+    pub held_out: bool,
+    /// Offset, s.
+    pub offset_s: Estimate,
+    /// Drift, seconds a second.
+    pub drift: Estimate,
+    /// The time of the inputs at which the clocks differ by the offset, s.
+    pub at_s: f64,
+    /// Correlation of the motion in both files, at most one.
+    pub correlation: f64,
+    /// Another offset at which both files agree nearly as well, s.
+    pub other_offset_s: Option<f64>,
 }
 
 /// Where an answer comes from.

@@ -1,6 +1,6 @@
 //! The report on one screen of a terminal, and the sentences every form of the report shares.
 
-use super::report::{BeforeAfter, Gap, Named, Report, Rival, Verdict};
+use super::report::{BeforeAfter, Gap, Named, Report, Rival, RunClock, Verdict};
 use crate::picture::number::{plain, prefixed, significant, with_error};
 use crate::picture::svg::cut;
 
@@ -179,12 +179,23 @@ fn arrow([before, after, floor]: [f64; 3], factor: f64, unit: &str) -> String {
     format!("{before:>7} → {after:>7} | {floor:>7} {unit}")
 }
 
+/// How the clocks of a run stand to each other, in words.
+pub fn clock_line(c: &RunClock) -> String {
+    let offset = with_error(c.offset_s.value, c.offset_s.std);
+    let drift = with_error(1e6 * c.drift.value, c.drift.std.map(|s| 1e6 * s));
+    format!("clock of {}: offset {offset} s, drift {drift} µs/s", c.run)
+}
+
 fn data_lines(report: &Report) -> Vec<String> {
     let data = &report.data;
     let mut lines = vec![
         String::new(),
         format!("  data: {} runs, {} rows used, {} dropped", data.runs, data.rows, data.rows_dropped),
     ];
+    lines.extend(data.clocks.iter().take(2).flat_map(|c| wrapped(&clock_line(c), 2, 2)));
+    if data.clocks.len() > 2 {
+        lines.push(format!("  … and {} more clocks", data.clocks.len() - 2));
+    }
     if let Some(first) = data.warnings.first() {
         let more =
             if data.warnings.len() > 1 { format!(" (and {} more)", data.warnings.len() - 1) } else { String::new() };

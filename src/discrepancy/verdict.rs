@@ -49,6 +49,11 @@ pub fn undefined_motion() -> Outcome {
     outcome(Verdict::UnusableData, sentence, None)
 }
 
+/// Data that cannot be put to the model, and why.
+pub fn unusable(why: String) -> Outcome {
+    Outcome { verdict: Verdict::UnusableData, sentence: Some(why), next_experiment: None }
+}
+
 fn outcome(verdict: Verdict, sentence: &str, next_experiment: Option<NextExperiment>) -> Outcome {
     Outcome { verdict, sentence: Some(sentence.into()), next_experiment }
 }
@@ -134,14 +139,14 @@ fn mismatched(clocks: &[Drift]) -> Option<String> {
     let worst = clocks.iter().filter(|d| d.is_mismatch()).max_by(|a, b| a.total.abs().total_cmp(&b.total.abs()))?;
     Some(format!(
         "The clocks do not match: in {} the delay between inputs and measured pose drifts by {:.0} ms, so neither \
-         constraints nor effects can be judged; align the logs first.",
+         constraints nor effects can be judged; give the log to --truth as well, and its clocks are aligned.",
         worst.run,
         1000.0 * worst.total.abs()
     ))
 }
 
 /// Effects every vehicle has in one form or another: if one of plausible size could hide, silence means nothing.
-const BASIC: [&str; 6] =
+pub(super) const BASIC: [&str; 6] =
     ["rotation-creep", "traverse-creep", "yaw-rate-bias", "yaw-rate-scale", "track-width", "steering-offset"];
 
 /// A basic effect that would not have stood out at its plausible size.

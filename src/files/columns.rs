@@ -12,6 +12,8 @@ use std::collections::BTreeMap;
 pub struct Columns {
     /// Time, s.
     pub time: String,
+    /// Time in a file of measured poses of its own, s; `time` when the file names none.
+    pub truth_time: Option<String>,
     /// Measured position along x, m.
     pub x: String,
     /// Measured position along y, m.
@@ -75,6 +77,7 @@ impl Columns {
         let name = |role: &str| get(role).map_or(Ok(role), |v| v.text()).map(str::to_string);
         let columns = Self {
             time: name("time")?,
+            truth_time: get("truth_time").map(|v| v.text().map(str::to_string)).transpose()?,
             x: name("x")?,
             y: name("y")?,
             heading: get("heading").map(|v| v.text().map(str::to_string)).transpose()?,
@@ -87,10 +90,23 @@ impl Columns {
 
     /// Finds the columns in the header of a log; errors do not know the file yet.
     pub fn resolve(&self, header: &[String]) -> Result<Resolved> {
-        let find = |role: &str, column: &str| find(header, role, column);
         let inputs = self.inputs.iter().map(|input| resolve_input(header, input));
+        let pose = self.resolve_pose(header, "time", &self.time)?;
+        Ok(Resolved { inputs: inputs.collect::<Result<_>>()?, ..pose })
+    }
+
+    /// Finds the time and the pose in the header of a file that need not hold inputs.
+    pub fn resolve_truth(&self, header: &[String]) -> Result<Resolved> {
+        match &self.truth_time {
+            Some(column) => self.resolve_pose(header, "truth_time", column),
+            None => self.resolve_pose(header, "time", &self.time),
+        }
+    }
+
+    fn resolve_pose(&self, header: &[String], role: &str, time: &str) -> Result<Resolved> {
+        let find = |role: &str, column: &str| find(header, role, column);
         Ok(Resolved {
-            time: find("time", &self.time)?,
+            time: find(role, time)?,
             x: find("x", &self.x)?,
             y: find("y", &self.y)?,
             heading: match &self.heading {
@@ -103,7 +119,7 @@ impl Columns {
                 .iter()
                 .map(|c| find("trailer_headings", c))
                 .collect::<Result<_>>()?,
-            inputs: inputs.collect::<Result<_>>()?,
+            inputs: vec![],
         })
     }
 
@@ -137,7 +153,7 @@ impl Columns {
 }
 
 fn keys<'a>(inputs: &[&'a KnownInput], trailers: bool) -> Vec<&'a str> {
-    let mut keys = vec!["time", "x", "y", "heading"];
+    let mut keys = vec!["time", "truth_time", "x", "y", "heading"];
     keys.extend(trailers.then_some("trailer_headings"));
     keys.extend(inputs.iter().flat_map(|i| std::iter::once(&i.role).chain(&i.instead)).map(String::as_str));
     keys
@@ -209,6 +225,7 @@ mod tests {
             InputColumn { role: "wheel_rate".into(), column: "wheel_rate".into(), instead: Some("speed".into()) };
         Columns {
             time: "t".into(),
+            truth_time: None,
             x: "x".into(),
             y: "y".into(),
             heading: None,

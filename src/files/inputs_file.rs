@@ -1,7 +1,7 @@
 //! The inputs of a simulation: times, inputs, and perhaps the pose it begins with.
 
 use super::columns::Resolved;
-use super::sheet::Sheet;
+use super::log::Log;
 use super::{Initial, ModelFile, order};
 use crate::error::{Error, Result};
 use std::path::Path;
@@ -26,12 +26,12 @@ impl Inputs {
     /// When an input is missing, a cell holds a word, or fewer than two rows are usable.
     pub fn read(path: impl AsRef<Path>, model: &ModelFile) -> Result<Self> {
         let path = path.as_ref();
-        let sheet = Sheet::open(path)?;
+        let sheet = Log::open(path)?;
         let mut columns = model.columns.clone();
         // Under forces the motion of the wheels is what comes out.
         columns.inputs = model.dynamics.as_ref().map_or(columns.inputs, |d| d.inputs.clone());
-        let whole = columns.resolve(&sheet.header).ok().filter(|r| r.heading.is_some());
-        let (time, inputs) = columns.resolve_inputs(&sheet.header).map_err(|e| sheet.at_header(e))?;
+        let whole = columns.resolve(sheet.header()).ok().filter(|r| r.heading.is_some() && !sheet.has_topics());
+        let (time, inputs) = columns.resolve_inputs(sheet.header()).map_err(|e| sheet.at_header(e))?;
         let mut wanted = vec![time];
         wanted.extend(inputs.iter().map(|i| i.index));
         wanted.extend(whole.iter().flat_map(pose_columns));

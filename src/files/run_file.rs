@@ -1,12 +1,12 @@
 //! A logged run: times, measured poses and inputs, ready to compute with.
 
 use super::columns::Resolved;
+use super::log::Log;
 use super::model_file::ModelFile;
 use super::order;
 use super::sheet::{Numbers, Sheet};
 use crate::error::{Error, Result};
 use std::collections::BTreeMap;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// Rows a run needs.
@@ -41,13 +41,33 @@ pub struct Run {
     pub why_dropped: BTreeMap<String, usize>,
     /// What a user should know of the file.
     pub warnings: Vec<String>,
+    /// Of a run whose inputs were logged apart from its poses: their own times, and the file of the poses.
+    pub apart: Option<Apart>,
+}
+
+/// Inputs that were logged apart from the measured poses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Apart {
+    /// Strictly increasing times of the inputs, s: by their own clock, or by that of the poses once they are aligned.
+    pub time: Vec<f64>,
+    /// The file of the poses.
+    pub truth: PathBuf,
+    /// SHA-256 of its bytes, hexadecimal.
+    pub truth_sha256: String,
+    /// Whether both have one clock, as the topics of a bag.
+    pub one_clock: bool,
 }
 
 impl Run {
-    /// Reads a log by the columns of a model file, in one pass.
+    /// Reads a log by the columns of a model file, in one pass; a bag, whose topics have times of their own, in two.
     pub fn read(path: impl AsRef<Path>, model: &ModelFile) -> Result<Self> {
         let path = path.as_ref();
-        Self::of(Sheet::open(path)?, path, model)
+        let log = Log::open(path)?;
+        if log.has_topics() {
+            return Self::read_bag(path, model);
+        }
+        let found = model.columns.resolve(log.header()).map_err(|e| log.at_header(e))?;
+        Self::of(path, log.numbers(&wanted(&found))?, found)
     }
 
     /// A log that is at hand as text; `name` stands for its file.
@@ -56,18 +76,18 @@ impl Run {
     /// As [`Run::read`].
     pub fn parse(name: &str, text: &str, model: &ModelFile) -> Result<Self> {
         let path = Path::new(name);
-        Self::of(Sheet::new(text.as_bytes(), path)?, path, model)
+        let sheet = Sheet::new(text.as_bytes(), path)?;
+        let found = model.columns.resolve(&sheet.header).map_err(|e| sheet.at_header(e))?;
+        Self::of(path, sheet.numbers(&wanted(&found))?, found)
     }
 
-    fn of<R: Read>(sheet: Sheet<R>, path: &Path, model: &ModelFile) -> Result<Self> {
-        let found = model.columns.resolve(&sheet.header).map_err(|e| sheet.at_header(e))?;
-        let mut numbers = sheet.numbers(&wanted(&found))?;
+    fn of(path: &Path, mut numbers: Numbers, found: Resolved) -> Result<Self> {
         let warnings = arrange(&mut numbers);
         enough(&numbers).map_err(|e| e.at_file(path))?;
         Ok(Self::build(path, found, numbers, warnings))
     }
 
-    fn build(path: &Path, found: Resolved, numbers: Numbers, warnings: Vec<String>) -> Self {
+    pub(super) fn build(path: &Path, found: Resolved, numbers: Numbers, warnings: Vec<String>) -> Self {
         let mut columns = numbers.columns.into_iter();
         let mut next = || columns.next().unwrap_or_default();
         let (time, x, y) = (next(), next(), next());
@@ -92,12 +112,13 @@ impl Run {
             rows_dropped: numbers.dropped.values().sum(),
             why_dropped: numbers.dropped,
             warnings,
+            apart: None,
         }
     }
 }
 
 /// The columns to read, in the order [`Run::build`] takes them.
-fn wanted(found: &Resolved) -> Vec<usize> {
+pub(super) fn wanted(found: &Resolved) -> Vec<usize> {
     let mut wanted = vec![found.time, found.x, found.y];
     wanted.extend(found.heading);
     wanted.extend(&found.trailer_headings);
@@ -106,7 +127,7 @@ fn wanted(found: &Resolved) -> Vec<usize> {
 }
 
 /// Sorts rows and settles repeated times; gives warnings.
-fn arrange(numbers: &mut Numbers) -> Vec<String> {
+pub(super) fn arrange(numbers: &mut Numbers) -> Vec<String> {
     let back = order::sort(&mut numbers.columns);
     let repeats = order::merge(&mut numbers.columns);
     let mut drop_for = |why: &str, rows: usize| {
@@ -122,7 +143,7 @@ fn arrange(numbers: &mut Numbers) -> Vec<String> {
     }
 }
 
-fn enough(numbers: &Numbers) -> Result<()> {
+pub(super) fn enough(numbers: &Numbers) -> Result<()> {
     let usable = numbers.columns[0].len();
     if usable >= FEWEST {
         return Ok(());

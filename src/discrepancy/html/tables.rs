@@ -137,10 +137,26 @@ fn data(report: &Report) -> Vec<Element> {
     let sum = format!("{}, {} rows used, {} dropped.", counted(data.runs, "run"), data.rows, data.rows_dropped);
     let row = |(why, count): (&String, &usize)| vec![Cell::text(why), Cell::Number(count.to_string())];
     let dropped = table("Rows dropped", &["why", "#rows"], data.why_dropped.iter().map(row).collect());
+    let clocks = clocks(report);
     let warnings = Element::new("ul").with("class", "plain").children(data.warnings.iter().map(|w| holding("li", w)));
     let heading = holding("p", "Warnings").with("class", "plain");
     let warned = if data.warnings.is_empty() { Vec::new() } else { vec![heading, warnings] };
-    std::iter::once(holding("p", sum).with("class", "plain")).chain(dropped).chain(warned).collect()
+    std::iter::once(holding("p", sum).with("class", "plain")).chain(clocks).chain(dropped).chain(warned).collect()
+}
+
+fn clocks(report: &Report) -> Option<Element> {
+    let row = |c: &crate::discrepancy::report::RunClock| {
+        let drift = with_error(1e6 * c.drift.value, c.drift.std.map(|s| 1e6 * s));
+        vec![
+            Cell::Lines(vec![c.run.clone(), c.truth.clone()]),
+            Cell::Number(with_error(c.offset_s.value, c.offset_s.std)),
+            Cell::Number(drift),
+            Cell::Number(significant(c.at_s, 6)),
+        ]
+    };
+    let headings = ["inputs and poses", "#offset, s", "#drift, µs/s", "#at the inputs' time, s"];
+    let caption = "Clocks: time of the poses = time of the inputs + offset + drift since the time stated";
+    table(caption, &headings, report.data.clocks.iter().map(row).collect())
 }
 
 fn provenance(report: &Report) -> Vec<Element> {

@@ -1,0 +1,77 @@
+//! `creepage init`
+
+use super::print;
+use clap::Args;
+use creepage::files::{ModelFile, read_header, write_whole};
+use creepage::starter::{Starter, Wanted};
+use creepage::{Error, Result, effects, model};
+use std::path::PathBuf;
+
+/// Write a commented model file to begin with
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  creepage init differential-drive --from RUN.csv
+  creepage init unicycle --from examples/runs/cornering/eights.csv --out model.toml
+  creepage init n-trailer --tractor car --trailers 2 --out truck.toml
+
+The file is valid at once: parameters are placeholders with unit and meaning, columns are those of RUN.csv that the
+roles are likely to mean. An older file is kept unless --force is given. `creepage vehicles` lists vehicles.")]
+pub struct Arguments {
+    /// The vehicle
+    #[arg(value_name = "VEHICLE")]
+    vehicle: String,
+    /// Where the model file goes
+    #[arg(long, value_name = "FILE", default_value = "model.toml")]
+    out: PathBuf,
+    /// A log whose columns are matched with what the vehicle needs
+    #[arg(long, value_name = "RUN.csv")]
+    from: Option<PathBuf>,
+    /// The vehicle in front of trailers [default: car]
+    #[arg(long, value_name = "VEHICLE")]
+    tractor: Option<String>,
+    /// Number of trailers of an n-trailer [default: 1]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=100))]
+    trailers: Option<u8>,
+    /// Replace an older file
+    #[arg(long)]
+    force: bool,
+}
+
+/// Carries out the command.
+pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
+    let log = arguments.from.as_ref().map(|path| Ok((path.display().to_string(), read_header(path)?))).transpose()?;
+    let starter = Starter::new(&Wanted {
+        vehicle: arguments.vehicle.clone(),
+        tractor: arguments.tractor.clone(),
+        trailers: arguments.trailers.map(usize::from),
+        log,
+    })?;
+    // What is written must be readable, whatever the columns are called.
+    ModelFile::parse(&starter.text, &arguments.out, &model::known(effects::all()))?;
+    if !arguments.force && arguments.out.symlink_metadata().is_ok_and(|m| m.is_file() || m.is_symlink()) {
+        return Err(Error::input("is there already")
+            .at_file(&arguments.out)
+            .help("choose another --out, or give --force"));
+    }
+    write_whole(&arguments.out, starter.text.as_bytes())?;
+    if !quiet {
+        print(&screen(&starter, arguments));
+    }
+    Ok(())
+}
+
+fn screen(starter: &Starter, arguments: &Arguments) -> String {
+    let mut text = format!("{} is written; it is valid as it stands.\n", arguments.out.display());
+    if !starter.placeholders.is_empty() {
+        text += &format!("  put your values for: {}\n", starter.placeholders.join(", "));
+    }
+    for (role, column) in &starter.found {
+        text += &format!("  {role:<18} column \"{column}\"\n");
+    }
+    if !starter.missing.is_empty() {
+        text += &format!("  name under [columns]: {}\n", starter.missing.join(", "));
+    }
+    let run = arguments.from.as_ref().map_or("RUN.csv".into(), |p| p.display().to_string());
+    text + &format!("next: creepage check {run} --model {}\n", arguments.out.display())
+}

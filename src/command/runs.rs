@@ -1,0 +1,44 @@
+//! Runs as the command line names them: one file each, or inputs and poses apart.
+
+use creepage::files::{ModelFile, Run};
+use creepage::{Error, Result};
+use std::path::{Path, PathBuf};
+
+/// Reads runs; with `truths`, the poses of each from the file in the same place.
+///
+/// # Errors
+/// When a file cannot be read, or there are more or fewer files of poses than runs.
+pub fn read(runs: &[PathBuf], truths: &[PathBuf], option: &str, file: &ModelFile) -> Result<Vec<Run>> {
+    if truths.is_empty() {
+        return runs.iter().map(|p| Run::read(p, file)).collect();
+    }
+    if runs.len() != truths.len() {
+        let message = format!("{} under {option} for {}", counted(truths.len(), "file"), counted(runs.len(), "run"));
+        return Err(Error::input(message).help("name the poses of every run, in the order of the runs"));
+    }
+    distinct(truths, &[])?;
+    runs.iter().zip(truths).map(|(r, t)| Run::read_apart(r, t, file)).collect()
+}
+
+fn counted(n: usize, noun: &str) -> String {
+    if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
+}
+
+/// A run that is fitted cannot be held out.
+pub fn distinct(runs: &[PathBuf], held_out: &[PathBuf]) -> Result<()> {
+    let same = |a: &Path, b: &Path| a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
+    for (i, run) in runs.iter().enumerate() {
+        if held_out.iter().any(|h| same(run, h)) {
+            return Err(Error::input("the run is fitted and held out at once").at_file(run).help("name it once"));
+        }
+        if runs[..i].iter().any(|r| same(run, r)) {
+            return Err(Error::input("the run is named twice").at_file(run).help("name it once"));
+        }
+    }
+    Ok(())
+}
+
+/// A clock offset of the command line, s.
+pub fn seconds(text: &str) -> std::result::Result<f64, String> {
+    text.parse::<f64>().ok().filter(|s| s.is_finite()).ok_or_else(|| "an offset is a number of seconds".into())
+}

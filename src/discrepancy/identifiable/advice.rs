@@ -1,0 +1,145 @@
+//! The manoeuvre that would mend most of what the runs leave open.
+
+use super::information::Driven;
+use super::marks::Ground;
+use super::pairs::{misfit, separating};
+use super::prospects::{Bar, Candidate, Group, Shown, Table, gain};
+use crate::discrepancy::chain::Variances;
+use crate::discrepancy::experiment::Thought;
+use crate::discrepancy::fit::Fit;
+use crate::discrepancy::manoeuvre::{Manoeuvre, library};
+use crate::discrepancy::problem::{Problem, pose_of};
+use crate::discrepancy::report::NextExperiment;
+use crate::discrepancy::summary::listed;
+use crate::discrepancy::windows::{Starts, plan};
+use crate::error::Result;
+use rayon::prelude::*;
+
+/// A manoeuvre within this share of the best one is as good.
+const ALIKE: f64 = 0.9;
+/// Names in a sentence.
+const NAMED: usize = 4;
+
+/// What is to be mended.
+pub(super) struct Open<'a> {
+    pub all: &'a [Candidate],
+    pub shown: &'a [Shown],
+    pub ground: Ground,
+    /// Candidates that would be missed.
+    pub missed: Vec<usize>,
+    /// Pairs that would not be told apart, though they differ.
+    pub pairs: Vec<[usize; 2]>,
+    pub bar: Bar,
+    pub variances: [Variances; 2],
+    pub dependence: [f64; 2],
+}
+
+/// How far a manoeuvre mends each thing, one for what is mended.
+struct Mended {
+    manoeuvre: &'static Manoeuvre,
+    shares: Vec<f64>,
+}
+
+impl Mended {
+    fn worth(&self) -> f64 {
+        // What is mended counts far more than what is nearly so.
+        self.shares.iter().map(|s| if *s >= 1.0 { 1.0 } else { 0.1 * s }).sum()
+    }
+}
+
+impl Open<'_> {
+    /// What to drive; `None` with nothing open or for inputs that cannot be planned.
+    pub fn advice(&self, problem: &Problem, fit: &Fit, table: &Table) -> Result<Option<NextExperiment>> {
+        if self.missed.is_empty() && self.pairs.is_empty() {
+            return Ok(None);
+        }
+        let Some(thought) = Thought::of(problem, fit) else { return Ok(None) };
+        let wanted = self.groups();
+        let mend = |m: &'static Manoeuvre| -> Result<Option<Mended>> {
+            let Some(driven) = self.driven(&thought, fit, m)? else { return Ok(None) };
+            let new = Table::of(&fit.model, &driven, self.all, &wanted, &self.scaled(&thought), self.dependence)?;
+            Ok(Some(Mended { manoeuvre: m, shares: self.shares(&joined(table, new), &driven, &thought, fit)? }))
+        };
+        let all: Vec<&'static Manoeuvre> = library(&thought.envelope).collect();
+        let tried: Vec<Mended> =
+            all.into_par_iter().map(mend).collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
+        let most = tried.iter().map(Mended::worth).fold(0.0, f64::max);
+        let best = tried.iter().find(|m| m.worth() >= ALIKE * most && most > 0.0);
+        Ok(best.map(|best| self.said(best, &best.manoeuvre.sentence(&thought.envelope))))
+    }
+
+    /// The groups that hold what is open.
+    fn groups(&self) -> Vec<Vec<usize>> {
+        let all = super::prospects::groups(self.all);
+        let needed = |g: &Vec<usize>| {
+            let holds = |wanted: &[usize]| wanted.iter().all(|w| g.contains(w));
+            self.missed.iter().any(|m| holds(&[*m])) || self.pairs.iter().any(|p| holds(p))
+        };
+        let mut left: Vec<Vec<usize>> = self.missed.iter().map(|m| vec![*m]).collect();
+        left.extend(self.pairs.iter().map(|p| p.to_vec()));
+        // The first group that holds a thing is the one it is read from.
+        all.into_iter()
+            .filter(needed)
+            .filter(|g| {
+                let before = left.len();
+                left.retain(|w| !w.iter().all(|i| g.contains(i)));
+                left.len() < before
+            })
+            .collect()
+    }
+
+    fn scaled(&self, thought: &Thought) -> [Variances; 2] {
+        self.variances.map(|v| thought.scaled(v))
+    }
+
+    fn driven(&self, thought: &Thought, fit: &Fit, m: &Manoeuvre) -> Result<Option<Driven>> {
+        let Some(record) = thought.driven(m, &fit.model) else { return Ok(None) };
+        let equations = fit.model.equations(&[])?;
+        let records = vec![record];
+        let plan = plan(&records);
+        let start = |w: &std::ops::Range<usize>| pose_of(&equations, &records[0].smoothed(w.start));
+        let starts: Starts = plan.iter().map(|s| s.windows.iter().map(start).collect()).collect();
+        Ok(Some(Driven { records, plan, starts }))
+    }
+
+    fn shares(&self, table: &Table, driven: &Driven, thought: &Thought, fit: &Fit) -> Result<Vec<f64>> {
+        let ground = Ground { calm: thought.scaled(self.ground.calm), ..self.ground };
+        let seen = |c: &usize| -> Result<f64> {
+            let marks = driven.marks(&fit.model, &[&self.all[*c].applied])?;
+            let new = marks.map_or(0.0, |m| gain(&m, &self.all[*c], &ground));
+            let both = Shown { gain: self.shown[*c].gain + new, smallest: vec![] };
+            Ok(both.strength(self.all, *c, &self.bar))
+        };
+        let seen: Vec<f64> = self.missed.iter().map(seen).collect::<Result<_>>()?;
+        let told = self.pairs.iter().map(|[a, b]| misfit(table, self.all, *a, *b).unwrap_or(0.0) / separating());
+        Ok(seen.into_iter().chain(told).map(|s| s.min(1.0)).collect())
+    }
+
+    fn said(&self, best: &Mended, sentence: &str) -> NextExperiment {
+        let label = |c: usize| self.all[c].applied.label();
+        let seen = self.missed.iter().map(|c| format!("show {}", label(*c)));
+        let told = self.pairs.iter().map(|[a, b]| format!("tell {} from {}", label(*a), label(*b)));
+        let mut names: Vec<String> =
+            seen.chain(told).zip(&best.shares).filter(|(_, s)| **s >= 1.0).map(|(n, _)| n).collect();
+        names.dedup();
+        if names.is_empty() {
+            let why = "one minute within these speeds and turns mends nothing of it by itself; this says most".into();
+            return NextExperiment { why, manoeuvre: format!("{sentence}; repeat it") };
+        }
+        let more = names.len().saturating_sub(NAMED);
+        let last = format!("{more} more");
+        let named = names.iter().take(NAMED).map(String::as_str).chain((more > 0).then_some(last.as_str()));
+        NextExperiment { why: format!("the minute is expected to {}", listed(named)), manoeuvre: sentence.into() }
+    }
+}
+
+/// What the runs and the manoeuvre say together.
+fn joined(runs: &Table, new: Table) -> Table {
+    let groups = new.groups.into_iter().filter_map(|g| {
+        let (old, _) = runs.groups.iter().find(|o| o.members == g.members).map(|o| (o, ()))?;
+        let [a, b] = &g.information;
+        let information = [a.and(&old.information[0]), b.and(&old.information[1])];
+        Some(Group { information, members: g.members })
+    });
+    Table { groups: groups.collect() }
+}

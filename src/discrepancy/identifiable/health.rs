@@ -1,0 +1,207 @@
+//! The state of the data: rows, times, driving, units.
+
+use super::driving::{driving, quantile};
+use super::outcome::{Finding, Health, RunHealth};
+use crate::discrepancy::fit::Fit;
+use crate::discrepancy::record::Record;
+use crate::discrepancy::whiteness::NOTICEABLE;
+use crate::error::Result;
+use crate::files::Run;
+use crate::model::Model;
+use crate::picture::number::significant;
+
+/// Share of rows left out that is worth a word.
+const MANY_DROPPED: f64 = 0.05;
+/// Scatter of the times between rows that is worth a word.
+const UNEVEN: f64 = 0.3;
+/// Rows further apart than this are no log of a motion, s.
+const SPARSE: f64 = 1.0;
+/// Way and turning that the model's parameters may be wrong by without a word.
+const RIGHT: [f64; 2] = [0.8, 1.25];
+/// Share of the time below which a turn direction counts as never driven.
+const NEVER: f64 = 0.05;
+/// Speeds within this factor are one speed.
+const ONE_SPEED: f64 = 1.3;
+/// Rows alike that are worth a word.
+const COLOURED: f64 = 3.0;
+
+/// The state of runs before anything is fitted.
+pub(super) fn health(model: &Model, runs: &[Run], records: &[Record], gross: &[usize]) -> Result<Health> {
+    let one = |((run, record), gross): ((&Run, &Record), &usize)| -> Result<RunHealth> {
+        let noise = record.position_noise();
+        driving(model, record, rows(run, record, *gross), noise)
+    };
+    let each: Vec<RunHealth> = runs.iter().zip(records).zip(gross).map(one).collect::<Result<_>>()?;
+    let mut health = Health { runs: each, ..Health::default() };
+    health.findings = findings(&health.runs, records);
+    health.findings.extend(
+        runs.iter()
+            .flat_map(|r| r.warnings.iter().map(|w| Finding { id: "order".into(), says: format!("{}: {w}", r.name) })),
+    );
+    Ok(health)
+}
+
+impl Health {
+    /// What a fit of the model as given adds to it; the noise is that of neighbouring rows, as it was before the fit.
+    pub(super) fn with_fit(mut self, noise: &[f64; 3], fit: &Fit, has_heading: bool) -> Self {
+        self.position_noise = Some(noise[0].sqrt());
+        self.heading_noise = has_heading.then(|| noise[1].sqrt());
+        self.rows_alike = Some(fit.colour);
+        // What the model misses within a window looks like a slow noise.
+        if fit.colour > COLOURED && fit.unexplained.iter().all(|d| *d < NOTICEABLE) {
+            let n = significant(fit.colour, 2);
+            self.say("coloured-noise", format!("the pose's noise is alike over {n} rows: a filtered or smoothed pose"));
+        }
+        let places = ["along the vehicle", "across it", "in yaw", "of trailers"];
+        let most = (0..4).max_by(|a, b| fit.unexplained[*a].total_cmp(&fit.unexplained[*b])).unwrap_or(0);
+        if fit.unexplained[most] > NOTICEABLE {
+            self.say(
+                "unexplained-motion",
+                format!(
+                    "these runs hold motion that the model does not explain, most of it {}: `creepage discover` has \
+                     something to find",
+                    places[most]
+                ),
+            );
+        }
+        self
+    }
+
+    fn say(&mut self, id: &str, says: String) {
+        self.findings.push(Finding { id: id.into(), says });
+    }
+}
+
+/// What the rows of a run say by themselves.
+fn rows(run: &Run, record: &Record, gross: usize) -> RunHealth {
+    let steps: Vec<f64> = record.time.windows(2).map(|w| w[1] - w[0]).collect();
+    let step = record.step();
+    let spread = |q| quantile(steps.clone(), q).unwrap_or(step);
+    let mut why_dropped = run.why_dropped.clone();
+    if gross > 0 {
+        why_dropped.insert("gross error of the measured pose".into(), gross);
+    }
+    RunHealth {
+        run: run.name.clone(),
+        rows: record.time.len(),
+        rows_dropped: run.rows_dropped + gross,
+        why_dropped,
+        duration_s: record.time[record.time.len() - 1] - record.time[0],
+        rate_hz: 1.0 / step,
+        jitter: 0.5 * (spread(0.95) - spread(0.05)) / step,
+        gaps: steps.iter().filter(|s| **s > record.gap()).count(),
+        longest_gap_s: steps.iter().copied().fold(0.0, f64::max),
+        ..RunHealth::default()
+    }
+}
+
+fn findings(runs: &[RunHealth], records: &[Record]) -> Vec<Finding> {
+    let mut found = vec![];
+    let mut say = |id: &str, says: String| found.push(Finding { id: id.into(), says });
+    for r in runs {
+        let name = &r.run;
+        let all = (r.rows + r.rows_dropped) as f64;
+        if r.rows_dropped as f64 > MANY_DROPPED * all {
+            let why: Vec<String> = r.why_dropped.iter().map(|(why, n)| format!("{why}: {n}")).collect();
+            say("rows-dropped", format!("{name}: {} of {all} rows are left out ({})", r.rows_dropped, why.join(", ")));
+        }
+        if r.gaps > 0 {
+            let longest = significant(r.longest_gap_s, 3);
+            say("gaps", format!("{name}: the log is interrupted {} times, by {longest} s at most", r.gaps));
+        }
+        if 1.0 / r.rate_hz > SPARSE {
+            let step = significant(1.0 / r.rate_hz, 3);
+            say("time-unit", format!("{name}: rows are {step} s apart: is time in seconds?"));
+        }
+        if r.jitter > UNEVEN {
+            let percent = significant(100.0 * r.jitter, 2);
+            say(
+                "uneven-times",
+                format!("{name}: times between rows scatter by {percent} %: are they those of measuring?"),
+            );
+        }
+        if let Some(ratio) = r.way_ratio.filter(|x| !(RIGHT[0]..RIGHT[1]).contains(x)) {
+            say("way", format!("{name}: {}", wrong_way(ratio)));
+        }
+        if let Some(ratio) = r.turn_ratio.filter(|x| !(RIGHT[0]..RIGHT[1]).contains(x)) {
+            say("turning", format!("{name}: {}", wrong_turn(ratio)));
+        }
+    }
+    let share = |f: &dyn Fn(&RunHealth) -> f64| {
+        let total: f64 = runs.iter().map(|r| r.duration_s).sum();
+        runs.iter().map(|r| f(r) * r.duration_s).sum::<f64>() / total.max(f64::MIN_POSITIVE)
+    };
+    let (left, right) = (share(&|r| r.left), share(&|r| r.right));
+    match (left < NEVER, right < NEVER) {
+        (true, true) => say("no-turns", "these runs hardly turn: what acts in turns does not show".into()),
+        (true, false) | (false, true) => {
+            let side = if left < NEVER { "right" } else { "left" };
+            say(
+                "one-turn-direction",
+                format!("these runs turn to the {side} only: a bias, a constant creep and a wrong scale look alike"),
+            );
+        }
+        _ => {}
+    }
+    let slow = runs.iter().filter_map(|r| r.speed).map(|s| s[0]).fold(f64::INFINITY, f64::min);
+    let fast = runs.iter().filter_map(|r| r.speed).map(|s| s[2]).fold(0.0, f64::max);
+    if fast > 0.0 && fast < ONE_SPEED * slow {
+        let speed = significant(fast, 2);
+        say(
+            "one-speed",
+            format!("these runs have one speed, {speed} m/s: what grows with speed looks like what does not"),
+        );
+    }
+    if records.iter().all(|r| !r.has_heading) {
+        say("no-heading", "no heading is measured: it is told from the path, and small angles hide in it".into());
+    }
+    found
+}
+
+/// Why the model drives another way than was measured.
+fn wrong_way(ratio: f64) -> String {
+    let says = format!("the measured way is {} times what the model drives", significant(ratio, 3));
+    let near = |x: f64| (ratio / x).ln().abs() < 0.25;
+    let why = match () {
+        () if near(1e3) => "is the position in millimetres?",
+        () if near(1e2) => "is the position in centimetres?",
+        () if near(1e-3) => "is a speed in millimetres per second?",
+        () if near(1.0 / 3.6) => "is the speed in km/h?",
+        () if near(std::f64::consts::TAU) => "is the wheel rate in turns per second?",
+        () if near(std::f64::consts::TAU / 60.0) => "is the wheel rate in turns per minute?",
+        () if near(0.5) || near(2.0) => "is wheel_radius a diameter, or the other way round?",
+        () => "check wheel_radius and the units of position and wheel rate",
+    };
+    format!("{says}: {why}")
+}
+
+/// Why the model turns otherwise than was measured.
+fn wrong_turn(ratio: f64) -> String {
+    let degrees = 180.0 / std::f64::consts::PI;
+    let near = |x: f64| ratio * x > 0.0 && (ratio / x).ln().abs() < 0.25;
+    let says = format!("the measured turning is {} times the model's", significant(ratio, 3));
+    let why = match () {
+        () if near(degrees) || near(-degrees) => "is the heading in degrees?",
+        () if near(1.0 / degrees) || near(-1.0 / degrees) => "is the yaw rate, or the angle, in degrees?",
+        () if ratio < 0.0 => "are left and right swapped, or do angles count clockwise?",
+        () => "check track_width or wheelbase, and the units of heading and yaw rate",
+    };
+    format!("{says}: {why}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn usual_slips_of_units_are_named() {
+        for (ratio, word) in [(1010.0, "millimetres?"), (0.1, "per minute"), (0.27, "km/h"), (0.7, "wheel_radius")] {
+            assert!(wrong_way(ratio).contains(word), "{ratio}: {}", wrong_way(ratio));
+        }
+        for (ratio, word) in
+            [(57.0, "heading in degrees"), (-1.02, "swapped"), (0.0175, "yaw rate"), (0.6, "track_width")]
+        {
+            assert!(wrong_turn(ratio).contains(word), "{ratio}: {}", wrong_turn(ratio));
+        }
+    }
+}

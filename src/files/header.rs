@@ -1,0 +1,13 @@
+//! The names of a log's columns.
+
+use super::log::Log;
+use crate::error::Result;
+use std::path::Path;
+
+/// The header of a log.
+///
+/// # Errors
+/// When the file cannot be read or is no log.
+pub fn read_header(path: impl AsRef<Path>) -> Result<Vec<String>> {
+    Ok(Log::open(path.as_ref())?.header().to_vec())
+}

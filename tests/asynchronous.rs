@@ -1,0 +1,247 @@
+//! Inputs and poses in files of their own: their clocks are found, with honest deviations, and no effect hides in them.
+
+mod simulator;
+
+use creepage::discrepancy::align::{check_aligned, discover_aligned};
+use creepage::discrepancy::discover::Request;
+use creepage::discrepancy::identifiable::Checked;
+use creepage::discrepancy::report::{Report, RunClock, Verdict};
+use creepage::files::{ModelFile, Run};
+use creepage::{effects, model};
+use simulator::{Hidden, Log, Noise, Scenario, Timing, Tractor};
+use std::path::Path;
+use std::process::Command;
+
+/// Where the clock of the inputs stands: t = τ·(1 + drift) + offset.
+#[derive(Clone, Copy)]
+struct Skew {
+    offset: f64,
+    drift: f64,
+}
+
+const SKEW: Skew = Skew { offset: 0.3, drift: 1e-4 };
+
+fn drive(tractor: Tractor, hidden: Vec<Hidden>, seed: u64) -> Scenario {
+    Scenario { hidden, duration: 60.0, noise: Noise::MOCAP, ..Scenario::new(tractor, seed) }
+}
+
+/// Some columns of a log as CSV, its first one by another clock.
+fn csv(log: &Log, wanted: impl Fn(usize) -> bool, clock: impl Fn(f64) -> f64) -> String {
+    let columns: Vec<usize> = (1..log.columns.len()).filter(|c| wanted(*c)).collect();
+    let mut text = format!("t,{}\n", columns.iter().map(|c| log.columns[*c].as_str()).collect::<Vec<_>>().join(","));
+    for row in &log.rows {
+        let cells: Vec<String> = columns.iter().map(|c| format!("{}", row[*c])).collect();
+        text += &format!("{},{}\n", clock(row[0]), cells.join(","));
+    }
+    text
+}
+
+/// The same drive logged twice: inputs at 50 Hz by their own clock, poses at 12 Hz with jitter.
+fn write(folder: &Path, name: &str, scenario: &Scenario, skew: Skew) {
+    let inputs = Scenario { rate: 50.0, jitter: 0.2, ..scenario.clone() }.run();
+    let poses = Scenario { rate: 12.0, jitter: 0.4, seed: scenario.seed + 1000, ..scenario.clone() }.run();
+    let first = inputs.columns.len() - 2;
+    let own = |t: f64| (t - skew.offset) / (1.0 + skew.drift);
+    std::fs::write(folder.join(format!("{name}.csv")), csv(&inputs, |c| c >= first, own)).unwrap();
+    std::fs::write(folder.join(format!("{name}_poses.csv")), csv(&poses, |c| c < first, |t| t)).unwrap();
+    std::fs::write(folder.join("model.toml"), scenario.model_toml()).unwrap();
+}
+
+fn read(folder: &Path, name: &str) -> (ModelFile, Run) {
+    let file = ModelFile::read(folder.join("model.toml"), &model::known(effects::all())).unwrap();
+    let poses = folder.join(format!("{name}_poses.csv"));
+    let run = Run::read_apart(folder.join(format!("{name}.csv")), poses, &file).unwrap();
+    (file, run)
+}
+
+fn report(scenario: &Scenario, skew: Skew) -> Report {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), "run", scenario, skew);
+    let (file, run) = read(folder.path(), "run");
+    let runs = [run];
+    let request =
+        Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[1.0], seed: 3 };
+    discover_aligned(&request, None, &|_| ()).unwrap().report
+}
+
+/// The clock as `check` finds it: quicker than discovering.
+fn clock(scenario: &Scenario, skew: Skew) -> RunClock {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), "run", scenario, skew);
+    let (file, run) = read(folder.path(), "run");
+    let of = Checked { file: &file, runs: &[run], library: effects::all() };
+    let mut found = check_aligned(&of, None, &|_| ()).unwrap();
+    assert_eq!(found.data.clocks.len(), 1, "{}", found.summary);
+    assert!(found.effects.iter().all(|e| e.id != "input-delay"), "an offset of the clock is no effect");
+    found.data.clocks.remove(0)
+}
+
+/// How far offset and drift are from the truth, in their own deviations.
+fn errors(found: &RunClock, skew: Skew) -> [f64; 2] {
+    let truth = [skew.offset + skew.drift * found.at_s, skew.drift];
+    let of = |e: &creepage::discrepancy::report::Estimate, truth: f64| (e.value - truth) / e.std.unwrap();
+    [of(&found.offset_s, truth[0]), of(&found.drift, truth[1])]
+}
+
+#[test]
+fn nothing_is_named_where_nothing_hides_but_clocks() {
+    for (tractor, seed) in [(Tractor::Unicycle, 21), (Tractor::DifferentialDrive, 22), (Tractor::Car, 23)] {
+        let found = report(&drive(tractor, vec![], seed), SKEW);
+        let named: Vec<&str> = found.effects.iter().map(|e| e.id.as_str()).collect();
+        assert_eq!((found.verdict, named), (Verdict::NoMissingEffect, vec![]), "{}", found.summary);
+        let clock = &found.data.clocks[0];
+        let [offset, drift] = errors(clock, SKEW);
+        assert!(offset.abs() < 4.0 && drift.abs() < 4.0, "{offset} {drift} {clock:?}");
+        assert!(clock.offset_s.std.unwrap() < 3e-3 && clock.drift.std.unwrap() < 1e-4, "{clock:?}");
+        assert!(clock.correlation > 0.95 && clock.other_offset_s.is_none(), "{clock:?}");
+    }
+}
+
+#[test]
+fn what_hides_is_named_beside_the_clocks() {
+    let cases = [
+        (Hidden::CorneringCreep { mass_over_bt: 0.1 }, "cornering-creep", 31),
+        (Hidden::TractionCreep { mass_over_br: 0.12 }, "traction-creep", 32),
+        (Hidden::YawRateScale { scale: 0.03 }, "yaw-rate-scale", 33),
+    ];
+    for (hidden, id, seed) in cases {
+        let found = report(&drive(Tractor::Unicycle, vec![hidden], seed), SKEW);
+        let named: Vec<&str> = found.effects.iter().map(|e| e.id.as_str()).collect();
+        assert_eq!((found.verdict, named), (Verdict::MissingEffect, vec![id]), "{}", found.summary);
+        let [offset, drift] = errors(&found.data.clocks[0], SKEW);
+        assert!(offset.abs() < 4.0 && drift.abs() < 4.0, "{id}: {offset} {drift} {:?}", found.data.clocks[0]);
+    }
+}
+
+/// Σz² of twenty standard normal numbers lies between 5.9 and 45.3 but once in 500 times.
+#[test]
+fn deviations_of_clocks_are_honest() {
+    let all: Vec<[f64; 2]> = (0..10)
+        .map(|i| {
+            let tractor = if i % 2 == 0 { Tractor::Unicycle } else { Tractor::DifferentialDrive };
+            let timing = if i % 3 == 0 { Timing::IntervalMean } else { Timing::Sample };
+            let scenario = Scenario { timing, ..drive(tractor, vec![], 40 + i) };
+            errors(&clock(&scenario, SKEW), SKEW)
+        })
+        .collect();
+    let sum: f64 = all.iter().flatten().map(|z| z * z).sum();
+    assert!((5.9..45.3).contains(&sum), "{sum}: {all:?}");
+}
+
+#[test]
+fn clocks_far_apart_are_found() {
+    for skew in
+        [Skew { offset: 1.7e9, drift: 0.0 }, Skew { offset: -37.25, drift: 0.02 }, Skew { offset: 4.0, drift: -0.015 }]
+    {
+        let found = clock(&drive(Tractor::Unicycle, vec![], 61), skew);
+        let [offset, drift] = errors(&found, skew);
+        assert!(offset.abs() < 5.0 && drift.abs() < 5.0, "{offset} {drift} {found:?}");
+    }
+}
+
+#[test]
+fn files_of_two_drives_do_not_fit() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), "a", &drive(Tractor::Unicycle, vec![], 71), SKEW);
+    write(folder.path(), "b", &drive(Tractor::Unicycle, vec![], 72), SKEW);
+    let file = ModelFile::read(folder.path().join("model.toml"), &model::known(effects::all())).unwrap();
+    let run = Run::read_apart(folder.path().join("a.csv"), folder.path().join("b_poses.csv"), &file).unwrap();
+    let runs = [run];
+    let request = Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[], seed: 0 };
+    let report = discover_aligned(&request, None, &|_| ()).unwrap().report;
+    assert_eq!(report.verdict, Verdict::UnusableData, "{}", report.summary);
+}
+
+/// Times in nanoseconds would be a file of years: an answer, and no memory for it.
+#[test]
+fn times_that_are_no_seconds_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), "a", &drive(Tractor::Unicycle, vec![], 73), SKEW);
+    let (file, mut run) = read(folder.path(), "a");
+    run.time.iter_mut().for_each(|t| *t *= 1e9);
+    let of = Checked { file: &file, runs: &[run], library: effects::all() };
+    let found = check_aligned(&of, None, &|_| ()).unwrap();
+    assert!(found.summary.contains("is its time in seconds?"), "{}", found.summary);
+}
+
+fn creepage(folder: &Path, arguments: &str) -> (Option<i32>, String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_creepage"))
+        .current_dir(folder)
+        .args(arguments.split_whitespace())
+        .output()
+        .unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (output.status.code(), text(output.stdout), text(output.stderr))
+}
+
+#[test]
+fn runs_are_paired_in_order_and_held_out_ones_have_clocks_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let hidden = vec![Hidden::TrackWidth { scale: 0.04 }];
+    let a = drive(Tractor::DifferentialDrive, hidden.clone(), 81);
+    let b = Scenario { profile: drive(Tractor::DifferentialDrive, vec![], 82).profile, ..a.clone() };
+    write(folder.path(), "a", &a, SKEW);
+    write(folder.path(), "b", &b, Skew { offset: -5.0, drift: 0.0 });
+    let all = "discover a.csv --truth a_poses.csv --held-out b.csv --held-out-truth b_poses.csv --model model.toml";
+    let (code, screen, errors) = creepage(folder.path(), all);
+    assert_eq!((code, errors.as_str()), (Some(0), ""));
+    assert!(screen.contains("track-width") && screen.contains("clock of a.csv"), "{screen}");
+    let text = std::fs::read_to_string(folder.path().join("report/report.json")).unwrap();
+    let report: Report = serde_json::from_str(&text).unwrap();
+    let clocks: Vec<(&str, bool)> = report.data.clocks.iter().map(|c| (c.run.as_str(), c.held_out)).collect();
+    assert_eq!(clocks, [("a.csv", false), ("b.csv", true)]);
+    assert!((report.data.clocks[1].offset_s.value + 5.0).abs() < 0.01, "{:?}", report.data.clocks[1]);
+    let held_out = report.gap[0].held_out.unwrap();
+    assert!(held_out.position_rms_after < 1.5 * report.gap[0].noise_floor.position_rms, "{:?}", report.gap[0]);
+    assert_eq!(report.provenance.inputs_sha256.len(), 5);
+    for (arguments, says) in [
+        ("discover a.csv b.csv --truth a_poses.csv --model model.toml", "1 file under --truth for 2 runs"),
+        ("discover a.csv --held-out b.csv --truth a_poses.csv --model model.toml", "without --held-out-truth"),
+        ("discover a.csv --held-out b.csv --held-out-truth b_poses.csv --model model.toml", "without --truth"),
+        ("discover a.csv b.csv --truth a_poses.csv a_poses.csv --model model.toml", "named twice"),
+        ("check a.csv --truth a_poses.csv b_poses.csv --model model.toml", "2 files under --truth for 1 run"),
+        ("discover a.csv --truth b.csv --model model.toml", "column \"x\" is missing"),
+        ("discover a_poses.csv --truth a_poses.csv --model model.toml", "is missing"),
+        ("discover a.csv --clock-offset 1 --model model.toml", "--truth"),
+    ] {
+        let (code, _, errors) = creepage(folder.path(), arguments);
+        assert!(code == Some(2) && errors.contains(says), "{arguments}: {errors}");
+    }
+}
+
+#[test]
+fn the_poses_may_call_their_time_otherwise() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), "a", &drive(Tractor::Unicycle, vec![], 91), SKEW);
+    let poses = folder.path().join("a_poses.csv");
+    let text = std::fs::read_to_string(&poses).unwrap();
+    std::fs::write(&poses, text.replacen("t,", "stamp,", 1)).unwrap();
+    let model = folder.path().join("model.toml");
+    let text = std::fs::read_to_string(&model).unwrap();
+    std::fs::write(&model, text.replace("[columns]\n", "[columns]\ntruth_time = \"stamp\"\n")).unwrap();
+    let (_, run) = read(folder.path(), "a");
+    assert!(run.time.len() > 700 && run.apart.unwrap().time.len() > 2900);
+}
+
+/// The real run before its clocks were aligned is answered as the aligned ones are: the track is 1 % wider.
+#[test]
+fn the_unaligned_run_is_answered_with_its_clock() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/real/optiodom");
+    let run = folder.join("unaligned_circular_231220200121_run01.csv");
+    if !run.exists() {
+        eprintln!("skipped: {} is not there", run.display());
+        return;
+    }
+    let file = ModelFile::read(folder.join("model.toml"), &model::known(effects::all())).unwrap();
+    let runs = [Run::read_apart(&run, &run, &file).unwrap()];
+    let request =
+        Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[30.0], seed: 0 };
+    let report = discover_aligned(&request, None, &|_| ()).unwrap().report;
+    assert_eq!(report.verdict, Verdict::MissingEffect, "{}", report.summary);
+    let track = report.effects.iter().find(|e| e.id == "track-width").unwrap_or_else(|| panic!("{}", report.summary));
+    assert!((track.parameters["scale"].value - 0.01).abs() < 0.006, "{track:?}");
+    let clock = &report.data.clocks[0];
+    assert!(clock.offset_s.value.abs() < 0.3 && clock.drift.value.abs() < 5e-3, "{clock:?}");
+    let gap = report.gap[0].held_out.unwrap();
+    assert!(gap.position_rms_after < 0.5 * gap.position_rms_before, "{gap:?}");
+}

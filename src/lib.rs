@@ -14,6 +14,7 @@ pub mod mechanism;
 pub mod model;
 pub mod motion;
 pub mod picture;
+pub mod sweep;
 pub mod theory;
 pub mod vehicles;
 

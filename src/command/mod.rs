@@ -7,6 +7,7 @@ mod lists;
 mod own_effects;
 mod progress;
 mod simulate;
+mod sweep;
 mod verify;
 
 use clap::{Args, Parser, Subcommand};
@@ -37,6 +38,7 @@ struct Common {
 enum Command {
     Discover(discover::Arguments),
     Simulate(simulate::Arguments),
+    Sweep(sweep::Arguments),
     Describe(describe::Arguments),
     Figures(figures::Arguments),
     Vehicles(lists::Vehicles),
@@ -58,6 +60,7 @@ impl Cli {
         match self.command {
             Command::Discover(arguments) => discover::run(&arguments, self.common.quiet),
             Command::Simulate(arguments) => simulate::run(&arguments, self.common.quiet),
+            Command::Sweep(arguments) => sweep::run(&arguments, self.common.quiet),
             Command::Describe(arguments) => describe::run(&arguments),
             Command::Figures(arguments) => figures::run(&arguments, self.common.quiet),
             Command::Vehicles(arguments) => lists::vehicles(&arguments),

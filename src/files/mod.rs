@@ -23,6 +23,8 @@ mod records;
 mod run_file;
 mod sheet;
 mod spot;
+mod sweep_axis;
+mod sweep_file;
 mod text;
 mod toml_table;
 
@@ -35,8 +37,12 @@ pub use inputs_file::Inputs;
 pub use known::{Known, KnownEffect, KnownInput, KnownParameter, KnownVehicle};
 pub use model_file::{Initial, InputTiming, ModelFile, Noise, Sensor};
 pub use output::{write_all_or_nothing, write_whole};
+pub(crate) use output::{check_target, put_in_place, unwritable};
 pub use run_file::Run;
 pub use spot::Spot;
+pub use sweep_axis::{Axis, Distribution, Sampled};
+pub use sweep_file::{SweepFile, SweepInput, SweepRows};
+pub(crate) use text::open;
 pub use text::read_text;
 
 pub(crate) use near::{advice, shown};

@@ -217,6 +217,12 @@ impl<'a, 'd> Value<'a, 'd> {
         Ok(list.iter().enumerate().map(element).collect())
     }
 
+    /// Whether it is a table.
+    pub fn is_table(&self) -> bool {
+        self.value.get_ref().is_table()
+    }
+
+
     /// A table, under the heading the user knows it by.
     pub fn section(&self, heading: String) -> Result<Section<'a, 'd>> {
         match self.value.get_ref().as_table() {

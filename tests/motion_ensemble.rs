@@ -64,7 +64,7 @@ fn every_kind_of_model_moves_as_it_does_alone() {
     for s in subjects() {
         let (inputs, alone) = inputs(&s);
         let varied = [Varied::Model("wheel_radius".into()), Varied::Initial(2)];
-        let e = Ensemble::new(&s.model, &inputs, &varied, &s.start, &times, 1e-10).unwrap();
+        let e = Ensemble::new(&s.model, &inputs, &varied, &s.start, 0.0, &times, 1e-10).unwrap();
         let cases: Vec<[f64; 2]> = (0..40).map(|i| [0.2 + 0.01 * f64::from(i), 0.1 * f64::from(i)]).collect();
         let given: Vec<&[f64]> = cases.iter().map(|c| c.as_slice()).collect();
         let plan = e.plan(|i| cases[i].to_vec(), cases.len()).unwrap();
@@ -77,10 +77,10 @@ fn every_kind_of_model_moves_as_it_does_alone() {
             let table = simulate_model(&model, &alone, &times, &start, &exact()).unwrap();
             assert_eq!(e.columns(), table.names, "{}", s.name);
             assert!(case.converged && case.error.unwrap() <= 1e-10, "{}: {:?}", s.name, case.error);
-            for (i, row) in case.rows.iter().enumerate() {
+            for (i, time) in times.iter().enumerate() {
                 let expected: Vec<f64> = table.columns[1..].iter().map(|c| c[i]).collect();
-                let error = worst(&row.values, &expected);
-                assert!(error < EXACT, "{} at {}: {error:e}", s.name, row.time);
+                let error = worst(case.row(i), &expected);
+                assert!(error < EXACT, "{} at {time}: {error:e}", s.name);
             }
         }
     }
@@ -101,7 +101,7 @@ fn logged_inputs_and_their_delays_are_followed() {
     let times = [0.0, 1.234, 3.9];
     let gain = || Varied::Input("gain".into());
     for varied in [vec![gain()], vec![gain(), Varied::Model("input_delay.delay".into())]] {
-        let e = Ensemble::new(&wheel, &inputs, &varied, &[0.0; 3], &times, 1e-10).unwrap();
+        let e = Ensemble::new(&wheel, &inputs, &varied, &[0.0; 3], 0.0, &times[1..], 1e-10).unwrap();
         let cases: Vec<Vec<f64>> = (0..3).map(|i| vec![1.0, 0.05 + 0.03 * f64::from(i)][..varied.len()].to_vec()).collect();
         let given: Vec<&[f64]> = cases.iter().map(Vec::as_slice).collect();
         let found = e.run(&e.plan(|i| cases[i].clone(), 3).unwrap(), &given).unwrap();
@@ -110,7 +110,7 @@ fn logged_inputs_and_their_delays_are_followed() {
             let alone = with(wheel.clone(), "input-delay", None, &[delay]);
             let table = simulate_model(&alone, &log, &times, &[0.0; 3], &exact()).unwrap();
             let expected: Vec<f64> = table.columns[1..].iter().map(|c| c[2]).collect();
-            let error = worst(&found.rows[2].values, &expected);
+            let error = worst(found.row(1), &expected);
             assert!(found.converged && error < EXACT, "{error:e}");
         }
     }
@@ -119,7 +119,7 @@ fn logged_inputs_and_their_delays_are_followed() {
 fn wheels() -> (Ensemble, Vec<Vec<f64>>) {
     let (s, _) = (subjects().remove(0), ());
     let varied = [Varied::Model("wheel_radius".into()), Varied::Initial(0)];
-    let e = Ensemble::new(&s.model, &inputs(&s).0, &varied, &s.start, &[0.0, 3.0], 1e-10).unwrap();
+    let e = Ensemble::new(&s.model, &inputs(&s).0, &varied, &s.start, 0.0, &[3.0], 1e-10).unwrap();
     (e, (0..100).map(|i| vec![0.1 + 0.01 * f64::from(i), f64::from(i)]).collect())
 }
 
@@ -148,9 +148,9 @@ fn the_estimate_is_not_below_the_error() {
     let expected = simulate_model(&s.model, &alone, &[0.0, 3.0], &s.start, &exact()).unwrap();
     let expected: Vec<f64> = expected.columns[1..4].iter().map(|c| c[1]).collect();
     for tolerance in [1e-3, 1e-5, 1e-7, 1e-9] {
-        let e = Ensemble::new(&s.model, &inputs, &[], &s.start, &[0.0, 3.0], tolerance).unwrap();
+        let e = Ensemble::new(&s.model, &inputs, &[], &s.start, 0.0, &[3.0], tolerance).unwrap();
         let case = e.run(&e.plan(|_| vec![], 1).unwrap(), &[&[]]).unwrap().remove(0);
-        let (error, estimate) = (worst(&case.rows[1].values[..3], &expected), case.error.unwrap());
+        let (error, estimate) = (worst(&case.row(0)[..3], &expected), case.error.unwrap());
         assert!(error <= estimate.max(1e-13) && estimate <= tolerance, "{tolerance:e}: {error:e}, {estimate:e}");
     }
 }
@@ -162,12 +162,12 @@ fn what_is_undefined_or_rough_is_said_to_be() {
     let varied = [Varied::Input(Symbol::from("c"))];
     let run = |speed: &str, knots: &[f64]| {
         let inputs = EnsembleInputs { knots: knots.to_vec(), ..inputs(speed) };
-        let e = Ensemble::new(&wheel, &inputs, &varied, &[0.0; 3], &[0.0, 3.0], 1e-10).unwrap();
+        let e = Ensemble::new(&wheel, &inputs, &varied, &[0.0; 3], 0.0, &[3.0], 1e-10).unwrap();
         e.run(&e.plan(|_| vec![4.0], 2).unwrap(), &[&[4.0], &[1.0]]).unwrap()
     };
     // √(c − t) ends at t = 1 for the second case, and only for it.
     let found = run("sqrt(c - t)", &[]);
-    assert!(found[0].converged && found[1].rows.is_empty() && found[1].error.is_none() && !found[1].converged);
+    assert!(found[0].converged && found[1].values.is_empty() && !found[1].is_defined() && !found[1].converged);
     // A jump is no smooth motion, unless it is given as a knot.
     let jump = run("2 + sign(t - 1.1)*c/c", &[]);
     assert!(jump.iter().all(|c| !c.converged && c.error.is_some()));
@@ -179,11 +179,12 @@ fn what_does_not_fit_is_refused() {
     let s = subjects().remove(0);
     let (good, _) = inputs(&s);
     let new = |inputs: &EnsembleInputs, start: &[f64], times: &[f64], tolerance| {
-        Ensemble::new(&s.model, inputs, &[], start, times, tolerance).map(drop)
+        Ensemble::new(&s.model, inputs, &[], start, 0.0, times, tolerance).map(drop)
     };
     assert!(new(&good, &s.start, &[0.0, 1.0], 1e-10).is_ok());
     assert!(new(&good, &[0.0; 2], &[0.0, 1.0], 1e-10).is_err());
-    assert!(new(&good, &s.start, &[1.0, 0.0], 1e-10).is_err());
+    assert!(new(&good, &s.start, &[1.0, 0.5], 1e-10).is_err());
+    assert!(new(&good, &s.start, &[-1.0, 0.5], 1e-10).is_err());
     assert!(new(&good, &s.start, &[], 1e-10).is_err());
     assert!(new(&good, &s.start, &[0.0, f64::NAN], 1e-10).is_err());
     assert!(new(&good, &s.start, &[0.0, 1.0], 0.0).is_err());

@@ -132,7 +132,7 @@ fn threads_and_parts_change_no_byte() {
 
 /// Enough cases that a run can be killed on its way.
 fn long() -> String {
-    SPEC.replace("count = 7", "count = 20000").replace("duration", "every = 0.5\nduration")
+    SPEC.replace("count = 7", "count = 4000").replace("duration", "every = 0.5\nduration")
 }
 
 fn killed_after(dir: &Path, wait: Duration) -> Child {
@@ -188,7 +188,7 @@ fn what_was_done_for_another_sweep_or_damaged_is_not_used() {
             _ => std::fs::write(note, "{").unwrap(),
         }
         if damage != "bytes" {
-            let short = folder(&String::from_utf8(bytes(dir.path(), "spec.toml")).unwrap().replace("20000", "7"));
+            let short = folder(&String::from_utf8(bytes(dir.path(), "spec.toml")).unwrap().replace("4000", "7"));
             std::fs::copy(short.path().join("spec.toml"), dir.path().join("spec.toml")).unwrap();
         }
         let said = good(dir.path(), &["--out", "all.csv"]);

@@ -136,7 +136,7 @@ fn all(e: &Ensemble, cases: &[[f64; 2]]) -> Vec<Vec<f64>> {
     let given: Vec<&[f64]> = cases.iter().map(|c| c.as_slice()).collect();
     let plan = e.plan(|i| cases[i].to_vec(), cases.len()).unwrap();
     let found = e.run(&plan, &given).unwrap();
-    found.into_iter().map(|c| c.rows.into_iter().next_back().unwrap().values).collect()
+    found.into_iter().map(|c| c.values).collect()
 }
 
 fn single() -> Vec<Pair> {

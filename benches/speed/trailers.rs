@@ -24,7 +24,7 @@ pub fn ensemble() -> Ensemble {
     let formulas = LAWS.map(|f| Expr::parse(f).unwrap()).to_vec();
     let inputs = EnsembleInputs { formulas, ..EnsembleInputs::default() };
     let varied = [Varied::Model("wheel_radius".into()), Varied::Initial(2)];
-    Ensemble::new(&model(TRAILERS), &inputs, &varied, &[0.0; N], &[0.0, DURATION], 1e-10).unwrap()
+    Ensemble::new(&model(TRAILERS), &inputs, &varied, &[0.0; N], 0.0, &[DURATION], 1e-10).unwrap()
 }
 
 /// Radius and heading of case i of n.

@@ -47,7 +47,7 @@ pub fn ensemble() -> Ensemble {
         ..EnsembleInputs::default()
     };
     let varied = ["rotation_creep.e_rc", "traverse_creep.e_tc"].map(|s| Varied::Model(s.into()));
-    Ensemble::new(&model(), &inputs, &varied, &[0.0; 3], &[0.0, FIG7_DURATION], 1e-10).unwrap()
+    Ensemble::new(&model(), &inputs, &varied, &[0.0; 3], 0.0, &[FIG7_DURATION], 1e-10).unwrap()
 }
 
 /// One trajectory by a library call, compiled beforehand.

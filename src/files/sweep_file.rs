@@ -194,7 +194,7 @@ impl SweepRows {
     /// # Errors
     /// When there are more than a million.
     pub fn times(self, start: f64, end: f64) -> Result<Vec<f64>> {
-        let SweepRows::Every(every) = self else { return Ok(vec![start, end]) };
+        let SweepRows::Every(every) = self else { return Ok(vec![end]) };
         let whole = ((end - start) / every * (1.0 - 1e-12)).ceil();
         if whole >= MOST_ROWS {
             let error = crate::Error::input(format!("every = {every:?} gives more than a million rows a case"));

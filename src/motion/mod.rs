@@ -18,7 +18,7 @@ mod trajectory;
 pub use conservative::{EndPoint, FIG7_DURATION, Instant, Reading, fig7_case, fig7_path, fig7_stepwise};
 pub use drive::{Drive, Formulas};
 pub use driven::{Creep, assembled, driven};
-pub use ensemble::{Case, Ensemble, EnsembleInputs, Plan, CaseRow, Varied};
+pub use ensemble::{Case, Ensemble, EnsembleInputs, Plan, Varied};
 pub use energy::{Instantaneous, fig7_instants};
 pub use initial::{initial_hidden, visible_state};
 pub use integrator::{Integrator, Method};

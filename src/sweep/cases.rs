@@ -28,11 +28,12 @@ impl Cases {
         Self { grid, sampled, count: file.count, seed: file.seed }
     }
 
-    /// The values of a case: those of the grid, then those drawn.
-    pub fn get(&self, case: usize) -> Vec<f64> {
+    /// Adds the values of a case: those of the grid, then those drawn.
+    pub fn push(&self, case: usize, values: &mut Vec<f64>) {
         let mut point = case / self.count;
-        let mut values = vec![0.0; self.grid.len()];
-        for (value, axis) in values.iter_mut().zip(&self.grid).rev() {
+        let first = values.len();
+        values.resize(first + self.grid.len(), 0.0);
+        for (value, axis) in values[first..].iter_mut().zip(&self.grid).rev() {
             *value = axis[point % axis.len()];
             point /= axis.len();
         }
@@ -41,7 +42,6 @@ impl Cases {
             rng.set_stream(case as u64);
             values.extend(self.sampled.iter().map(|(from, allowed)| draw(*from, *allowed, &mut rng)));
         }
-        values
     }
 }
 

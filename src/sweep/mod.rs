@@ -39,6 +39,8 @@ pub struct Sweep {
     identity: String,
     /// Rows of a case.
     rows: usize,
+    /// Columns of a row.
+    width: usize,
 }
 
 impl Sweep {
@@ -57,17 +59,22 @@ impl Sweep {
         let log = file.log.as_ref().map(|path| Inputs::read(path, &model_file)).transpose()?;
         let roles = roles(&file, &model_file, log.as_ref())?;
         let model = Model::from_file(&model_file, &library, &roles)?;
-        let times = times(&file, log.as_ref())?;
+        let (from, times) = times(&file, log.as_ref())?;
         let (varied, allowed) = varied(&file, &model_file, &model)?;
         let inputs = inputs(&file, &model_file, &model, log.as_ref(), &varied)?;
         let initial = initial(&model_file, log.as_ref());
-        let ensemble = Ensemble::new(&model, &inputs, &varied, &initial, &times, file.error)?;
+        let ensemble = Ensemble::new(&model, &inputs, &varied, &initial, from, &times, file.error)?;
         let cases = Cases::new(&file, &allowed[file.grid.len()..]);
-        let plan = ensemble.plan(|i| cases.get(i), file.cases)?;
-        let names = file.grid.iter().map(|a| &a.name).chain(file.sampled.iter().map(|s| &s.name)).cloned().collect();
-        let rows = if times.len() > 2 || file.rows != crate::files::SweepRows::End { times.len() } else { 1 };
+        let one = |i: usize| {
+            let mut values = Vec::new();
+            cases.push(i, &mut values);
+            values
+        };
+        let plan = ensemble.plan(one, file.cases)?;
+        let names: Vec<String> = file.grid.iter().map(|a| &a.name).chain(file.sampled.iter().map(|s| &s.name)).cloned().collect();
+        let (rows, width) = (times.len(), 3 + names.len() + ensemble.columns().len());
         let identity = identity(&file, &model_file, &library)?;
-        Ok(Self { file, names, cases, ensemble, plan, identity, rows })
+        Ok(Self { file, names, cases, ensemble, plan, identity, rows, width })
     }
 
     /// How many cases there are.
@@ -119,14 +126,15 @@ fn not_driven(spot: &Spot, role: &str, roles: &[String]) -> Error {
     spot.error(format!("the model has no input \"{role}\" here")).help(crate::files::advice(role, "its inputs", &known))
 }
 
-fn times(file: &SweepFile, log: Option<&Inputs>) -> Result<Vec<f64>> {
+/// When the motion begins, and the times of the rows.
+fn times(file: &SweepFile, log: Option<&Inputs>) -> Result<(f64, Vec<f64>)> {
     let ends = log.map(|l| (l.time[0], l.time[l.time.len() - 1]));
     let start = file.start.or(ends.map(|e| e.0)).unwrap_or(0.0);
     let duration = file.duration.or(ends.map(|e| e.1 - start).filter(|d| *d > 0.0));
     let duration = duration.ok_or_else(|| {
         Error::input("key \"duration\" is missing").at_file(&file.path).help("write duration = 10.0, in seconds")
     })?;
-    file.rows.times(start, start + duration).map_err(|e| e.at_file(&file.path))
+    Ok((start, file.rows.times(start, start + duration).map_err(|e| e.at_file(&file.path))?))
 }
 
 /// What varies, and the values each may take.

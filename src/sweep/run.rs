@@ -57,7 +57,7 @@ impl Sweep {
         let format = Format::of(out)?;
         let range = shard.of(self.cases());
         let columns = self.columns();
-        let first = if format == Format::Csv && range.start == 0 { header(&columns) } else { vec![] };
+        let first = if format == Format::Csv && shard.is_first() { header(&columns) } else { vec![] };
         let identity = format!("{:x}", Sha256::digest(format!("{} {range:?} {format:?}", self.identity)));
         crate::files::check_target(out)?;
         let mut journal = Journal::open(out, &identity, &first)?;
@@ -85,7 +85,7 @@ impl Sweep {
 
     /// Cases of a block: whole vectors, and not more numbers than fit near the processor.
     fn block(&self) -> usize {
-        (BLOCK / (self.rows * self.columns().len())).clamp(32, 1024) / 32 * 32
+        (BLOCK / (self.rows * self.width)).clamp(32, 1024) / 32 * 32
     }
 
     fn round(&self) -> usize {
@@ -99,19 +99,20 @@ impl Sweep {
     }
 
     fn compute_block(&self, cases: Range<usize>, format: Format) -> Result<Rows> {
-        let values: Vec<Vec<f64>> = cases.clone().map(|i| self.cases.get(i)).collect();
-        let given: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
+        let (mut values, varied) = (Vec::new(), self.names.len());
+        cases.clone().for_each(|i| self.cases.push(i, &mut values));
+        let given: Vec<&[f64]> = (0..cases.len()).map(|i| &values[i * varied..(i + 1) * varied]).collect();
         let found = self.ensemble.run(&self.plan, &given)?;
-        let mut rows = Vec::new();
-        for ((number, values), case) in cases.clone().zip(&values).zip(&found) {
+        let mut rows = Vec::with_capacity(cases.len() * self.rows * self.width);
+        for ((number, values), case) in cases.clone().zip(&given).zip(&found) {
             self.push_rows(number, values, case, &mut rows);
         }
         let bytes = match format {
-            Format::Csv => csv(&rows, self.columns().len()),
+            Format::Csv => csv(&rows, self.width),
             Format::Parquet => rows.iter().flat_map(|v| v.to_le_bytes()).collect(),
         };
         let count = |bad: fn(&Case) -> bool| found.iter().filter(|c| bad(c)).count();
-        let troubles = [count(|c| c.rows.is_empty()), count(|c| !c.rows.is_empty() && !c.converged)];
+        let troubles = [count(|c| !c.is_defined()), count(|c| c.is_defined() && !c.converged)];
         Ok(Rows { bytes, cases: cases.len(), troubles })
     }
 }

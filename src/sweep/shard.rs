@@ -20,6 +20,11 @@ impl Shard {
     /// All of a sweep.
     pub const WHOLE: Shard = Shard { index: 1, count: 1 };
 
+    /// Whether it is the first part, which has the header.
+    pub fn is_first(self) -> bool {
+        self.index == 1
+    }
+
     /// Its cases among so many.
     pub fn of(self, cases: usize) -> Range<usize> {
         let end = |i: usize| (cases as u128 * i as u128 / self.count as u128) as usize;

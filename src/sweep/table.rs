@@ -51,20 +51,17 @@ impl Sweep {
 
     /// The rows of a case, number by number; what is undefined is NaN.
     pub(super) fn push_rows(&self, number: usize, values: &[f64], case: &Case, rows: &mut Vec<f64>) {
-        let width = self.ensemble.columns().len();
-        let status = if case.rows.is_empty() { 2.0 } else { f64::from(u8::from(!case.converged)) };
+        let status = if case.is_defined() { f64::from(u8::from(!case.converged)) } else { 2.0 };
         let end = [case.error.unwrap_or(f64::NAN), status];
-        let mut push = |own: &[f64]| {
-            rows.push(number as f64);
-            [values, own, &end].into_iter().for_each(|part| rows.extend_from_slice(part));
+        let mut push = |time: f64, own: &[f64]| {
+            rows.extend_from_slice(&[number as f64]);
+            [values, &[time], own, &end].into_iter().for_each(|part| rows.extend_from_slice(part));
         };
-        if case.rows.is_empty() {
-            return push(&vec![f64::NAN; width]);
+        if !case.is_defined() {
+            return push(f64::NAN, &vec![f64::NAN; self.width - self.names.len() - 4]);
         }
-        let skip = case.rows.len() - self.rows.min(case.rows.len());
-        for row in &case.rows[skip..] {
-            let own: Vec<f64> = std::iter::once(row.time).chain(row.values.iter().copied()).collect();
-            push(&own);
+        for (i, time) in self.ensemble.times().iter().enumerate() {
+            push(*time, case.row(i));
         }
     }
 }

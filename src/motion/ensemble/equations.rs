@@ -48,7 +48,7 @@ pub(super) struct LaneEquations {
     pub log: Option<Signals>,
     /// The delay, where it is the same for all cases.
     pub delay: f64,
-    /// Whether the delay varies and the inputs are logged, so that cases look them up at different times.
+    /// Whether the delay varies and the inputs are logged or have kinks, so that cases meet them at different times.
     pub own_clocks: bool,
     /// Whether the sensor shows the states themselves.
     plain_sensor: bool,
@@ -95,8 +95,8 @@ impl LaneEquations {
         let definitions = model.definitions()?;
         let delay = delay_of(&definitions, &graph)?;
         let varying_delay = delay.as_number().is_none();
-        let logged = inputs.log.is_some();
-        let delayed = if logged && varying_delay { Expr::int(0) } else { delay.clone() };
+        let own_clocks = varying_delay && (inputs.log.is_some() || !inputs.knots.is_empty());
+        let delayed = if own_clocks { Expr::int(0) } else { delay.clone() };
         let clock = Symbol::new("clock t");
         let time = graph.insert(&(&Expr::sym(clock.clone()) - &delayed));
         let own = |s: &Symbol| inputs.constants.contains_key(s) || varied.contains(&Varied::Input(s.clone()));
@@ -152,7 +152,7 @@ impl LaneEquations {
             read,
             log: inputs.log.as_ref().map(|(_, signals)| signals.clone()),
             delay: delay.as_number().map_or(0.0, |d| num_traits::ToPrimitive::to_f64(&d).unwrap_or(f64::NAN)),
-            own_clocks: logged && varying_delay,
+            own_clocks,
             plain_sensor,
             time_slot: states.len() + varied.len(),
         })

@@ -24,7 +24,7 @@ pub(super) const LANES: usize = 32;
 /// | z | states of a case |
 /// | N | steps of a run, h their length |
 /// | z_N, z_2N | results with N and 2N steps of order q |
-/// | error | max over rows and states of \|z_2N − z_N\|/(2^q − 1)/max(1, \|z_2N\|) |
+/// | error | max over rows and states of 4·\|z_2N − z_N\|/(2^q − 1)/max(1, \|z_2N\|) |
 ///
 /// Every case is integrated twice, with N and with 2N steps between the times where the inputs have a kink and those
 /// that are asked for. The difference estimates the error of the finer run over the whole trajectory, growth of early
@@ -46,10 +46,10 @@ pub(super) const LANES: usize = 32;
 /// let formulas = ["2 - t/20", "1"].map(|f| Expr::parse(f).unwrap()).to_vec();
 /// let inputs = EnsembleInputs { formulas, ..EnsembleInputs::default() };
 /// let varied = [Varied::Model("wheel_radius".into())];
-/// let wheels = Ensemble::new(&model, &inputs, &varied, &[0.0; 3], &[0.0, 6.0], 1e-10).unwrap();
+/// let wheels = Ensemble::new(&model, &inputs, &varied, &[0.0; 3], 0.0, &[6.0], 1e-10).unwrap();
 /// let plan = wheels.plan(|_| vec![0.5], 2).unwrap();
 /// let cases = wheels.run(&plan, &[&[0.5], &[1.0]]).unwrap();
-/// let x = |i: usize| cases[i].rows[1].values[0];
+/// let x = |i: usize| cases[i].row(0)[0];
 /// assert!((x(1) - 2.0 * x(0)).abs() < 1e-10 && cases[1].error.unwrap() < 1e-10);
 /// ```
 pub struct Ensemble {
@@ -57,6 +57,7 @@ pub struct Ensemble {
     inputs: EnsembleInputs,
     varied: Vec<Varied>,
     initial: Vec<f64>,
+    from: f64,
     times: Vec<f64>,
     tolerance: f64,
     equations: LaneEquations,
@@ -74,21 +75,28 @@ pub struct Plan {
 /// What became of a case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
-    /// A row for each time asked for; none where the motion is undefined.
-    pub rows: Vec<CaseRow>,
+    /// Row by row what a logger would see, [`Ensemble::columns`] without the time; nothing where the motion is undefined.
+    pub values: Vec<f64>,
     /// The estimated error, absolute or relative to the size of a state above one; none where the motion is undefined.
     pub error: Option<f64>,
     /// Whether the error is at most the one asked for.
     pub converged: bool,
+    width: usize,
 }
 
-/// What a logger would see at a time: [`Ensemble::columns`] without the time.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CaseRow {
-    /// s
-    pub time: f64,
-    /// Measured pose, speeds, hidden states.
-    pub values: Vec<f64>,
+impl Case {
+    /// Whether the motion is defined all the way.
+    pub fn is_defined(&self) -> bool {
+        self.error.is_some()
+    }
+
+    /// The row of a time.
+    ///
+    /// # Panics
+    /// When the motion is undefined, or there is no such row: a fault of the caller.
+    pub fn row(&self, i: usize) -> &[f64] {
+        &self.values[i * self.width..(i + 1) * self.width]
+    }
 }
 
 impl Ensemble {
@@ -97,8 +105,9 @@ impl Ensemble {
     /// | symbol | unit | meaning |
     /// |---|---|---|
     /// | varied | | what a case gives a value for |
-    /// | initial | m, rad | measured x, y, heading and trailer headings at the first time, unless varied |
-    /// | times | s | times of the rows, rising; the motion begins at the first |
+    /// | initial | m, rad | measured x, y, heading and trailer headings at the start, unless varied |
+    /// | from | s | when the motion begins |
+    /// | times | s | times of the rows, rising, not before `from` |
     /// | tolerance | | the error asked for |
     ///
     /// # Errors
@@ -109,6 +118,7 @@ impl Ensemble {
         inputs: &EnsembleInputs,
         varied: &[Varied],
         initial: &[f64],
+        from: f64,
         times: &[f64],
         tolerance: f64,
     ) -> Result<Self> {
@@ -116,9 +126,10 @@ impl Ensemble {
         if initial.len() != wanted || inputs.formulas.len() != model.inputs.len() {
             return Err(Error::input("the initial pose or the inputs do not fit the model"));
         }
-        let rising = times.windows(2).all(|w| w[0] < w[1]);
-        if !rising || times.is_empty() || !times.iter().chain([&tolerance]).all(|t| t.is_finite()) || tolerance <= 0.0 {
-            return Err(Error::input("times have to rise, and the error has to be positive"));
+        let rising = times.windows(2).all(|w| w[0] < w[1]) && times.first().is_some_and(|t| *t >= from);
+        let finite = times.iter().chain([&from, &tolerance]).all(|t| t.is_finite());
+        if !rising || !finite || tolerance <= 0.0 {
+            return Err(Error::input("times have to rise from the start on, and the error has to be positive"));
         }
         let equations = LaneEquations::new(model, inputs, varied, None)?;
         Ok(Self {
@@ -126,6 +137,7 @@ impl Ensemble {
             inputs: inputs.clone(),
             varied: varied.to_vec(),
             initial: initial.to_vec(),
+            from,
             times: times.to_vec(),
             tolerance,
             start: if equations.starts_as_measured() { None } else { Some(start::Start::new(model, varied)?) },
@@ -147,13 +159,23 @@ impl Ensemble {
         pose.chain(speeds).chain(self.equations.hidden_names.iter().cloned()).collect()
     }
 
+    /// The times of the rows.
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// Whether the first row is the start.
+    fn shows_start(&self) -> bool {
+        self.times[0] == self.from
+    }
+
     /// The times between which everything is smooth, once in order.
     fn spans(&self, equations: &LaneEquations) -> Vec<Span> {
         let logged = equations.log.as_ref().map_or(&[][..], |l| l.knots());
-        let (first, last) = (self.times[0], self.times[self.times.len() - 1]);
+        let (first, last) = (self.from, self.times[self.times.len() - 1]);
         let inner = |t: &f64| *t > first && *t < last;
         let kinks = logged.iter().chain(&self.inputs.knots).map(|t| t + equations.delay).filter(inner);
-        let mut marks: Vec<(f64, bool)> = kinks.map(|t| (t, false)).collect();
+        let mut marks: Vec<(f64, bool)> = kinks.chain([first]).map(|t| (t, false)).collect();
         marks.extend(self.times.iter().map(|t| (*t, true)));
         marks.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
         marks.dedup_by(|later, kept| later.0 == kept.0);

@@ -2,7 +2,7 @@
 
 use super::equations::LaneEquations;
 use super::steps::{Block, Lane, Scheme, Span, advance};
-use super::{Case, Ensemble, LANES, Plan, CaseRow, scheme};
+use super::{Case, Ensemble, LANES, Plan, scheme};
 use crate::error::Result;
 use crate::formula::Memory;
 
@@ -11,7 +11,10 @@ const DOUBLINGS: u32 = 12;
 /// More steps than the estimate asks for, so that few cases need to be doubled.
 const MARGIN: f64 = 1.1;
 
-/// A block's states at the times of the rows after the first.
+/// How often it does where the motion is undefined.
+const TRIES: u32 = 4;
+
+/// A block's states at the times of the rows after the start.
 type Rows = Vec<Vec<Lane>>;
 
 /// Memory and equations of a thread at work.
@@ -32,8 +35,12 @@ impl Ensemble {
         let needed = loop {
             let fine = self.integrate(&mut work, &z0, (1.0, doublings + 1));
             let errors: Vec<f64> = (0..cases.len()).map(|l| error(&coarse, &fine, l, order)).collect();
+            let defined = errors.iter().filter(|e| !e.is_nan()).count();
             let good = errors.iter().filter(|e| **e <= self.tolerance).count();
-            if 4 * good >= 3 * cases.len() || doublings == DOUBLINGS {
+            if doublings == DOUBLINGS || defined == 0 && doublings == TRIES {
+                break 1.0;
+            }
+            if defined > 0 && 4 * good >= 3 * defined {
                 let worst = errors.iter().copied().filter(|e| *e <= self.tolerance).fold(0.0, f64::max);
                 let steps = f64::from(1u32 << doublings) * MARGIN;
                 break (steps * (worst / self.tolerance).powf(1.0 / f64::from(order))).max(1.0);
@@ -51,10 +58,9 @@ impl Ensemble {
         // The first two runs of every case, then one more for those that need it, side by side again.
         let mut waiting: Vec<(usize, Option<Vec<f64>>)> = (0..cases.len()).map(|i| (i, None)).collect();
         for doubling in 0..=DOUBLINGS {
-            let (steps, last) = ((plan.steps, doubling), doubling == DOUBLINGS);
             let mut next = Vec::new();
             for group in waiting.chunks(LANES) {
-                self.refine_block(&mut work, group, cases, (steps, last), &mut done, &mut next)?;
+                self.refine_block(&mut work, group, cases, (plan.steps, doubling), &mut done, &mut next)?;
             }
             waiting = next;
         }
@@ -67,7 +73,7 @@ impl Ensemble {
         work: &mut Work,
         group: &[(usize, Option<Vec<f64>>)],
         cases: &[&[f64]],
-        ((steps, doublings), last): ((f64, u32), bool),
+        (steps, doublings): (f64, u32),
         done: &mut [Option<Case>],
         next: &mut Vec<(usize, Option<Vec<f64>>)>,
     ) -> Result<()> {
@@ -76,12 +82,13 @@ impl Ensemble {
         let z0 = self.begin(work, &own)?;
         let coarse = match group[0].1 {
             None => self.integrate(work, &z0, (steps, doublings)),
-            Some(_) => gathered(group, self.times.len() - 1, work.e.n),
+            Some(_) => gathered(group, self.times.len() - usize::from(self.shows_start()), work.e.n),
         };
         let fine = self.integrate(work, &z0, (steps, doublings + 1));
         let better = extrapolated(&coarse, &fine, order);
         let errors: Vec<f64> = (0..group.len()).map(|l| error(&coarse, &fine, l, order)).collect();
-        let ready = |e: f64| e <= self.tolerance || last;
+        let most = |e: f64| if e.is_nan() { TRIES } else { DOUBLINGS };
+        let ready = |e: f64| e <= self.tolerance || doublings >= most(e);
         if errors.iter().any(|e| ready(*e)) {
             let rows = self.read_rows(work, &z0, &better);
             for (l, (i, _)) in group.iter().enumerate().filter(|(l, _)| ready(errors[*l])) {
@@ -108,7 +115,7 @@ impl Ensemble {
         self.start(work.e, &mut work.readings, cases, self.isa)
     }
 
-    /// The states at every row after the first.
+    /// The states at every row after the start.
     fn integrate(&self, work: &mut Work, z0: &[Lane], steps: (f64, u32)) -> Rows {
         let mut z = z0.to_vec();
         let mut rows = Vec::with_capacity(self.times.len());
@@ -124,31 +131,30 @@ impl Ensemble {
 
     /// Steps of a span when the whole run has so many: its share is rounded up before it is doubled.
     fn steps_in(&self, span: &Span, (steps, doublings): (f64, u32)) -> usize {
-        let whole = self.times[self.times.len() - 1] - self.times[0];
+        let whole = self.times[self.times.len() - 1] - self.from;
         ((steps * (span.to - span.from) / whole).ceil().max(1.0) as usize) << doublings
     }
 
     /// What a logger sees, row by row: outputs of the readings and hidden states.
-    fn read_rows(&self, work: &mut Work, z0: &[Lane], rows: &Rows) -> Vec<Vec<Lane>> {
+    fn read_rows(&self, work: &mut Work, z0: &[Lane], rows: &Rows) -> Vec<Lane> {
         let (e, shown) = (work.e, work.e.visible + 3);
-        let all = std::iter::once(z0).chain(rows.iter().map(Vec::as_slice));
-        let mut read = |(t, z): (&f64, &[Lane])| {
+        let start = self.shows_start().then_some(z0);
+        let all = start.into_iter().chain(rows.iter().map(Vec::as_slice));
+        let mut read = Vec::with_capacity(self.times.len() * (shown + e.n - e.visible));
+        for (t, z) in self.times.iter().zip(all) {
             e.read(*t, z, &mut work.readings, self.isa);
-            let mut row: Vec<Lane> = (0..shown).map(|k| *e.readings.output(&work.readings, k)).collect();
-            row.extend_from_slice(&z[e.visible..]);
-            row
-        };
-        self.times.iter().zip(all).map(&mut read).collect()
+            read.extend((0..shown).map(|k| *e.readings.output(&work.readings, k)));
+            read.extend_from_slice(&z[e.visible..]);
+        }
+        read
     }
 
-    fn case(&self, rows: &[Vec<Lane>], l: usize, error: f64) -> Case {
-        let lane = |row: &Vec<Lane>| row.iter().map(|lane| lane[l]).collect::<Vec<f64>>();
-        let reading = |(time, row): (&f64, &Vec<Lane>)| CaseRow { time: *time, values: lane(row) };
-        let rows: Vec<CaseRow> = self.times.iter().zip(rows).map(reading).collect();
-        let defined = error.is_finite() && rows.iter().flat_map(|r| &r.values).all(|v| v.is_finite());
-        match defined {
-            true => Case { rows, error: Some(error), converged: error <= self.tolerance },
-            false => Case { rows: vec![], error: None, converged: false },
+    fn case(&self, rows: &[Lane], l: usize, error: f64) -> Case {
+        let width = rows.len() / self.times.len();
+        let values: Vec<f64> = rows.iter().map(|lane| lane[l]).collect();
+        match error.is_finite() && values.iter().all(|v| v.is_finite()) {
+            true => Case { values, error: Some(error), converged: error <= self.tolerance, width },
+            false => Case { values: vec![], error: None, converged: false, width },
         }
     }
 }
@@ -169,6 +175,10 @@ fn gathered(group: &[(usize, Option<Vec<f64>>)], rows: usize, n: usize) -> Rows 
     found
 }
 
+/// The difference of two runs stands for a quarter as many times the error, lest steps that are still too long for their
+/// order look better than they are.
+const CAUTION: f64 = 4.0;
+
 /// 2^order − 1
 fn gain(order: i32) -> f64 {
     2f64.powi(order) - 1.0
@@ -178,7 +188,7 @@ fn gain(order: i32) -> f64 {
 fn error(coarse: &Rows, fine: &Rows, l: usize, order: i32) -> f64 {
     let mut worst = 0.0;
     for (a, b) in coarse.iter().flatten().zip(fine.iter().flatten()) {
-        let e = (b[l] - a[l]).abs() / gain(order) / b[l].abs().max(1.0);
+        let e = CAUTION * (b[l] - a[l]).abs() / gain(order) / b[l].abs().max(1.0);
         if e.is_nan() {
             return f64::NAN;
         }

@@ -58,7 +58,7 @@ impl Ensemble {
     }
 
     fn first_inputs(&self, e: &LaneEquations, memory: &mut Memory<LANES>, z: &[Lane], isa: Isa) -> Vec<Lane> {
-        e.read(self.times[0], z, memory, isa);
+        e.read(self.from, z, memory, isa);
         let first = e.visible + 3;
         (first..e.readings.outputs()).map(|k| *e.readings.output(memory, k)).collect()
     }

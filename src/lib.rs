@@ -18,6 +18,7 @@ pub mod motion;
 pub mod origin;
 pub mod picture;
 pub mod starter;
+pub mod sweep;
 pub mod theory;
 pub mod vehicles;
 

@@ -324,7 +324,7 @@ fn a_file_states_what_its_claims_are() {
         entry("open", ""),
     ];
     std::fs::write(&path, text.concat()).unwrap();
-    let claims = read(&path).unwrap();
+    let claims = read(&path, creepage::vehicles::all()).unwrap();
     let stated: Vec<Status> = claims.iter().map(|c| c.stated).collect();
     assert_eq!(stated, [Status::Proved, Status::Corrected, Status::Refuted, Status::Open]);
     assert_eq!(claims[0].evidence[0].equations.len(), 1);

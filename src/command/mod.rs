@@ -12,6 +12,7 @@ mod own;
 mod progress;
 mod runs;
 mod simulate;
+mod sweep;
 mod verify;
 
 use clap::{Args, Parser, Subcommand};
@@ -44,6 +45,7 @@ enum Command {
     Check(check::Arguments),
     Discover(discover::Arguments),
     Simulate(simulate::Arguments),
+    Sweep(sweep::Arguments),
     Describe(describe::Arguments),
     Figures(figures::Arguments),
     Vehicles(lists::Vehicles),
@@ -69,6 +71,7 @@ impl Cli {
             Command::Check(arguments) => check::run(&arguments, self.common.quiet),
             Command::Discover(arguments) => discover::run(&arguments, self.common.quiet),
             Command::Simulate(arguments) => simulate::run(&arguments, self.common.quiet),
+            Command::Sweep(arguments) => sweep::run(&arguments, self.common.quiet),
             Command::Describe(arguments) => describe::run(&arguments),
             Command::Figures(arguments) => figures::run(&arguments, self.common.quiet),
             Command::Vehicles(arguments) => lists::vehicles(&arguments),

@@ -22,6 +22,26 @@ impl Progress {
         Self(bar)
     }
 
+    /// A bar with the time left, hidden when quiet or when nobody looks.
+    pub fn bar(quiet: bool) -> Self {
+        let progress = Self::new(quiet);
+        let template = "{spinner} {elapsed} [{wide_bar}] {human_pos}/{human_len} {msg} {eta} left";
+        if let (false, Ok(style)) = (progress.0.is_hidden(), ProgressStyle::with_template(template)) {
+            progress.0.set_style(style);
+        }
+        progress
+    }
+
+    /// How far it is; what was there before does not count for the time left.
+    pub fn at(&self, done: usize, all: usize, found: usize) {
+        if self.0.length() != Some(all as u64) {
+            self.0.set_length(all as u64);
+            self.0.set_position(found as u64);
+            self.0.reset_eta();
+        }
+        self.0.set_position(done as u64);
+    }
+
     /// What is being done now.
     pub fn say(&self, what: &str) {
         self.0.set_message(what.to_string());

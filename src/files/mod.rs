@@ -31,6 +31,8 @@ mod records;
 mod run_file;
 mod sheet;
 mod spot;
+mod sweep_axis;
+mod sweep_file;
 mod text;
 mod toml_table;
 #[cfg(any(feature = "parquet", feature = "mcap"))]
@@ -52,10 +54,14 @@ pub use header::read_header;
 pub use inputs_file::Inputs;
 pub use known::{Known, KnownDynamics, KnownEffect, KnownInput, KnownLaw, KnownParameter, KnownVehicle};
 pub use model_file::{Initial, InputTiming, ModelFile, Noise, Sensor};
+pub(crate) use output::{check_target, put_in_place, unwritable};
 pub use output::{write_all_or_nothing, write_whole};
 pub use patch::VEHICLES_FILE;
 pub use run_file::{Apart, Run};
 pub use spot::Spot;
+pub use sweep_axis::{Axis, Distribution, Sampled};
+pub use sweep_file::{SweepFile, SweepInput, SweepRows};
+pub(crate) use text::open;
 pub use text::read_text;
 pub use vehicles_file::{OwnConstraint, OwnPart, OwnVehicle, VehiclesFile};
 

@@ -19,6 +19,26 @@ pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<()> {
     Ok(())
 }
 
+/// That a file could be put at a path: no folder, not read-only, in a folder that exists.
+pub(crate) fn check_target(path: &Path) -> Result<()> {
+    let target = target(path)?;
+    match folder_of(&target).is_dir() {
+        true => Ok(()),
+        false => Err(unwritable(path, &ErrorKind::NotFound.into())),
+    }
+}
+
+/// Puts a finished file from the same folder in the place of another, in one step.
+pub(crate) fn put_in_place(finished: &Path, path: &Path) -> Result<()> {
+    let target = target(path)?;
+    if is_device(&target) {
+        let copied = File::open(finished)
+            .and_then(|mut from| io::copy(&mut from, &mut OpenOptions::new().write(true).open(&target)?));
+        return copied.and_then(|_| fs::remove_file(finished)).map_err(|e| unwritable(path, &e));
+    }
+    fs::rename(finished, &target).map_err(|e| unwritable(path, &e))
+}
+
 /// Writes several files into a folder, which is made when missing: all of them, or none.
 ///
 /// The names are plain file names. Every file is first written beside its place; when one of the
@@ -142,7 +162,7 @@ fn make_dir(dir: &Path) -> Result<Vec<PathBuf>> {
 }
 
 /// The error of a path that cannot be written: the user's choice of path is input, a full disk a failed run.
-fn unwritable(path: &Path, why: &io::Error) -> Error {
+pub(crate) fn unwritable(path: &Path, why: &io::Error) -> Error {
     let error = match why.kind() {
         ErrorKind::NotFound => {
             Error::input("cannot be written: its folder does not exist").help("make the folder first")

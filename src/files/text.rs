@@ -25,7 +25,7 @@ pub(super) fn read_hashed(path: &Path) -> Result<(String, String)> {
 }
 
 /// Opens a file for reading; a folder is an error on every system.
-pub(super) fn open(path: &Path) -> Result<File> {
+pub(crate) fn open(path: &Path) -> Result<File> {
     let file = File::open(path).map_err(|e| unreadable(path, &e))?;
     match file.metadata() {
         Ok(data) if data.is_dir() => Err(folder(path)),

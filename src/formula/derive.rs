@@ -3,9 +3,9 @@
 use super::{Expr, Fun, Graph, NodeId, Op, Symbol};
 use std::collections::HashMap;
 
-/// The derivatives of the nodes of a graph with respect to one symbol, kept so that none is taken twice.
+/// The derivatives of the nodes of a graph along one direction, kept so that none is taken twice.
 #[derive(Default)]
-pub struct Derivative {
+struct Derivative {
     known: HashMap<NodeId, NodeId>,
 }
 
@@ -14,11 +14,32 @@ impl Graph {
     ///
     /// Works without recursion over the nodes in their order, so that long chains are no danger.
     pub fn derivatives(&mut self, of: &[NodeId], with_respect_to: &Symbol) -> Vec<NodeId> {
+        self.moved(of, &|graph, s| graph.int(i64::from(s == with_respect_to)))
+    }
+
+    /// Adds the derivatives of nodes along a direction, Σ ∂node/∂symbol·rate: a Jacobian times a vector at the cost of
+    /// few values.
+    ///
+    /// ```
+    /// use creepage::formula::{Expr, Graph};
+    /// let mut g = Graph::default();
+    /// let product = g.insert(&Expr::parse("x*y").unwrap());
+    /// let (a, b) = (g.symbol("a".into()), g.symbol("b".into()));
+    /// let along = g.directional(&[product], &[("x".into(), a), ("y".into(), b)]);
+    /// assert_eq!(g.expr(along[0]).to_string(), "y*a + x*b");
+    /// ```
+    pub fn directional(&mut self, of: &[NodeId], along: &[(Symbol, NodeId)]) -> Vec<NodeId> {
+        let along: HashMap<&Symbol, NodeId> = along.iter().map(|(s, rate)| (s, *rate)).collect();
+        self.moved(of, &|graph, s| along.get(s).copied().unwrap_or_else(|| graph.int(0)))
+    }
+
+    /// The rates of nodes when every symbol moves at a rate of its own.
+    fn moved(&mut self, of: &[NodeId], rate: &impl Fn(&mut Self, &Symbol) -> NodeId) -> Vec<NodeId> {
         let last = of.iter().max().map_or(0, |m| m + 1);
         let needed = self.reachable(of, last);
         let mut d = Derivative::default();
         for id in (0..last).filter(|id| needed[*id]) {
-            let value = self.derivative_of(id, with_respect_to, &d);
+            let value = self.derivative_of(id, &d, rate);
             d.known.insert(id, value);
         }
         of.iter().map(|id| d.known[id]).collect()
@@ -45,11 +66,11 @@ impl Graph {
         }
     }
 
-    fn derivative_of(&mut self, id: NodeId, s: &Symbol, d: &Derivative) -> NodeId {
+    fn derivative_of(&mut self, id: NodeId, d: &Derivative, rate: &impl Fn(&mut Self, &Symbol) -> NodeId) -> NodeId {
         let known = |x: &NodeId| d.known[x];
         match self.op(id).clone() {
             Op::Num(_) => self.int(0),
-            Op::Sym(name) => self.int(i64::from(name == *s)),
+            Op::Sym(name) => rate(self, &name),
             Op::Neg(x) => self.neg(known(&x)),
             Op::Add(a, b) => self.add(known(&a), known(&b)),
             Op::Sub(a, b) => self.sub(known(&a), known(&b)),

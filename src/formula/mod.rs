@@ -12,7 +12,8 @@
 //!
 //! A carrier is any [`Scalar`]; [`Expr::eval`] is the one evaluator. "Undefined" is a value of every
 //! carrier that equals nothing, itself included ([`Scalar::equals`]). For speed an expression compiles
-//! once to a flat [`Program`] with shared sub-expressions; derivatives are taken on its [`Graph`].
+//! once to a flat [`Program`] with shared sub-expressions; derivatives are taken on its [`Graph`]. [`Lanes`] run a
+//! program over blocks of cases by vector instructions.
 
 mod angles;
 mod derive;
@@ -23,6 +24,7 @@ mod float;
 mod fun;
 mod graph;
 mod jet;
+mod lanes;
 mod latex;
 mod lex;
 mod markup;
@@ -45,6 +47,7 @@ pub use expr::{Expr, Node};
 pub use fun::Fun;
 pub use graph::{Graph, NodeId, Op};
 pub use jet::{Jet, Layout};
+pub use lanes::{Changes, Isa, Kernel, Lanes, Memory};
 pub use latex::latex_symbol;
 pub(crate) use lex::{caret, column_of};
 pub use normal::{Normal, identical};

@@ -7,7 +7,7 @@ use num_traits::ToPrimitive;
 
 /// One instruction; it writes the register of its own position.
 #[derive(Clone, Copy, Debug)]
-enum Instruction {
+pub(super) enum Instruction {
     Input(u32),
     Constant(u32),
     Neg(u32),
@@ -35,11 +35,11 @@ enum Instruction {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Program {
-    code: Vec<Instruction>,
-    constants: Vec<f64>,
+    pub(super) code: Vec<Instruction>,
+    pub(super) constants: Vec<f64>,
     exact: Vec<BigRational>,
-    outputs: Vec<u32>,
-    inputs: usize,
+    pub(super) outputs: Vec<u32>,
+    pub(super) inputs: usize,
 }
 
 impl Program {
@@ -152,7 +152,12 @@ impl Program {
         self.outputs.iter().map(|i| registers[*i as usize].clone()).collect()
     }
 
-    /// How many inputs a run reads.
+    /// Whether the program reads an input at all.
+    pub fn reads(&self, input: usize) -> bool {
+        self.code.iter().any(|i| matches!(i, Instruction::Input(slot) if *slot as usize == input))
+    }
+
+    /// How many inputs a run takes.
     pub fn inputs(&self) -> usize {
         self.inputs
     }

@@ -2,7 +2,7 @@
 
 use super::{Model, trailer_heading};
 use crate::error::{Error, Result};
-use crate::formula::{Expr, Graph, NodeId, Program, Symbol};
+use crate::formula::{Changes, Expr, Graph, Isa, Lanes, Memory, NodeId, Program, Symbol};
 use std::collections::BTreeMap;
 
 /// dz/dt = f(z, u, p) and y = h(z, p) with their exact derivatives, compiled once.
@@ -24,10 +24,10 @@ pub struct Equations {
     /// Free parameters.
     pub free: Vec<Symbol>,
     constants: Vec<f64>,
-    rates: Program,
-    jacobian: Program,
-    outputs: Program,
-    delay: Program,
+    rates: Lanes,
+    jacobian: Lanes,
+    outputs: Lanes,
+    delay: Lanes,
 }
 
 /// How far beside a kink derivatives are taken, as a share of one.
@@ -78,11 +78,16 @@ impl Model {
         let values: Vec<(Symbol, f64)> = self.values().into_iter().filter(|(s, _)| !free.contains(s)).collect();
         let slots: Vec<Symbol> =
             [&states[..], &inputs, free].concat().into_iter().chain(values.iter().map(|(s, _)| s.clone())).collect();
+        // Parameters are set once for a workspace; what hangs on them alone is computed then.
+        let moving = states.len() + inputs.len();
+        let changes: Vec<Changes> =
+            (0..slots.len()).map(|i| if i < moving { Changes::Lane } else { Changes::Case }).collect();
         let compile = |graph: &Graph, nodes: &[NodeId]| {
-            Program::compile(graph, &slots, nodes).map_err(|name| {
+            let program = Program::compile(graph, &slots, nodes).map_err(|name| {
                 Error::input(format!("a formula uses {name}, which nothing defines"))
                     .help("declare it as a parameter or a state, or correct the name")
-            })
+            })?;
+            Ok::<_, Error>(Lanes::new(&program, &changes))
         };
         let plain = compile(&graph, &rates)?;
         let jacobian = with_derivatives(&mut graph, &rates, &[&states[..], &inputs, free].concat());
@@ -119,8 +124,10 @@ fn with_derivatives(graph: &mut Graph, nodes: &[NodeId], by: &[Symbol]) -> Vec<N
 /// Working memory for one thread that evaluates [`Equations`].
 #[derive(Clone, Debug)]
 pub struct Workspace {
-    slots: Vec<f64>,
-    registers: Vec<f64>,
+    rates: Memory<1>,
+    jacobian: Memory<1>,
+    outputs: Memory<1>,
+    delay: Memory<1>,
     results: Vec<f64>,
 }
 
@@ -132,25 +139,35 @@ impl Equations {
 
     /// Memory for evaluating these equations at given parameters.
     pub fn workspace(&self, p: &[f64]) -> Workspace {
-        let (n, m) = (self.n(), self.inputs.len());
-        let mut slots = vec![0.0; n + m];
-        slots.extend_from_slice(p);
-        slots.extend_from_slice(&self.constants);
-        let programs = [&self.rates, &self.jacobian, &self.outputs, &self.delay];
-        let registers = programs.iter().map(|p| p.len()).max().unwrap_or(0);
-        let results = programs.iter().map(|p| p.outputs()).max().unwrap_or(0);
-        Workspace { slots, registers: vec![0.0; registers], results: vec![0.0; results] }
+        let results = [&self.rates, &self.jacobian, &self.outputs, &self.delay].map(|l| l.outputs());
+        Workspace {
+            rates: self.memory(&self.rates, p),
+            jacobian: self.memory(&self.jacobian, p),
+            outputs: self.memory(&self.outputs, p),
+            delay: self.memory(&self.delay, p),
+            results: vec![0.0; results.into_iter().max().unwrap_or(0)],
+        }
     }
 
-    fn load(&self, w: &mut Workspace, z: &[f64], u: &[f64]) {
-        w.slots[..z.len()].copy_from_slice(z);
-        w.slots[self.n()..self.n() + u.len()].copy_from_slice(u);
+    fn memory(&self, lanes: &Lanes, p: &[f64]) -> Memory<1> {
+        let mut memory = lanes.memory();
+        let moving = self.n() + self.inputs.len();
+        for (i, value) in p.iter().chain(&self.constants).enumerate() {
+            *memory.input(moving + i) = [*value];
+        }
+        lanes.begin(&mut memory, Isa::default());
+        memory
+    }
+
+    fn load(&self, memory: &mut Memory<1>, z: &[f64], u: &[f64]) {
+        z.iter().enumerate().for_each(|(i, z)| *memory.input(i) = [*z]);
+        u.iter().enumerate().for_each(|(i, u)| *memory.input(self.n() + i) = [*u]);
     }
 
     /// dz/dt.
     pub fn rates(&self, w: &mut Workspace, z: &[f64], u: &[f64], rates: &mut [f64]) {
-        self.load(w, z, u);
-        self.rates.run(&w.slots, &mut w.registers, rates);
+        self.load(&mut w.rates, z, u);
+        run(&self.rates, &mut w.rates, rates);
     }
 
     /// dz/dt followed by the rows of its derivatives with respect to (z, u, p).
@@ -158,22 +175,23 @@ impl Equations {
     /// At a kink, where |u| has no derivative though the motion is defined, they are those on the side of larger
     /// inputs: a vehicle that stands still is no reason to give a log up.
     pub fn rates_and_jacobian<'w>(&self, w: &'w mut Workspace, z: &[f64], u: &[f64]) -> &'w [f64] {
-        self.load(w, z, u);
-        self.jacobian.run(&w.slots, &mut w.registers, &mut w.results);
+        self.load(&mut w.jacobian, z, u);
+        run(&self.jacobian, &mut w.jacobian, &mut w.results);
         let (n, outputs) = (self.n(), self.jacobian.outputs());
         let defined = |values: &[f64]| values.iter().all(|v| v.is_finite());
         if defined(&w.results[..n]) && !defined(&w.results[n..outputs]) {
-            self.beside(w, u);
+            self.beside(w, z, u);
         }
         &w.results[..outputs]
     }
 
     /// The derivatives a little beside the inputs; the rates stay those of the inputs.
-    fn beside(&self, w: &mut Workspace, u: &[f64]) {
+    fn beside(&self, w: &mut Workspace, z: &[f64], u: &[f64]) {
         let n = self.n();
         let rates = w.results[..n].to_vec();
-        w.slots[n..n + u.len()].iter_mut().for_each(|u| *u += BESIDE * (1.0 + u.abs()));
-        self.jacobian.run(&w.slots, &mut w.registers, &mut w.results);
+        let beside: Vec<f64> = u.iter().map(|u| u + BESIDE * (1.0 + u.abs())).collect();
+        self.load(&mut w.jacobian, z, &beside);
+        run(&self.jacobian, &mut w.jacobian, &mut w.results);
         w.results[..n].copy_from_slice(&rates);
     }
 
@@ -185,14 +203,23 @@ impl Equations {
     /// What the sensor measures, followed by the rows of its derivatives with respect to (visible z, p).
     pub fn outputs<'w>(&self, w: &'w mut Workspace, z: &[f64]) -> &'w [f64] {
         let z = &z[..self.visible];
-        self.load(w, z, &[]);
-        self.outputs.run(&w.slots, &mut w.registers, &mut w.results);
+        self.load(&mut w.outputs, z, &[]);
+        run(&self.outputs, &mut w.outputs, &mut w.results);
         &w.results[..self.outputs.outputs()]
     }
 
     /// The delay of the inputs, s, followed by its derivatives with respect to p.
     pub fn delay<'w>(&self, w: &'w mut Workspace) -> &'w [f64] {
-        self.delay.run(&w.slots, &mut w.registers, &mut w.results);
+        run(&self.delay, &mut w.delay, &mut w.results);
         &w.results[..self.delay.outputs()]
+    }
+}
+
+/// Runs a program; what is undefined is NaN.
+fn run(lanes: &Lanes, memory: &mut Memory<1>, results: &mut [f64]) {
+    lanes.run(memory, Isa::default());
+    for (k, result) in results.iter_mut().enumerate().take(lanes.outputs()) {
+        let [value] = *lanes.output(memory, k);
+        *result = if value.is_finite() { value } else { f64::NAN };
     }
 }

@@ -104,8 +104,15 @@ impl Reading {
         let mut constants: Vec<(Symbol, f64)> = DATA.iter().map(|(s, v)| ((*s).into(), *v)).collect();
         let side = if self == Reading::AL { 0.0 } else { 1.0 };
         constants.extend([("e_rc", e_rc), ("e_tc", e_tc), ("side", side)].map(|(s, v)| (Symbol::from(s), v)));
-        let laws: Result<Vec<Expr>> = self.laws().iter().map(|law| spelled_out(law)).collect();
-        Formulas::new(&laws?, &constants)
+        Formulas::new(&self.spelled()?, &constants)
+    }
+
+    /// φ̇ and θ̇ of Fig. 7 in the time `t`, the data r, m, I, J, w, u_0, g and the creeps e_rc, e_tc alone.
+    ///
+    /// # Errors
+    /// Never for the laws of this table.
+    pub fn spelled(self) -> Result<Vec<Expr>> {
+        self.laws().iter().map(|law| spelled_out(law)).collect()
     }
 }
 
@@ -167,7 +174,13 @@ pub fn fig7_case(e_rc: f64, e_tc: f64, reading: Reading) -> Result<EndPoint> {
 /// ```
 pub fn fig7_path(e_rc: f64, e_tc: f64, reading: Reading, times: &[f64]) -> Result<Vec<EndPoint>> {
     let (wheel, rates) = (wheel(e_rc, e_tc)?, reading.rates(e_rc, e_tc)?);
-    let rows = travel(&wheel, |t| at(&rates, t), 0.0, &[0.0; 5], times)?;
+    let mut values = rates.values();
+    let rates = |t| {
+        let mut both = [0.0; 2];
+        values(t, &mut both);
+        both
+    };
+    let rows = travel(&wheel, rates, 0.0, &[0.0; 5], times)?;
     Ok(rows.iter().map(|y| end_point(y)).collect())
 }
 
@@ -231,16 +244,18 @@ pub(super) fn wheel(e_rc: f64, e_tc: f64) -> Result<Equations> {
 /// Integrates the wheel's pose, rolling angle and path length.
 fn travel(
     wheel: &Equations,
-    rates: impl Fn(f64) -> [f64; 2],
+    mut rates: impl FnMut(f64) -> [f64; 2],
     from: f64,
     start: &[f64],
     times: &[f64],
 ) -> Result<Vec<Vec<f64>>> {
     let mut w = wheel.workspace(&[]);
+    let place: Vec<usize> = wheel.inputs.iter().map(|name| usize::from(name.as_str() != "yaw_rate")).collect();
+    let mut u = vec![0.0; place.len()];
     let rhs = |t: f64, y: &[f64], dy: &mut [f64]| {
-        let [yaw_rate, wheel_rate] = rates(t);
-        let input = |name: &Symbol| if name.as_str() == "yaw_rate" { yaw_rate } else { wheel_rate };
-        let u: Vec<f64> = wheel.inputs.iter().map(input).collect();
+        let both = rates(t);
+        let wheel_rate = both[1];
+        u.iter_mut().zip(&place).for_each(|(u, k)| *u = both[*k]);
         wheel.rates(&mut w, &y[..3], &u, &mut dy[..3]);
         dy[3] = wheel_rate;
         dy[4] = dy[0].hypot(dy[1]);

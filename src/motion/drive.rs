@@ -2,7 +2,7 @@
 
 use super::Signals;
 use crate::error::{Error, Result};
-use crate::formula::{Expr, Graph, Program, Symbol};
+use crate::formula::{Changes, Expr, Graph, Isa, Lanes, Program, Symbol};
 
 /// Inputs as functions of time, with their slopes and the times where they are not smooth.
 pub trait Drive {
@@ -12,6 +12,11 @@ pub trait Drive {
     fn knots(&self) -> &[f64];
     /// How many inputs there are.
     fn channels(&self) -> usize;
+    /// What gives the values alone, for many times, with memory of its own.
+    fn values(&self) -> impl FnMut(f64, &mut [f64]) {
+        let mut slope = vec![0.0; self.channels()];
+        move |t, value| self.at(t, value, &mut slope)
+    }
 }
 
 impl Drive for Signals {
@@ -46,6 +51,8 @@ impl Drive for Signals {
 #[derive(Clone, Debug)]
 pub struct Formulas {
     program: Program,
+    /// The values without their slopes.
+    values: Lanes,
     constants: Vec<f64>,
     channels: usize,
     knots: Vec<f64>,
@@ -61,11 +68,18 @@ impl Formulas {
         let values: Vec<_> = formulas.iter().map(|f| graph.insert(f)).collect();
         let slopes = graph.derivatives(&values, &"t".into());
         let slots: Vec<Symbol> = std::iter::once("t".into()).chain(constants.iter().map(|(s, _)| s.clone())).collect();
-        let program = Program::compile(&graph, &slots, &[values, slopes].concat()).map_err(|name| {
-            Error::input(format!("an input's formula uses {name}, which nothing defines")).help("the time is called t")
-        })?;
+        let compile = |nodes: &[_]| {
+            Program::compile(&graph, &slots, nodes).map_err(|name| {
+                Error::input(format!("an input's formula uses {name}, which nothing defines"))
+                    .help("the time is called t")
+            })
+        };
+        let mut changes = vec![Changes::Case; slots.len()];
+        changes[0] = Changes::Lane;
+        let values_alone = Lanes::new(&compile(&values)?, &changes);
+        let program = compile(&[values, slopes].concat())?;
         let constants = constants.iter().map(|(_, v)| *v).collect();
-        Ok(Self { program, constants, channels: formulas.len(), knots: vec![] })
+        Ok(Self { program, values: values_alone, constants, channels: formulas.len(), knots: vec![] })
     }
 
     /// The inputs with times at which a formula has a kink; they have to rise.
@@ -81,6 +95,16 @@ impl Drive for Formulas {
         self.program.run(&slots, &mut self.program.registers(), &mut out);
         value.copy_from_slice(&out[..self.channels]);
         slope.copy_from_slice(&out[self.channels..]);
+    }
+    fn values(&self) -> impl FnMut(f64, &mut [f64]) {
+        let mut memory = self.values.memory::<1>();
+        self.constants.iter().enumerate().for_each(|(i, value)| *memory.input(1 + i) = [*value]);
+        self.values.begin(&mut memory, Isa::default());
+        move |t, value| {
+            *memory.input(0) = [t];
+            self.values.run(&mut memory, Isa::default());
+            value.iter_mut().enumerate().for_each(|(k, value)| *value = self.values.output(&memory, k)[0]);
+        }
     }
     fn knots(&self) -> &[f64] {
         &self.knots

@@ -1,11 +1,12 @@
-//! The one place where differential equations are integrated: a thin wrapper of the crates `ode_solvers` and, for
-//! stiff ones, `differential-equations` (see `stiff.rs`).
+//! The one place where differential equations are integrated: orders 4 and 5 by the crate `ode_solvers`, order 8 by
+//! [`Dop853`] of our own, and stiff ones by the crate `differential-equations` (see `stiff.rs`).
 //!
-//! What was found in its source and by running it (0.6.2), and what is done about it here:
+//! What was found in the crate's source and by running it (0.6.2), and what is done about it here:
 //!
 //! | the crate | here |
 //! |---|---|
-//! | `Dop853` has c₁₂ = 0 in its table where c₁₂ = 1 belongs, so on y′ = f(t, y) it has order 1 (with c₁₂ = Σ a₁₂ⱼ all else is right) | time is a state, t′ = 1, and the crate's own time is never read |
+//! | `Dop853` has c₁₂ = 0 in its table where c₁₂ = 1 belongs, so on y′ = f(t, y) it has order 1; its vectors are made anew in every stage, three times the time of a wheel's own equations | not used |
+//! | other methods read the time they are given | time is a state, t′ = 1, and the crate's own time is never read |
 //! | dense output extrapolates, compares absolute times, loops forever or panics at negative or falling times | only `OutputType::Sparse`; a run is a chain of spans, each from 0 to its length, going forward |
 //! | `Rk4` takes ⌈length/step⌉ steps of the given size: it overshoots, by a whole step when the quotient is rounded up | the step is length/n and the end is set half a step short, so that exactly n are taken |
 //! | `Rk4` returns `Ok` on NaN and panics where the number of steps is not a number | the result is checked; the number of steps is computed here |
@@ -14,12 +15,13 @@
 //! | an absolute tolerance of zero divides zero by zero where a state is zero | it is refused |
 //! | `hinit` makes the first step of every span small | a span starts from the longest step of the span before |
 //! | the test for stiffness ends a run that is only slow | it is switched off; `max_steps` bounds the work |
-//! | `Dop853` allows `n_max` steps, `Dopri5` one more | left so |
+//! | `Dopri5` allows one step more than `n_max` | left so |
 
+use super::dop853::{self, Dop853, Request};
 use super::stiff::{self, Differences, Slopes};
 use crate::error::{Error, Result};
-use ode_solvers::dop_shared::{IntegrationError, Stats};
-use ode_solvers::{DVector, Dop853, Dopri5, OutputType, Rk4, System};
+use ode_solvers::dop_shared::IntegrationError;
+use ode_solvers::{DVector, Dopri5, OutputType, Rk4, System};
 use std::cell::{Cell, RefCell};
 
 /// A Runge–Kutta method.
@@ -155,7 +157,7 @@ impl Integrator {
             return Err(Error::input("the integrator's step and absolute tolerance have to be positive numbers")
                 .help("use the default tolerances"));
         }
-        Ok(Walk { integrator: *self, first: 0.0, left: self.max_steps })
+        Ok(Walk { integrator: *self, memory: Dop853::default(), first: 0.0, left: self.max_steps })
     }
 }
 
@@ -165,6 +167,7 @@ type Stepped = std::result::Result<DVector<f64>, IntegrationError>;
 /// A chain of spans under way: the next first step and how many steps are left.
 pub(super) struct Walk {
     integrator: Integrator,
+    memory: Dop853,
     first: f64,
     left: u32,
 }
@@ -188,6 +191,9 @@ impl Walk {
         if self.integrator.method == Method::Radau5 && y.len() > stiff::MOST_STATES {
             let message = format!("{} states are more than the {} of the stiff method", y.len(), stiff::MOST_STATES);
             return Err(Error::run(message).help("use an explicit method"));
+        }
+        if self.integrator.method == Method::Dop853 {
+            return self.order_8(rhs, from, to, y);
         }
         let (undefined, rhs) = (Cell::new(false), RefCell::new(rhs));
         let system = Clocked { rhs: &rhs, undefined: &undefined, from, direction: (to - from).signum() };
@@ -225,6 +231,42 @@ impl Walk {
         Ok(DVector::from_vec(done.y))
     }
 
+    /// A span of order 8.
+    fn order_8(
+        &mut self,
+        rhs: &mut impl FnMut(f64, &[f64], &mut [f64]),
+        from: f64,
+        to: f64,
+        y: &[f64],
+    ) -> Result<Vec<f64>> {
+        let undefined = Cell::new(false);
+        let mut watched = |t: f64, y: &[f64], rates: &mut [f64]| {
+            rhs(t, y, rates);
+            undefined.set(!rates.iter().all(|v| v.is_finite()));
+        };
+        let mut end = y.to_vec();
+        let mut start = vec![0.0; y.len()];
+        watched(from, y, &mut start);
+        if undefined.get() {
+            return Err(Error::run(format!("the equations of motion are undefined at t = {from}")));
+        }
+        let Integrator { rtol, atol, .. } = self.integrator;
+        let request = Request { from, to, rtol, atol, first: self.first, most_steps: self.left };
+        let done = self.memory.run(&mut watched, request, &mut end).map_err(|stop| match stop {
+            dop853::Stop::Underflow(x) => {
+                self.explain(&IntegrationError::StepSizeUnderflow { x }, undefined.get(), |x| x)
+            }
+            dop853::Stop::Steps(x) => {
+                self.explain(&IntegrationError::MaxNumStepReached { x, n_step: self.left }, undefined.get(), |x| x)
+            }
+        })?;
+        self.account(done.longest, done.accepted, done.rejected);
+        match end.iter().all(|v| v.is_finite()) {
+            true => Ok(end),
+            false => Err(Error::run(format!("the equations of motion are undefined between t = {from} and {to}"))),
+        }
+    }
+
     fn step_through<S>(&mut self, system: S, length: f64, y: DVector<f64>) -> Stepped
     where
         S: System<f64, DVector<f64>>,
@@ -232,19 +274,10 @@ impl Walk {
         let Integrator { method, rtol, atol, .. } = self.integrator;
         let (first, n_max, never) = (self.first.min(length), self.left, u32::MAX);
         let (steps, stats, end) = match method {
-            Method::Dopri5 => {
+            Method::Dopri5 | Method::Dop853 => {
                 let sparse = OutputType::Sparse;
                 let mut s = Dopri5::from_param(
                     system, 0.0, length, length, y, rtol, atol, 0.9, 0.04, 0.2, 10.0, length, first, n_max, never,
-                    sparse,
-                );
-                let stats = s.integrate()?;
-                (longest(s.x_out()), stats, s.y_out().last().cloned())
-            }
-            Method::Dop853 => {
-                let sparse = OutputType::Sparse;
-                let mut s = Dop853::from_param(
-                    system, 0.0, length, length, y, rtol, atol, 0.9, 0.0, 0.333, 6.0, length, first, n_max, never,
                     sparse,
                 );
                 let stats = s.integrate()?;
@@ -263,16 +296,15 @@ impl Walk {
             // Stepped elsewhere: it needs slopes.
             Method::Radau5 => return Err(IntegrationError::StepSizeUnderflow { x: 0.0 }),
         };
-        self.account(steps, stats);
+        self.account(steps, stats.accepted_steps, stats.rejected_steps);
         end.ok_or(IntegrationError::StepSizeUnderflow { x: 0.0 })
     }
 
     /// Notes the work done. A span of one step says nothing against longer ones; where it took several, the next
     /// begins with little more than the longest of them, since a first step that is refused is a step wasted.
-    fn account(&mut self, longest: f64, stats: Stats) {
-        let one = stats.accepted_steps == 1;
-        self.first = if one { self.first.max(2.0 * longest) } else { 1.2 * longest };
-        self.left = self.left.saturating_sub(stats.accepted_steps + stats.rejected_steps);
+    fn account(&mut self, longest: f64, accepted: u32, rejected: u32) {
+        self.first = if accepted == 1 { self.first.max(2.0 * longest) } else { 1.2 * longest };
+        self.left = self.left.saturating_sub(accepted + rejected);
     }
 
     fn explain(&self, e: &IntegrationError, undefined: bool, at: impl Fn(f64) -> f64) -> Error {

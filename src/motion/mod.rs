@@ -1,9 +1,11 @@
 //! Motion: inputs as signals, trajectories and their exact sensitivities.
 
 mod conservative;
+mod dop853;
 mod drive;
 mod driven;
 mod energy;
+mod ensemble;
 mod initial;
 mod integrator;
 mod signal;
@@ -11,12 +13,14 @@ mod simulate;
 mod spline;
 mod stepper;
 mod stiff;
+mod tableau;
 mod trajectory;
 
 pub use conservative::{EndPoint, FIG7_DURATION, Instant, Reading, fig7_case, fig7_path, fig7_stepwise};
 pub use drive::{Drive, Formulas};
 pub use driven::{Creep, assembled, driven};
 pub use energy::{Instantaneous, fig7_instants};
+pub use ensemble::{Case, Ensemble, EnsembleInputs, Plan, Varied};
 pub use initial::{initial_hidden, visible_state};
 pub use integrator::{Integrator, Method};
 pub use signal::{Signals, Timing};

@@ -44,9 +44,9 @@ pub fn simulate(
     fits(equations, p, inputs, z0)?;
     let mut w = equations.workspace(p);
     let delay = equations.delay(&mut w)[0];
-    let (mut u, mut slope) = (vec![0.0; inputs.channels()], vec![0.0; inputs.channels()]);
+    let (mut u, mut values) = (vec![0.0; inputs.channels()], inputs.values());
     let rhs = |look_up: f64, z: &[f64], rates: &mut [f64]| {
-        inputs.at(look_up, &mut u, &mut slope);
+        values(look_up, &mut u);
         equations.rates(&mut w, z, &u, rates);
     };
     follow(inputs.knots(), delay, z0, times, &mut integrator.walk()?, rhs, Differences)

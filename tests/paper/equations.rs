@@ -63,7 +63,7 @@ fn rows_of_the_car() -> String {
     let described = Description::of(&car).unwrap();
     let mut out = String::from("// The car: name, type and row of every constraint.\n#let car-rows = (\n");
     for c in &described.constraints {
-        let _ = writeln!(out, "  ([{}], [{}], ${} = 0$),", c.name, c.form, formula(&c.row.expr()));
+        let _ = writeln!(out, "  ([{}], [{}], ${} = 0$),", c.name, c.kind.letter, formula(&c.row.expr()));
     }
     out + ")\n"
 }

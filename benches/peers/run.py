@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""creepage beside SciPy, JAX with diffrax, and CasADi, on one core: the same work, timed in turn.
+
+    python3 benches/peers/run.py
+
+makes a virtual environment in target/peers with the pinned requirements, builds the benchmark, times every pair in turn
+(creepage, peer, creepage, peer ...), and writes benches/TABLE.md, which the README shows between its markers. Needs
+gcc for the code that CasADi generates.
+"""
+
+import json
+import os
+import pathlib
+import platform
+import re
+import statistics
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+HOME = ROOT / "target" / "peers"
+ROUNDS = 7
+
+
+def in_environment():
+    """Starts this script again in the environment, which is made when missing."""
+    python = HOME / "bin" / "python"
+    wanted = (HERE / "requirements.txt").read_bytes()
+    stamp = HOME / "requirements.txt"
+    if not stamp.exists() or stamp.read_bytes() != wanted:
+        subprocess.run([sys.executable, "-m", "venv", HOME], check=True)
+        subprocess.run([python, "-m", "pip", "install", "--quiet", "-r", HERE / "requirements.txt"], check=True)
+        stamp.write_bytes(wanted)
+    core = {"OMP_NUM_THREADS": "1", "RAYON_NUM_THREADS": "1", "CREEPAGE_PEERS": "1"}
+    core["XLA_FLAGS"] = "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1"
+    os.execve(python, [str(python), str(pathlib.Path(__file__).resolve()), *sys.argv[1:]], {**os.environ, **core})
+
+
+def built():
+    """The benchmark as a program."""
+    command = ["cargo", "bench", "--bench", "speed", "--no-run", "--message-format=json"]
+    out = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True).stdout
+    found = [json.loads(line) for line in out.splitlines() if line.startswith("{")]
+    return next(m["executable"] for m in found if m.get("executable") and m["target"]["name"] == "speed")
+
+
+class Creepage:
+    """The benchmark, which does a batch of the work it is told and answers with seconds a unit."""
+
+    def __init__(self, program):
+        pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+        self.process = subprocess.Popen([program, "serve"], text=True, **pipes)
+
+    def __call__(self, work):
+        print(work, file=self.process.stdin, flush=True)
+        return float(self.process.stdout.readline())
+
+
+def compare(ours, theirs):
+    """Medians of both, and of the ratios of neighbours."""
+    theirs(), ours()
+    pairs = [(ours(), theirs()) for _ in range(ROUNDS)]
+    a, b = zip(*pairs)
+    return statistics.median(a), statistics.median(b), statistics.median(y / x for x, y in pairs)
+
+
+def time_of(seconds):
+    for size, unit in [(1.0, "s"), (1e-3, "ms"), (1e-6, "µs")]:
+        if seconds >= size:
+            return f"{seconds / size:.3g} {unit}"
+    return f"{seconds * 1e9:.3g} ns"
+
+
+def machine():
+    try:
+        cpu = re.search(r"model name\s*:\s*(.*)", pathlib.Path("/proc/cpuinfo").read_text()).group(1)
+    except (OSError, AttributeError):
+        cpu = platform.processor() or platform.machine()
+    return f"{cpu.strip()}, {os.cpu_count()} processors, {platform.system()} {platform.machine()}"
+
+
+def table():
+    import works
+
+    creepage = Creepage(built())
+    rows = ["| work | creepage | peer | | times faster |", "|---|---|---|---|---|"]
+    for title, work, peer, run in works.all_of_them():
+        ours, theirs, ratio = compare(lambda: creepage(work), run)
+        rows.append(f"| {title} | {time_of(ours)} | {peer} | {time_of(theirs)} | {ratio:.3g} |")
+        print(rows[-1], flush=True)
+    hand = subprocess.run([creepage.process.args[0]], check=True, stdout=subprocess.PIPE, text=True).stdout
+    note = (
+        f"One core of: {machine()}. Written by `python3 benches/peers/run.py`; times are medians, ratios medians of\n"
+        f"neighbouring batches. SciPy {works.version('scipy')}, JAX {works.version('jax')}, diffrax "
+        f"{works.version('diffrax')}, CasADi {works.version('casadi')}.\n"
+    )
+    return "\n".join([note, *rows, "", "By hand, in the same process:", "", hand])
+
+
+def show(text):
+    (ROOT / "benches" / "TABLE.md").write_text(text)
+    readme = ROOT / "README.md"
+    old = readme.read_text()
+    new = re.sub(r"(<!-- speed -->\n).*?(<!-- /speed -->)", lambda m: m[1] + text + m[2], old, flags=re.S)
+    readme.write_text(new)
+
+
+if __name__ == "__main__":
+    if "CREEPAGE_PEERS" not in os.environ:
+        in_environment()
+    sys.path.insert(0, str(HERE))
+    show(table())

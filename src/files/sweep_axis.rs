@@ -1,0 +1,134 @@
+//! `[grid]` and `[sample.of]`: what a sweep varies, and over which values.
+
+use super::near;
+use super::spot::Spot;
+use super::toml_table::{Section, Value};
+use crate::error::Result;
+
+/// The most values of one axis.
+const MOST: usize = 10_000_000;
+
+/// A quantity that takes each of some values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// Its name, such as `rotation-creep.e_rc`.
+    pub name: String,
+    /// Where it stands.
+    pub spot: Spot,
+    /// Its values, in their order.
+    pub values: Vec<f64>,
+}
+
+/// A quantity that is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sampled {
+    /// Its name.
+    pub name: String,
+    /// Where it stands.
+    pub spot: Spot,
+    /// What it is drawn from.
+    pub from: Distribution,
+}
+
+/// What a value is drawn from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Distribution {
+    /// Between two bounds, evenly.
+    Uniform(f64, f64),
+    /// Between two positive bounds, evenly in the logarithm.
+    LogUniform(f64, f64),
+    /// Mean and standard deviation.
+    Normal(f64, f64),
+}
+
+/// Every axis of `[grid]`, in the order of the file.
+pub(super) fn read_grid(section: &Section) -> Result<Vec<Axis>> {
+    let leaves = leaves(section, &["from", "to", "count"])?;
+    leaves.into_iter().map(|(name, value)| Ok(Axis { name, spot: spot(&value), values: axis(&value)? })).collect()
+}
+
+/// Every quantity of `[sample.of]`, in the order of the file.
+pub(super) fn read_sampled(section: &Section) -> Result<Vec<Sampled>> {
+    let leaves = leaves(section, &KINDS)?;
+    leaves
+        .into_iter()
+        .map(|(name, value)| Ok(Sampled { name, spot: spot(&value), from: distribution(&value)? }))
+        .collect()
+}
+
+fn spot(value: &Value) -> Spot {
+    Spot::at(value.source, value.key_at)
+}
+
+/// Values with their full names: a dotted key is a table in a table.
+fn leaves<'a, 'd>(section: &Section<'a, 'd>, own_keys: &[&str]) -> Result<Vec<(String, Value<'a, 'd>)>> {
+    let mut found = Vec::new();
+    for value in section.entries() {
+        let inner = if value.is_table() { Some(value.section(value.name.clone())?) } else { None };
+        match inner.filter(|t| !own_keys.iter().any(|k| t.get(k).is_some())) {
+            Some(table) => {
+                let below = leaves(&table, own_keys)?;
+                found.extend(below.into_iter().map(|(name, v)| (format!("{}.{name}", value.name), v)));
+            }
+            None => found.push((value.name.clone(), value)),
+        }
+    }
+    Ok(found)
+}
+
+fn axis(value: &Value) -> Result<Vec<f64>> {
+    let example = format!("{} = [0.0, 0.1] or {{ from = 0.0, to = 0.1, count = 11 }}", value.name);
+    if !value.is_table() {
+        let values: Vec<f64> = value.list(&example)?.iter().map(Value::number).collect::<Result<_>>()?;
+        return match values.is_empty() {
+            true => Err(value.error(format!("{} has no value", value.name)).help(format!("write {example}"))),
+            false => Ok(values),
+        };
+    }
+    let table = value.section(value.name.clone())?;
+    table.only(&["from", "to", "count"])?;
+    let number = |key: &str| table.need(key, &example)?.number();
+    let (from, to) = (number("from")?, number("to")?);
+    let count = table.need("count", &example)?;
+    match count.count()? {
+        1 if from != to => {
+            Err(count.error("one value cannot reach from one bound to the other").help("write count = 2"))
+        }
+        1 => Ok(vec![from]),
+        n if n > MOST => Err(count.error(format!("count = {n} is more than {MOST}")).help("give fewer values")),
+        n => Ok((0..n).map(|i| between(from, to, i, n - 1)).collect()),
+    }
+}
+
+/// The i-th of n + 1 values, both bounds exactly.
+fn between(from: f64, to: f64, i: usize, n: usize) -> f64 {
+    let s = i as f64 / n as f64;
+    from * (1.0 - s) + to * s
+}
+
+const KINDS: [&str; 3] = ["uniform", "log_uniform", "normal"];
+
+fn distribution(value: &Value) -> Result<Distribution> {
+    let example = format!("{} = {{ uniform = [0.0, 0.1] }}", value.name);
+    let table = value.section(value.name.clone())?;
+    table.only(&KINDS)?;
+    let given: Vec<Value> = table.entries();
+    let [kind] = given.as_slice() else {
+        let advice = near::advice("", "write one of", &KINDS);
+        return Err(value.error(format!("{} needs one distribution", value.name)).help(format!("{advice}: {example}")));
+    };
+    let numbers: Vec<f64> = kind.list(&example)?.iter().map(Value::number).collect::<Result<_>>()?;
+    let [a, b] = numbers[..] else {
+        return Err(kind.error(format!("{} needs 2 numbers, not {}", kind.name, numbers.len())).help(example));
+    };
+    let refuse =
+        |why: &str| Err(kind.error(format!("{} [{a:?}, {b:?}] {why}", kind.name)).help(format!("write {example}")));
+    match kind.name.as_str() {
+        "normal" if b < 0.0 => refuse("has a negative standard deviation"),
+        "normal" => Ok(Distribution::Normal(a, b)),
+        _ if a > b => refuse("begins above its end"),
+        "uniform" => Ok(Distribution::Uniform(a, b)),
+        _ if a <= 0.0 => refuse("has a bound that is not positive"),
+        _ => Ok(Distribution::LogUniform(a, b)),
+    }
+}

@@ -1,0 +1,231 @@
+//! Many trajectories of one model: blocks of lanes, steps of order 8 or 4, and a check of every result.
+
+mod equations;
+mod refine;
+mod start;
+mod steps;
+
+pub use equations::{EnsembleInputs, Varied};
+
+use super::tableau::{ORDER_4, ORDER_8};
+use crate::error::{Error, Result};
+use crate::formula::Isa;
+use crate::model::Model;
+use equations::LaneEquations;
+use steps::{Scheme, Span};
+
+/// Lanes of a block: four vectors of AVX-512.
+pub(super) const LANES: usize = 32;
+
+/// Many cases of one model, each with its own parameters, constants of the inputs and initial pose.
+///
+/// | symbol | meaning |
+/// |---|---|
+/// | z | states of a case |
+/// | N | steps of a run, h their length |
+/// | z_N, z_2N | results with N and 2N steps of order q |
+/// | error | max over rows and states of 4·\|z_2N − z_N\|/(2^q − 1)/max(1, \|z_2N\|) |
+///
+/// Every case is integrated twice, with N and with 2N steps between the times where the inputs have a kink and those
+/// that are asked for. The difference estimates the error of the finer run over the whole trajectory, growth of early
+/// errors included; N doubles until it is at most the error asked for. The result is z_2N + (z_2N − z_N)/(2^q − 1),
+/// which is better by an order than what the estimate speaks of. The first N and the order are found by the same check
+/// on a few cases spread over all of them, so a case's result depends neither on its neighbours in a block nor on
+/// the number of threads.
+///
+/// Validity: the motion is smooth between knots; where it is not, N grows to its limit and the case is reported as not
+/// converged.
+///
+/// Source: E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, II.4 (Richardson) and II.5.
+///
+/// ```
+/// use creepage::formula::Expr;
+/// use creepage::model::Model;
+/// use creepage::motion::{Ensemble, EnsembleInputs, Varied};
+/// let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+/// let formulas = ["2 - t/20", "1"].map(|f| Expr::parse(f).unwrap()).to_vec();
+/// let inputs = EnsembleInputs { formulas, ..EnsembleInputs::default() };
+/// let varied = [Varied::Model("wheel_radius".into())];
+/// let wheels = Ensemble::new(&model, &inputs, &varied, &[0.0; 3], 0.0, &[6.0], 1e-10).unwrap();
+/// let plan = wheels.plan(|_| vec![0.5], 2).unwrap();
+/// let cases = wheels.run(&plan, &[&[0.5], &[1.0]]).unwrap();
+/// let x = |i: usize| cases[i].row(0)[0];
+/// assert!((x(1) - 2.0 * x(0)).abs() < 1e-10 && cases[1].error.unwrap() < 1e-10);
+/// ```
+pub struct Ensemble {
+    model: Model,
+    inputs: EnsembleInputs,
+    varied: Vec<Varied>,
+    initial: Vec<f64>,
+    from: f64,
+    times: Vec<f64>,
+    tolerance: f64,
+    equations: LaneEquations,
+    start: Option<start::Start>,
+    isa: Isa,
+}
+
+/// How a sweep's cases are first tried: the order, and how many steps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    order: i32,
+    steps: f64,
+}
+
+/// What became of a case.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Case {
+    /// Row by row what a logger would see, [`Ensemble::columns`] without the time; nothing where the motion is undefined.
+    pub values: Vec<f64>,
+    /// The estimated error, absolute or relative to the size of a state above one; none where the motion is undefined.
+    pub error: Option<f64>,
+    /// Whether the error is at most the one asked for.
+    pub converged: bool,
+    width: usize,
+}
+
+impl Case {
+    /// Whether the motion is defined all the way.
+    pub fn is_defined(&self) -> bool {
+        self.error.is_some()
+    }
+
+    /// The row of a time.
+    ///
+    /// # Panics
+    /// When the motion is undefined, or there is no such row: a fault of the caller.
+    pub fn row(&self, i: usize) -> &[f64] {
+        &self.values[i * self.width..(i + 1) * self.width]
+    }
+}
+
+impl Ensemble {
+    /// Compiles a model for many cases.
+    ///
+    /// | symbol | unit | meaning |
+    /// |---|---|---|
+    /// | varied | | what a case gives a value for |
+    /// | initial | m, rad | measured x, y, heading and trailer headings at the start, unless varied |
+    /// | from | s | when the motion begins |
+    /// | times | s | times of the rows, rising, not before `from` |
+    /// | tolerance | | the error asked for |
+    ///
+    /// # Errors
+    /// When the constraints do not determine the motion, a formula uses a name that nothing defines, or sizes and times
+    /// do not fit.
+    pub fn new(
+        model: &Model,
+        inputs: &EnsembleInputs,
+        varied: &[Varied],
+        initial: &[f64],
+        from: f64,
+        times: &[f64],
+        tolerance: f64,
+    ) -> Result<Self> {
+        let wanted = 3 + model.trailers.len();
+        if initial.len() != wanted || inputs.formulas.len() != model.inputs.len() {
+            return Err(Error::input("the initial pose or the inputs do not fit the model"));
+        }
+        let rising = times.windows(2).all(|w| w[0] < w[1]) && times.first().is_some_and(|t| *t >= from);
+        let finite = times.iter().chain([&from, &tolerance]).all(|t| t.is_finite());
+        if !rising || !finite || tolerance <= 0.0 {
+            return Err(Error::input("times have to rise from the start on, and the error has to be positive"));
+        }
+        let equations = LaneEquations::new(model, inputs, varied, None)?;
+        Ok(Self {
+            model: model.clone(),
+            inputs: inputs.clone(),
+            varied: varied.to_vec(),
+            initial: initial.to_vec(),
+            from,
+            times: times.to_vec(),
+            tolerance,
+            start: if equations.starts_as_measured() { None } else { Some(start::Start::new(model, varied)?) },
+            equations,
+            isa: Isa::best(),
+        })
+    }
+
+    /// The same cases with other vector instructions; the results are the same bits.
+    pub fn with_instructions(self, isa: Isa) -> Self {
+        Self { isa, ..self }
+    }
+
+    /// Names of the columns of a row: time, measured pose, speeds, hidden states.
+    pub fn columns(&self) -> Vec<String> {
+        let trailers = (1..=self.equations.visible - 3).map(|i| format!("trailer_heading_{i}"));
+        let pose = ["time", "x", "y", "heading"].map(String::from).into_iter().chain(trailers);
+        let speeds = ["speed", "lateral_speed", "yaw_rate"].map(String::from);
+        pose.chain(speeds).chain(self.equations.hidden_names.iter().cloned()).collect()
+    }
+
+    /// The times of the rows.
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// Whether the first row is the start.
+    fn shows_start(&self) -> bool {
+        self.times[0] == self.from
+    }
+
+    /// The times between which everything is smooth, once in order.
+    fn spans(&self, equations: &LaneEquations) -> Vec<Span> {
+        let logged = equations.log.as_ref().map_or(&[][..], |l| l.knots());
+        let (first, last) = (self.from, self.times[self.times.len() - 1]);
+        let inner = |t: &f64| *t > first && *t < last;
+        let kinks = logged.iter().chain(&self.inputs.knots).map(|t| t + equations.delay).filter(inner);
+        let mut marks: Vec<(f64, bool)> = kinks.chain([first]).map(|t| (t, false)).collect();
+        marks.extend(self.times.iter().map(|t| (*t, true)));
+        marks.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
+        marks.dedup_by(|later, kept| later.0 == kept.0);
+        marks.windows(2).map(|w| Span { from: w[0].0, to: w[1].0, steps: 1, row: w[1].1 }).collect()
+    }
+
+    /// Finds order and first number of steps on a few of `total` cases spread evenly.
+    ///
+    /// # Errors
+    /// As [`Ensemble::run`].
+    pub fn plan(&self, case: impl Fn(usize) -> Vec<f64>, total: usize) -> Result<Plan> {
+        let pilots = total.min(LANES);
+        let values: Vec<Vec<f64>> = (0..pilots).map(|i| case(i * total / pilots)).collect();
+        let mut cases: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
+        let alone = if self.equations.own_clocks {
+            cases.truncate(1);
+            cases.first().map(|case| self.alone(case)).transpose()?
+        } else {
+            None
+        };
+        let equations = alone.as_ref().unwrap_or(&self.equations);
+        let tried = [8, 4].map(|order| (order, self.effort_of(order, equations, &cases)));
+        let mut best: Option<(f64, Plan)> = None;
+        for (order, tried) in tried {
+            let (steps, cost) = tried?;
+            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                best = Some((cost, Plan { order, steps }));
+            }
+        }
+        best.map(|(_, plan)| plan).ok_or_else(|| Error::run("no order of the integration is known"))
+    }
+
+    /// Integrates cases; each gives its values in the order of what varies.
+    ///
+    /// # Errors
+    /// When no pose of the vehicle gives a case's initial pose as measured.
+    pub fn run(&self, plan: &Plan, cases: &[&[f64]]) -> Result<Vec<Case>> {
+        if !self.equations.own_clocks {
+            return self.refined(&self.equations, plan, cases);
+        }
+        // Cases that look their logged inputs up at different times share no instant: each is compiled on its own.
+        let alone = |case: &&[f64]| self.refined(&self.alone(case)?, plan, &[case]);
+        Ok(cases.iter().map(alone).collect::<Result<Vec<_>>>()?.concat())
+    }
+
+    fn alone(&self, case: &[f64]) -> Result<LaneEquations> {
+        LaneEquations::new(&self.model, &self.inputs, &self.varied, Some(case))
+    }
+}
+
+fn scheme(order: i32) -> Scheme {
+    Scheme::of(if order == 8 { &ORDER_8 } else { &ORDER_4 })
+}

@@ -1,0 +1,96 @@
+//! What a sweep varies, held against the model.
+
+use crate::error::{Error, Result};
+use crate::files::{ModelFile, Spot, advice, shown};
+use crate::formula::Symbol;
+use crate::model::Model;
+use crate::motion::Varied;
+
+/// A quantity of the model that may vary: its name in the file, what it is, and the values it may take.
+pub(super) struct Quantity {
+    pub name: String,
+    pub varied: Varied,
+    pub allowed: Allowed,
+}
+
+/// Values a quantity may take.
+#[derive(Clone, Copy)]
+pub(super) struct Allowed {
+    min: f64,
+    max: f64,
+    /// Whether `min` itself is not allowed.
+    above: bool,
+}
+
+impl Allowed {
+    const ANY: Self = Self { min: f64::NEG_INFINITY, max: f64::INFINITY, above: false };
+    const POSITIVE: Self = Self { min: 0.0, max: f64::INFINITY, above: true };
+
+    pub fn holds(&self, value: f64) -> bool {
+        value <= self.max && if self.above { value > self.min } else { value >= self.min }
+    }
+
+    /// Refuses a value that is not allowed.
+    pub fn check(&self, name: &str, value: f64, spot: &Spot) -> Result<()> {
+        if self.holds(value) {
+            return Ok(());
+        }
+        let advice = match self.above {
+            true => "it must be greater than zero, in SI units".to_string(),
+            false => format!("it must lie within {:?} and {:?}", self.min, self.max),
+        };
+        Err(spot.error(format!("{name} = {value:?} is out of range")).help(advice))
+    }
+}
+
+/// Everything of the model that may vary.
+pub(super) fn quantities(file: &ModelFile, model: &Model) -> Vec<Quantity> {
+    let of_model = |name: String, symbol: Symbol, allowed| Quantity { name, varied: Varied::Model(symbol), allowed };
+    let sign = |name: &str| if name.ends_with("offset") { Allowed::ANY } else { Allowed::POSITIVE };
+    let mut found: Vec<Quantity> =
+        file.parameters.keys().map(|k| of_model(k.clone(), Symbol::new(k), sign(k))).collect();
+    for i in 1..=model.trailers.len() {
+        let length = Symbol::new(&format!("trailer_length_{i}"));
+        found.push(of_model(format!("trailer_lengths.{i}"), length, Allowed::POSITIVE));
+        found.push(of_model(format!("hitch_offsets.{i}"), Symbol::new(&format!("hitch_offset_{i}")), Allowed::ANY));
+    }
+    for (name, symbol) in [
+        ("sensor.lever_arm.1", "sensor.a"),
+        ("sensor.lever_arm.2", "sensor.b"),
+        ("sensor.heading_offset", "sensor.heading_offset"),
+    ] {
+        found.push(of_model(name.into(), symbol.into(), Allowed::ANY));
+    }
+    for applied in &model.effects {
+        let title = match applied.trailer {
+            Some(i) => format!("{}.{i}", applied.effect.id),
+            None => applied.effect.id.clone(),
+        };
+        for (name, parameter) in &applied.effect.parameters {
+            let allowed = Allowed { min: parameter.range[0], max: parameter.range[1], above: false };
+            found.push(of_model(format!("{title}.{name}"), applied.symbol(name), allowed));
+        }
+    }
+    let pose = ["initial.x", "initial.y", "initial.heading"].map(String::from).into_iter();
+    let pose = pose.chain((1..=model.trailers.len()).map(|i| format!("initial.trailer_headings.{i}")));
+    let initial = |(i, name)| Quantity { name, varied: Varied::Initial(i), allowed: Allowed::ANY };
+    found.extend(pose.enumerate().map(initial));
+    found
+}
+
+/// The quantity of a name: one of the model, or a constant of the inputs' formulas.
+pub(super) fn find(name: &str, spot: &Spot, known: &[Quantity], used: &[Symbol]) -> Result<(Varied, Allowed)> {
+    if let Some(q) = known.iter().find(|q| q.name == name) {
+        return Ok((q.varied.clone(), q.allowed));
+    }
+    if used.iter().any(|s| s.as_str() == name) {
+        return Ok((Varied::Input(Symbol::new(name)), Allowed::ANY));
+    }
+    let names: Vec<&str> = used.iter().map(Symbol::as_str).chain(known.iter().map(|q| q.name.as_str())).collect();
+    Err(unknown(name, spot, &names))
+}
+
+fn unknown(name: &str, spot: &Spot, names: &[&str]) -> Error {
+    let message = format!("nothing is called \"{}\": no quantity of the model, no name of a formula", shown(name));
+    spot.error(message).help(advice(name, "what may vary", names))
+}

@@ -1,0 +1,126 @@
+//! Running a sweep, block by block, in the order of the cases.
+
+use super::journal::Journal;
+use super::table::{csv, header};
+use super::{Format, Shard, Sweep};
+use crate::error::Result;
+use crate::motion::Case;
+use rayon::prelude::*;
+use sha2::{Digest, Sha256};
+use std::ops::Range;
+use std::path::Path;
+
+/// Numbers a block of cases holds, about.
+const BLOCK: usize = 1 << 16;
+/// Blocks that are computed between two writes, for each thread.
+const ROUND: usize = 4;
+
+/// How far a sweep is, in cases.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// Cases that were there from an earlier run.
+    pub found: usize,
+    /// Cases that are done.
+    pub done: usize,
+    /// Cases of the part.
+    pub all: usize,
+}
+
+/// What a sweep has written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Summary {
+    /// Cases of the part.
+    pub cases: usize,
+    /// Cases taken over from an earlier run that was stopped.
+    pub found: usize,
+    /// Cases whose motion is undefined.
+    pub undefined: usize,
+    /// Cases that did not reach the error asked for.
+    pub not_converged: usize,
+}
+
+/// Encoded rows of some cases.
+struct Rows {
+    bytes: Vec<u8>,
+    cases: usize,
+    troubles: [usize; 2],
+}
+
+impl Sweep {
+    /// Runs a part of the sweep and writes its table; goes on where an earlier run of it was stopped.
+    ///
+    /// The first part has the header, so that parts in their order, one behind the other, are the whole table.
+    ///
+    /// # Errors
+    /// When the output cannot be written.
+    pub fn write(&self, shard: Shard, out: &Path, tell: &(dyn Fn(Progress) + Sync)) -> Result<Summary> {
+        let format = Format::of(out)?;
+        let range = shard.of(self.cases());
+        let columns = self.columns();
+        let first = if format == Format::Csv && shard.is_first() { header(&columns) } else { vec![] };
+        let identity = format!("{:x}", Sha256::digest(format!("{} {range:?} {format:?}", self.identity)));
+        crate::files::check_target(out)?;
+        let mut journal = Journal::open(out, &identity, &first)?;
+        let all = range.len();
+        let mut next = range.start + journal.cases();
+        let mut computed: Vec<Result<Rows>> = vec![];
+        loop {
+            tell(Progress { found: journal.found, done: journal.cases(), all });
+            let round = next..range.end.min(next + self.round());
+            next = round.end;
+            // What was computed is written while the next cases are.
+            let before = std::mem::take(&mut computed);
+            let last = round.is_empty();
+            let (written, after) = rayon::join(|| append(&mut journal, before), || self.compute(round, format));
+            written?;
+            computed = after;
+            if last {
+                break;
+            }
+        }
+        let ([undefined, not_converged], found) = (journal.troubles(), journal.found);
+        journal.finish(out, format, &columns)?;
+        Ok(Summary { cases: all, found, undefined, not_converged })
+    }
+
+    /// Cases of a block: whole vectors, and not more numbers than fit near the processor.
+    fn block(&self) -> usize {
+        (BLOCK / (self.rows * self.width)).clamp(32, 1024) / 32 * 32
+    }
+
+    fn round(&self) -> usize {
+        self.block() * ROUND * rayon::current_num_threads()
+    }
+
+    fn compute(&self, cases: Range<usize>, format: Format) -> Vec<Result<Rows>> {
+        let starts: Vec<usize> = cases.clone().step_by(self.block()).collect();
+        let block = |start: &usize| self.compute_block(*start..cases.end.min(start + self.block()), format);
+        starts.par_iter().map(block).collect()
+    }
+
+    fn compute_block(&self, cases: Range<usize>, format: Format) -> Result<Rows> {
+        let (mut values, varied) = (Vec::new(), self.names.len());
+        cases.clone().for_each(|i| self.cases.push(i, &mut values));
+        let given: Vec<&[f64]> = (0..cases.len()).map(|i| &values[i * varied..(i + 1) * varied]).collect();
+        let found = self.ensemble.run(&self.plan, &given)?;
+        let mut rows = Vec::with_capacity(cases.len() * self.rows * self.width);
+        for ((number, values), case) in cases.clone().zip(&given).zip(&found) {
+            self.push_rows(number, values, case, &mut rows);
+        }
+        let bytes = match format {
+            Format::Csv => csv(&rows, self.width),
+            Format::Parquet => rows.iter().flat_map(|v| v.to_le_bytes()).collect(),
+        };
+        let count = |bad: fn(&Case) -> bool| found.iter().filter(|c| bad(c)).count();
+        let troubles = [count(|c| !c.is_defined()), count(|c| c.is_defined() && !c.converged)];
+        Ok(Rows { bytes, cases: cases.len(), troubles })
+    }
+}
+
+fn append(journal: &mut Journal, rows: Vec<Result<Rows>>) -> Result<()> {
+    for rows in rows {
+        let rows = rows?;
+        journal.append(&rows.bytes, rows.cases, rows.troubles)?;
+    }
+    Ok(())
+}

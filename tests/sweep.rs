@@ -1,0 +1,264 @@
+//! The command `sweep`: the same bytes whatever stops it, splits it or runs it.
+
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::time::Duration;
+use tempfile::TempDir;
+
+const MODEL: &str = "\
+vehicle = \"unicycle\"
+[parameters]
+wheel_radius = 0.5
+[[effects]]
+id = \"rotation-creep\"
+e_rc = 0.0
+";
+
+const SPEC: &str = "\
+model = \"model.toml\"
+duration = 3.0
+[inputs]
+wheel_rate = \"u_0 + sin(t)\"
+yaw_rate = \"w\"
+[constants]
+w = 0.7
+[grid]
+u_0 = [1.0, 2.0]
+rotation-creep.e_rc = { from = -0.1, to = 0.1, count = 5 }
+[sample]
+count = 7
+seed = 3
+[sample.of]
+initial.heading = { uniform = [-3.0, 3.0] }
+wheel_radius = { normal = [0.5, 0.01] }
+";
+
+fn folder(spec: &str) -> TempDir {
+    let dir = tempfile::tempdir().unwrap();
+    std::fs::write(dir.path().join("model.toml"), MODEL).unwrap();
+    std::fs::write(dir.path().join("spec.toml"), spec).unwrap();
+    dir
+}
+
+fn command(dir: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_creepage"));
+    command.current_dir(dir).args(["sweep", "spec.toml"]).args(arguments);
+    command
+}
+
+fn run(dir: &Path, arguments: &[&str]) -> Output {
+    command(dir, arguments).output().unwrap()
+}
+
+fn good(dir: &Path, arguments: &[&str]) -> String {
+    let output = run(dir, arguments);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn refused(dir: &Path, arguments: &[&str]) -> String {
+    let output = run(dir, arguments);
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(!message.contains("panicked"), "{message}");
+    message
+}
+
+fn bytes(dir: &Path, name: &str) -> Vec<u8> {
+    std::fs::read(dir.join(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
+fn names(dir: &Path) -> Vec<String> {
+    let mut names: Vec<String> =
+        std::fs::read_dir(dir).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_table_has_a_row_for_each_case_in_the_order_of_the_grid() {
+    let dir = folder(SPEC);
+    let said = good(dir.path(), &["--out", "all.csv"]);
+    assert_eq!(said, "70 cases are in all.csv\n");
+    let text = String::from_utf8(bytes(dir.path(), "all.csv")).unwrap();
+    let mut lines = text.lines();
+    assert_eq!(
+        lines.next().unwrap(),
+        "case,u_0,rotation-creep.e_rc,initial.heading,wheel_radius,time,x,y,heading,speed,lateral_speed,yaw_rate,error,status"
+    );
+    let rows: Vec<Vec<&str>> = lines.map(|l| l.split(',').collect()).collect();
+    assert_eq!(rows.len(), 70);
+    for (i, row) in rows.iter().enumerate() {
+        let value = |c: usize| row[c].parse::<f64>().unwrap();
+        assert_eq!((row[0], row[13]), (i.to_string().as_str(), "ok"));
+        assert_eq!(value(1), if i < 35 { 1.0 } else { 2.0 });
+        assert!((value(2) + 0.1 - 0.05 * ((i / 7) % 5) as f64).abs() < 1e-15);
+        // The motion is known: the heading turns at w, and the speed is r·(u_0 + sin t)·(1 − e).
+        assert!((value(8) - value(3) - 2.1).abs() < 1e-10 && value(12) <= 1e-10);
+        let speed = value(4) * (value(1) + 3f64.sin()) * (1.0 - value(2));
+        assert!((value(9) - speed).abs() < 1e-12);
+    }
+    let drawn = |c: usize| rows.iter().map(|r| r[c]).collect::<std::collections::BTreeSet<_>>().len();
+    assert_eq!((drawn(3), drawn(4)), (70, 70), "every draw is its own");
+    assert_eq!(names(dir.path()), ["all.csv", "model.toml", "spec.toml"]);
+}
+
+#[test]
+fn threads_and_parts_change_no_byte() {
+    for spec in [SPEC.to_string(), format!("every = 0.5\n{SPEC}")] {
+        let dir = folder(&spec);
+        good(dir.path(), &["--out", "all.csv", "--threads", "1"]);
+        good(dir.path(), &["--out", "two.csv", "--threads", "2"]);
+        let all = bytes(dir.path(), "all.csv");
+        assert!(all == bytes(dir.path(), "two.csv"));
+        let parts = ["a.csv", "b.csv", "c.csv"];
+        for (i, part) in parts.iter().enumerate() {
+            good(dir.path(), &["--out", part, "--shard", &format!("{}/3", i + 1), "--threads", "2"]);
+        }
+        assert!(all == parts.iter().flat_map(|p| bytes(dir.path(), p)).collect::<Vec<u8>>());
+        good(dir.path(), &[&["--out", "joined.csv", "--join"], &parts[..]].concat());
+        assert!(all == bytes(dir.path(), "joined.csv"));
+        for wrong in [&["a.csv", "c.csv"][..], &["a.csv", "b.csv"], &["b.csv", "a.csv", "c.csv"], &["spec.toml"]] {
+            let message = refused(dir.path(), &[&["--out", "wrong.csv", "--join"], wrong].concat());
+            assert!(message.contains("is not a part in its place"), "{message}");
+            assert!(!dir.path().join("wrong.csv").exists());
+        }
+        // A part that was cut off in the middle of a line.
+        let cut = bytes(dir.path(), "c.csv");
+        std::fs::write(dir.path().join("c.csv"), &cut[..cut.len() - 3]).unwrap();
+        refused(dir.path(), &[&["--out", "wrong.csv", "--join"], &parts[..]].concat());
+    }
+}
+
+/// Enough cases that a run can be killed on its way.
+fn long() -> String {
+    SPEC.replace("count = 7", "count = 4000").replace("duration", "every = 0.5\nduration")
+}
+
+fn killed_after(dir: &Path, wait: Duration) -> Child {
+    let mut child = command(dir, &["--out", "all.csv", "--threads", "2"]).stdout(Stdio::null()).spawn().unwrap();
+    std::thread::sleep(wait);
+    // SIGKILL: nothing is tidied up.
+    child.kill().unwrap();
+    child.wait().unwrap();
+    child
+}
+
+#[test]
+fn killed_at_any_moment_it_goes_on_to_the_same_bytes() {
+    let (dir, undisturbed) = (folder(&long()), folder(&long()));
+    let started = std::time::Instant::now();
+    good(undisturbed.path(), &["--out", "all.csv"]);
+    let whole = started.elapsed();
+    let mut stopped = 0;
+    for share in [0.05, 0.2, 0.4, 0.4, 0.5, 0.3] {
+        if dir.path().join("all.csv").exists() {
+            break;
+        }
+        killed_after(dir.path(), whole.mul_f64(share));
+        stopped += usize::from(!dir.path().join("all.csv").exists());
+    }
+    assert!(stopped >= 2, "killed before the end {stopped} times");
+    let said = good(dir.path(), &["--out", "all.csv", "--threads", "1"]);
+    assert!(said.contains("of them from a run that was stopped"), "{said}");
+    assert!(bytes(dir.path(), "all.csv") == bytes(undisturbed.path(), "all.csv"));
+    assert_eq!(names(dir.path()), ["all.csv", "model.toml", "spec.toml"]);
+}
+
+#[test]
+fn what_was_done_for_another_sweep_or_damaged_is_not_used() {
+    let dir = folder(&long());
+    for damage in ["spec", "bytes", "note"] {
+        let note = dir.path().join("all.csv.partial.json");
+        let mut child = command(dir.path(), &["--out", "all.csv"]).stdout(Stdio::null()).spawn().unwrap();
+        while !note.exists() && child.try_wait().unwrap().is_none() {
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+        assert!(note.exists(), "killed too late for {damage}");
+        match damage {
+            "spec" => std::fs::write(dir.path().join("spec.toml"), SPEC.replace("seed = 3", "seed = 4")).unwrap(),
+            "bytes" => {
+                let mut partial = bytes(dir.path(), "all.csv.partial");
+                partial[200] ^= 1;
+                std::fs::write(dir.path().join("all.csv.partial"), partial).unwrap();
+                std::fs::write(dir.path().join("spec.toml"), long()).unwrap();
+            }
+            _ => std::fs::write(note, "{").unwrap(),
+        }
+        if damage != "bytes" {
+            let short = folder(&String::from_utf8(bytes(dir.path(), "spec.toml")).unwrap().replace("4000", "7"));
+            std::fs::copy(short.path().join("spec.toml"), dir.path().join("spec.toml")).unwrap();
+        }
+        let said = good(dir.path(), &["--out", "all.csv"]);
+        assert!(!said.contains("stopped"), "{damage}: {said}");
+        std::fs::remove_file(dir.path().join("all.csv")).unwrap();
+        std::fs::write(dir.path().join("spec.toml"), long()).unwrap();
+    }
+}
+
+#[test]
+fn what_a_file_gets_wrong_is_told_with_its_place() {
+    for (change, by, place) in [
+        ("u_0 = [1.0, 2.0]", "u_9 = [1.0, 2.0]", "spec.toml:9:1: nothing is called \"u_9\""),
+        ("u_0 + sin(t)", "u_0 + sin(q)", "spec.toml:4:25: q has no value"),
+        ("u_0 + sin(t)", "u_0 + sin(", "spec.toml:4:2"),
+        ("wheel_rate =", "wheel_rat =", "spec.toml: the input wheel_rate or speed has no formula"),
+        ("count = 5", "count = 0", "spec.toml:10:"),
+        ("to = 0.1", "to = 2000.0", "out of range"),
+        ("duration = 3.0", "durations = 3.0", "spec.toml:2:1: unknown key \"durations\""),
+        ("duration = 3.0", "", "key \"duration\" is missing"),
+        ("duration = 3.0", "duration = -3.0", "spec.toml:2:12: duration"),
+        ("uniform", "triangle", "unknown key"),
+        ("[-3.0, 3.0]", "[3.0, -3.0]", "begins above its end"),
+        ("model.toml", "models.toml", "models.toml: no such file"),
+        ("count = 7", "count = 1000000000000000000", "there are more than 10^15 cases"),
+        ("duration = 3.0", "duration = 3.0\nevery = 1e-9", "more than a million rows"),
+        ("u_0 = [1.0, 2.0]", "wheel_radius = [0.0]", "greater than zero"),
+        ("u_0 = [1.0, 2.0]", "wheel_radius = [0.4]\nu_0 = [1.0]", "stands under [grid] and [sample.of]"),
+    ] {
+        let changed = SPEC.replacen(change, by, 1);
+        assert_ne!(changed, SPEC, "{change}");
+        let dir = folder(&changed);
+        let message = refused(dir.path(), &["--out", "all.csv"]);
+        assert!(message.contains(place), "{by}: {place:?} is not in {message:?}");
+        assert_eq!(names(dir.path()), ["model.toml", "spec.toml"], "{by} left something behind");
+    }
+    let dir = folder(SPEC);
+    for shard in ["0/3", "4/3", "1", "1/0", "-1/2", "a/b"] {
+        assert!(refused(dir.path(), &["--out", "all.csv", "--shard", shard]).contains("I/N"), "{shard}");
+    }
+    assert!(refused(dir.path(), &["--out", "no/all.csv"]).contains("its folder does not exist"));
+    assert!(refused(dir.path(), &["--out", "."]).contains("is a folder"));
+    if cfg!(not(feature = "parquet")) {
+        assert!(refused(dir.path(), &["--out", "all.parquet"]).contains("--features parquet"));
+    }
+    assert_eq!(names(dir.path()), ["model.toml", "spec.toml"]);
+}
+
+#[test]
+fn an_undefined_case_is_blank_and_counted() {
+    let dir = folder(&SPEC.replace("u_0 + sin(t)", "sqrt(u_0 - 0.5*t)"));
+    let said = good(dir.path(), &["--out", "all.csv"]);
+    assert_eq!(said, "70 cases, 35 undefined are in all.csv\n");
+    let text = String::from_utf8(bytes(dir.path(), "all.csv")).unwrap();
+    assert!(text.lines().nth(1).unwrap().ends_with(",,,,,,,,,undefined"), "{}", text.lines().nth(1).unwrap());
+}
+
+#[cfg(feature = "parquet")]
+#[test]
+fn parquet_holds_the_same_and_its_parts_join_to_the_same_bytes() {
+    let dir = folder(&format!("every = 0.5\n{SPEC}"));
+    good(dir.path(), &["--out", "all.parquet", "--threads", "2"]);
+    for i in ["1", "2"] {
+        good(dir.path(), &["--out", &format!("{i}.parquet"), "--shard", &format!("{i}/2")]);
+    }
+    good(dir.path(), &["--out", "joined.parquet", "--join", "1.parquet", "2.parquet"]);
+    assert!(bytes(dir.path(), "all.parquet") == bytes(dir.path(), "joined.parquet"));
+    let message = refused(dir.path(), &["--out", "wrong.parquet", "--join", "2.parquet", "1.parquet"]);
+    assert!(message.contains("is not a part in its place"), "{message}");
+    let mut expected = names(dir.path());
+    expected.retain(|n| !n.ends_with(".parquet"));
+    assert_eq!(expected, ["model.toml", "spec.toml"]);
+}

@@ -4,7 +4,9 @@ use creepage::claims::{
     Claim, Counterexample, Domain, Fault, Machine, Options, Outcome, Point, Sampling, Statement, Status, at_points,
     counterexample, domains, mutants, near, points, prove, read, simplest, value, value_said, verify, written,
 };
+use creepage::effects::{self, Applied};
 use creepage::formula::{Exact, Expr, Fun, Scalar, Symbol};
+use creepage::model::Model;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
@@ -376,4 +378,18 @@ fn beyond_the_normal_form_values_tell_what_a_slip_changes() {
     assert!(is_slip("a*abs(x)", "a/abs(x)") && !is_slip("a*abs(-x)", "a*abs(x)"));
     // Where nothing has a value nothing is the same.
     assert!(is_slip("ln(-2 - abs(x))", "ln(-3 - abs(x))"));
+}
+
+#[test]
+fn a_machine_keeps_coefficients_that_several_effects_make() {
+    let made = Model::new("differential-drive", &[("wheel_radius", 0.1), ("track_width", 0.4)]).unwrap();
+    let effect = |id: &str| effects::named(id).map(|e| Applied::new(e, None, e.starts().swap_remove(0))).unwrap();
+    let made = made.with_effect(effect("rotation-creep")).with_effect(effect("unequal-rotation-creep"));
+    let machine = Machine::of_model(&made);
+    let coefficient = machine.formula("e_rc_1").unwrap();
+    assert!(
+        ["rotation_creep.e_rc", "unequal_rotation_creep.e_right"].iter().all(|s| coefficient.mentions(&(*s).into()))
+    );
+    // One that no effect makes is free.
+    assert!(machine.formula("e_tc").is_none());
 }

@@ -59,6 +59,10 @@ fn wheels_of_one_vehicle_have_different_radii_and_headings() {
         let radii: Vec<Exact> = wheels.iter().filter_map(|w| w.radius.clone()).collect();
         let different: BTreeSet<String> = radii.iter().map(ToString::to_string).collect();
         prop_assert_eq!(different.len(), radii.len());
+        // Of the wheels of an axle the direction is the axle's.
+        let directed = wheels.iter().filter(|w| w.k <= 3 && w.directed).count();
+        let axles = if matches!(vehicle.drive, Drive::Unicycle | Drive::Differential) { 1 } else { 2 };
+        prop_assert!(wheels.is_empty() || directed == axles, "{}", directed);
         for wheel in wheels.iter().filter(|w| w.radius.is_some()) {
             let known = at.value(&Symbol::new(&format!("r_{}", wheel.k)));
             prop_assert!(known.equals(wheel.radius.as_ref().unwrap()), "{}", wheel);
@@ -102,9 +106,11 @@ fn made_around_a_motion_they_have_one() {
         met.note("circles", lines.len() > 1);
         met.note("two freedoms", found == 2);
         met.note("straight or circling for want of freedom", most == 2 && found == 1);
+        met.note("straight for want of freedom", most == 2 && found == 1 && lines.len() == 1);
         Ok(())
     });
     met.at_least(&[("circles", 60), ("two freedoms", 20), ("straight or circling for want of freedom", 20)]);
+    met.at_least(&[("straight for want of freedom", 4)]);
     assert!(met.0.borrow().get("none").is_none_or(|n| *n < 40), "{:?}", met.0);
 }
 
@@ -123,9 +129,11 @@ fn a_loose_wheel_leaves_no_ideal_motion_and_no_realisation_near_one() {
         prop_assert!(!held || realised.is_err(), "{:?}", realised);
         met.note("held", held);
         met.note("moves", !held);
+        let castor = |w: &Placed| matches!(w.facing, Facing::Castor);
+        met.note("castor", vehicle.wheels().unwrap_or_default().iter().any(castor));
         Ok(())
     });
-    met.at_least(&[("held", 40), ("moves", 20)]);
+    met.at_least(&[("held", 40), ("moves", 20), ("castor", 10)]);
 }
 
 /// The coefficients of a row at a point without creep.
@@ -242,6 +250,23 @@ fn people_are_shown_every_wheel_trailer_and_rate() {
         Ok(())
     });
     met.at_least(&[("facing", 20), ("trailers", 4), ("bare", 2)]);
+}
+
+/// The last angle of a configuration and the last rate of a motion: those before are drawn before.
+#[test]
+fn every_angle_and_every_rate_is_drawn() {
+    let met = Met::default();
+    check(300, moving(1, 1), |motion| {
+        let wheels = motion.vehicle.wheels().unwrap_or_default();
+        if motion.vehicle.trailers() == 1 && wheels.iter().any(|w| w.k > 10) {
+            let last = Symbol::from("phi_1");
+            prop_assert!(motion.rate(&last.rate()).is_some());
+            met.note("turned", motion.vehicle.point().value(&last).as_rational().is_none());
+            met.note("most wheels", motion.vehicle.drive == Drive::Differential);
+        }
+        Ok(())
+    });
+    met.at_least(&[("turned", 20), ("most wheels", 2)]);
 }
 
 /// A realisation is looked for where there is one; where there may be none it is not.

@@ -1,7 +1,7 @@
 //! The ledger: every stated status is earned, the same for any number of threads, and a false claim is found out.
 
 use creepage::claims::{
-    self, Claim, Gives, Machine, Options, Outcome, Status, ledger, mutants, prove, proving, verify,
+    self, Claim, Gives, Machine, Options, Outcome, Sampling, Statement, Status, ledger, mutants, prove, proving, verify,
 };
 use std::path::Path;
 use std::process::{Command, Output};
@@ -73,6 +73,32 @@ fn a_seed_changes_the_cases_and_not_the_ledger() {
     let per_run = first.len() / 3;
     assert!(first[0] != first[per_run] && first[0] == first[2 * per_run], "{first:?}");
     assert!(seeds.iter().all(|s| s.1 == 12));
+}
+
+/// What is shown of a generated case that fails tells it from another one.
+#[test]
+fn a_case_that_fails_is_shown() {
+    let mut met = 0;
+    for claim in claims::all() {
+        for evidence in claim.evidence.iter().filter(|e| e.gives != Gives::Refutation) {
+            let statement = Statement::parse(&evidence.equations).unwrap();
+            let outcome = |s: &Statement, cases, seed| (evidence.check)(s, &Sampling { cases, seed, shrink: false });
+            if outcome(&statement, 8, 1) == outcome(&statement, 16, 1) {
+                continue; // nothing is generated
+            }
+            let false_one = match &evidence.sabotage {
+                None => mutants(&statement).swap_remove(0).statement,
+                Some(own) => Statement::parse(&own[0]).unwrap(),
+            };
+            let shown = [2, 3].map(|seed| match outcome(&false_one, 16, seed) {
+                Outcome::Fails(found) => found.values,
+                other => panic!("{}: {other:?}", claim.id),
+            });
+            assert_ne!(shown[0], shown[1], "{}: {}", claim.id, evidence.shows);
+            met += 1;
+        }
+    }
+    assert!(met > 20, "{met}");
 }
 
 /// One claim of each kind that must not be believed.

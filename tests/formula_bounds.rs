@@ -1,6 +1,6 @@
 //! Where the normal form gives up: exactly beyond its bounds, and nowhere before.
 
-use creepage::formula::{Expr, Normal, Polynomial, Scalar, identical};
+use creepage::formula::{Expr, Normal, Polynomial, Scalar, Size, identical};
 
 fn normal(text: &str) -> Normal {
     Normal::of(&Expr::parse(text).unwrap())
@@ -98,4 +98,32 @@ fn a_product_of_twenty_thousand_pairs_is_the_last_that_is_multiplied_out() {
     assert_eq!(terms(100, 200), 20_000);
     // One product of two sums that stand as they were written.
     assert_eq!(terms(101, 200), 1);
+}
+
+#[test]
+fn a_product_of_two_million_products_of_terms_is_too_large() {
+    let sum = |name: &str| (0..38).map(|i| format!("{name}^{i}")).collect::<Vec<_>>().join(" + ");
+    // 38·38 + 1 terms; its square would take 1445² products, for less than six thousand terms.
+    let large = normal(&format!("({})*({}) + z", sum("x"), sum("y")));
+    assert!(large.is_defined() && !large.mul(&large).add(&normal("1")).is_defined());
+}
+
+#[test]
+fn the_size_of_a_formula_is_counted() {
+    let counts = |text: &str| {
+        let size = Size::of(&Expr::parse(text).unwrap(), &|_| Size::SYMBOL);
+        (size.nodes, size.depth, size.degree)
+    };
+    for (text, wanted) in [
+        ("2", (1, 1, 0)),
+        ("2*x", (3, 2, 1)),
+        ("-sin(x)", (3, 3, 1)),
+        ("(x*y)^3", (4, 3, 6)),
+        ("2^4", (2, 2, 4)),
+        ("x^-2", (2, 2, 2)),
+        ("x*y/(u + v*w)", (9, 4, 4)),
+        ("x - y*y*y", (7, 4, 3)),
+    ] {
+        assert_eq!(counts(text), wanted, "{text}");
+    }
 }

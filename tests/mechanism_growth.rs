@@ -294,6 +294,23 @@ fn the_fields_are_those_the_constraints_leave() {
 }
 
 #[test]
+fn an_integral_has_products_of_two_parameters_where_it_needs_them() {
+    let geared = made_of(&["x", "y"], &[&[("x'", "g*r"), ("y'", "-b")]]);
+    let at = ["g", "r", "b"].iter().zip(2..).fold(Point::default(), |p, (s, k)| p.with(*s, Exact::ratio(k, 7)));
+    let found: Vec<String> = geared.integrals(&at).iter().map(|i| i.formula.to_string()).collect();
+    assert_eq!(found, ["g*r*x - b*y"]);
+}
+
+#[test]
+fn an_integral_that_is_not_found_is_a_disagreement() {
+    // z·exp(-u) is constant and none of the functions tried; a motion of one dimension is integrable all the same.
+    let grown = made_of(&["z", "u"], &[&[("z'", "1"), ("u'", "-z")]]);
+    let at = ["z", "u"].iter().fold(Point::default(), |p, q| p.with(*q, Exact::ratio(2, 3)));
+    let found = grown.nonholonomy(&at, 4).unwrap();
+    assert_eq!((found.holonomic, found.integrals.len(), found.counts_agree()), (1, 0, false));
+}
+
+#[test]
 fn a_rank_that_changes_is_noticed_in_both_ways() {
     let with = |c: &str| made_of(&["z", "u", "w"], &[&[("z'", "1")], &[("w'", c)]]);
     let at = |u: Exact| Point::default().with("z", Exact::ratio(1, 1)).with("w", Exact::ratio(1, 1)).with("u", u);

@@ -271,8 +271,6 @@ impl std::ops::Mul for &Expr {
 fn scaled(factor: &BigRational, written: &Expr, x: &Expr) -> Expr {
     if factor.is_one() {
         x.clone()
-    } else if (-factor).is_one() {
-        -x
     } else if factor.is_zero() && x.is_total() {
         Expr::int(0)
     } else if factor.is_negative() {

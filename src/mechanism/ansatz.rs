@@ -148,7 +148,7 @@ pub(super) fn unchanged(terms: &[Term], mut sample: impl FnMut() -> Option<Sampl
         }
     }
     let mut found: Vec<Combination> = conditions.null_space().iter().map(|c| combination(c, terms)).collect();
-    found.sort_by_key(|c| c.parts.iter().map(|(_, t)| 1 + t.parameters.len()).sum::<usize>());
+    found.sort_by_key(|c| c.parts.len());
     found
 }
 

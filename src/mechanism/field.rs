@@ -112,3 +112,26 @@ impl Calculus<'_> {
         slopes
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formula::{Exact, Expr, Symbol};
+    use std::sync::Arc;
+
+    #[test]
+    fn products_beyond_the_degree_are_left_out() {
+        let z = Symbol::from("z");
+        let layout = Arc::new(Layout::new(vec![z.clone()], 3));
+        let field = |text: &str| {
+            let jet = Expr::parse(text).unwrap().eval(&|s| Jet::variable(&layout, s, Exact::ratio(0, 1))).unwrap();
+            Field::of(&[jet], &layout).unwrap()
+        };
+        let calculus = Calculus { layout: &layout, coordinates: vec![0] };
+        let bracket = |x: &str, y: &str, degree: usize| field(x).bracket(&field(y), &calculus, degree).components;
+        // [z, z³] = 2z³ and [z², z³] = z⁴: the second has nothing up to the second or third degree.
+        let cube = vec![vec![BigInt::zero(), BigInt::zero(), BigInt::zero(), BigInt::one()]];
+        assert_eq!(bracket("z", "z^3", 3), cube);
+        assert_eq!([bracket("z^2", "z^3", 2), bracket("z^2", "z^3", 3)], [[vec![]], [vec![]]]);
+    }
+}

@@ -228,7 +228,7 @@ impl<'a> Search<'a> {
     /// Coordinates that are integrals by themselves.
     fn constant_coordinates(&self) -> Vec<usize> {
         let single = |c: &Combination| match c.parts.as_slice() {
-            [(_, term)] if term.factor.is_none() => term.coordinate,
+            [(_, term)] => term.coordinate,
             _ => None,
         };
         self.found.iter().filter_map(|(_, c)| single(c)).collect()

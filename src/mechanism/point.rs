@@ -36,11 +36,6 @@ impl Point {
         self.values.get(name).cloned().unwrap_or_else(|| Exact::ratio(0, 0))
     }
 
-    /// Whether the point has a value for a name.
-    pub fn has(&self, name: &Symbol) -> bool {
-        self.values.contains_key(name)
-    }
-
     /// A row of coefficients in the order of the rates, `None` where one of them has no exact value here.
     pub(super) fn row(&self, row: &Row, rates: &[Symbol]) -> Option<Vec<BigRational>> {
         rates.iter().map(|r| self.number(&row.coefficient(r))).collect()

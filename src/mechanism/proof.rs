@@ -116,6 +116,36 @@ mod tests {
     }
 
     #[test]
+    fn a_determinant_has_its_sign() {
+        let matrix = |rows: [&str; 3]| -> Vec<Vec<Expr>> {
+            rows.iter().map(|r| r.split(' ').map(|c| Expr::parse(c).unwrap()).collect()).collect()
+        };
+        assert_eq!(determinant(&matrix(["a 0 0", "0 b 0", "0 0 c"])).tidy().to_string(), "a*b*c");
+        assert_eq!(determinant(&matrix(["0 a 0", "b 0 0", "0 0 c"])).tidy().to_string(), "-a*b*c");
+        assert_eq!(
+            determinant(&matrix(["1 2 3", "4 5 6", "7 8 10"])).tidy().as_number(),
+            Some(BigRational::from_integer((-3).into()))
+        );
+    }
+
+    /// Each further row makes a determinant longer by its size.
+    #[test]
+    fn six_rows_are_too_many_to_write_out() {
+        let coordinates: Vec<Symbol> = (0..7).map(|i| Symbol::new(&format!("q_{i}"))).collect();
+        let fixed = |q: &Symbol| {
+            let mut row = Row::default();
+            row.add(q.rate(), &Expr::int(1));
+            row
+        };
+        let rows: Vec<Row> = coordinates.iter().map(fixed).collect();
+        let sample = Sample::at(Point::default(), &coordinates, Vec::new(), &mut Samples::of(std::iter::empty()));
+        let first = Expr::sym("q_0");
+        let samples = [sample];
+        assert!(follows(&first, &rows[..5], &coordinates, &samples));
+        assert!(!follows(&first, &rows[..6], &coordinates, &samples));
+    }
+
+    #[test]
     fn an_angle_is_written_by_its_half() {
         let text = |value: &Exact| written(value).map(|e| e.to_string());
         assert_eq!(text(&Exact::ratio(3, 4)).as_deref(), Some("0.75"));

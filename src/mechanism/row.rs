@@ -95,18 +95,7 @@ impl Row {
 
     /// The row as a formula.
     pub fn expr(&self) -> Expr {
-        self.terms.iter().fold(Expr::int(0), |sum, (rate, c)| match signed(c) {
-            (true, size) => &sum - &(&size * &Expr::sym(rate.clone())),
-            (false, size) => &sum + &(&size * &Expr::sym(rate.clone())),
-        })
-    }
-}
-
-/// Whether an expression is written with a minus in front, and what stands behind it.
-fn signed(c: &Expr) -> (bool, Expr) {
-    match c.node() {
-        crate::formula::Node::Neg(inner) => (true, inner.clone()),
-        _ => (false, c.clone()),
+        self.terms.iter().fold(Expr::int(0), |sum, (rate, c)| &sum + &(c * &Expr::sym(rate.clone())))
     }
 }
 

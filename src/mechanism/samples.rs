@@ -53,3 +53,22 @@ impl Samples {
         point
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_traits::{Signed, Zero};
+
+    #[test]
+    fn angles_turn_to_both_sides_and_are_no_multiple_of_a_right_angle() {
+        let mut samples = Samples::of(std::iter::empty());
+        let mut right = 0;
+        for _ in 0..4000 {
+            let angle = samples.angle();
+            let (x, y) = angle.as_direction().unwrap();
+            assert!(!x.is_zero() && !y.is_zero(), "{angle}");
+            right += usize::from(y.is_negative());
+        }
+        assert!((1000..3000).contains(&right), "{right}");
+    }
+}

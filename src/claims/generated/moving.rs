@@ -99,10 +99,7 @@ impl Moving {
 
 /// Velocity of a wheel's axis along the wheel and to its left, for a twist of the body.
 fn seen_from(wheel: &Placed, at: &Point, [v_l, v_t, yaw]: &[Exact; 3]) -> Pair {
-    let heading = match &wheel.facing {
-        Facing::Fixed(heading) => heading.clone(),
-        _ => wheel.angle().map_or_else(|| Exact::ratio(0, 1), |angle| at.value(&angle)),
-    };
+    let heading = wheel.angle().map_or_else(|| Exact::ratio(0, 1), |angle| at.value(&angle));
     let velocity = plus(&[v_l.clone(), v_t.clone()], &times(yaw, &left_of(&wheel.place)));
     let forward = toward(&heading);
     [dot(&velocity, &forward), dot(&velocity, &left_of(&forward))]

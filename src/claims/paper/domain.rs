@@ -69,3 +69,44 @@ fn same_zeros(a: &Expr, b: &Expr) -> bool {
     let number = |e: &Expr| e.tidy().as_number().is_some_and(|v| !num_traits::Zero::is_zero(&v));
     quotient.is_defined() && number(&quotient.numerator()) && number(&quotient.denominator())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn statement(left: &str, right: &str) -> Statement {
+        Statement::parse(&[(left, right)]).unwrap()
+    }
+
+    #[test]
+    fn a_formula_divides_by_denominators_and_where_functions_have_poles() {
+        for (formula, wanted) in [
+            ("u/v + w", "v"),
+            ("sin(u/v)", "v"),
+            ("cot(u/v)", "v*sin(u/v)"),
+            ("tan(u/v)", "v*cos(u/v)"),
+            ("(u/v)^-2", "v*(u/v)"),
+            ("(u/v)^2", "v"),
+            ("u^0", "1"),
+        ] {
+            assert_eq!(divisors(&Expr::parse(formula).unwrap()).to_string(), wanted, "{formula}");
+        }
+    }
+
+    #[test]
+    fn what_is_undefined_elsewhere_is_told_in_numbers() {
+        let told = |left: &str, right: &str| match undefined_exactly_where(&statement(left, right)) {
+            Outcome::Fails(found) => found.says,
+            other => format!("{other:?}"),
+        };
+        assert!(undefined_exactly_where(&statement("u/v", "v")).holds());
+        assert!(undefined_exactly_where(&statement("tan(x)", "cos(x)")).holds());
+        assert_eq!(told("u/v", "2"), "u/v is undefined, and 2 is 2");
+        assert_eq!(told("u/v", "v*w"), "u/v is 1, and v*w is zero");
+        let nowhere = match defined_everywhere(&statement("y", "u/v")) {
+            Outcome::Fails(found) => found.says,
+            other => format!("{other:?}"),
+        };
+        assert_eq!(nowhere, "u/v is undefined");
+    }
+}

@@ -145,3 +145,16 @@ fn trailers() -> Claim {
         })
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_order_is_read_off_where_a_gap_is_left() {
+        let gap = |size: f64| order(|scale| Ok(vec![1.0, size * scale]), 1.0);
+        assert!(gap(1.0).is_ok() && gap(1e-3).is_ok());
+        assert!(matches!(gap(1e-4), Err(Fault::Outside)));
+        assert!(matches!(order(|scale| Ok(vec![scale.sqrt()]), 1.0), Err(Fault::False(_))));
+    }
+}

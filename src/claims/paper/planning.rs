@@ -81,3 +81,16 @@ fn executed(e_rc: f64, e_tc: f64, (turn, stretch): (f64, f64), c: &[f64]) -> Res
     let path = driven(&wheel, &inputs, &constants, &[0.0, 0.0, turn], &[0.0, 1.5]).map_err(|e| undefined(&e))?;
     Ok((path[1][0], path[1][1]))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rates_that_come_back_to_where_they_began_are_no_plan() {
+        // In the time of 1.5 s once around.
+        let circle = |c_4: f64| planned(0.0, 0.0, (1.0, 1.0), &[0.0, 0.0, 0.0, 0.0, c_4, 0.0, 0.0]);
+        assert!(matches!(circle(std::f64::consts::TAU / 1.5), Err(Fault::Outside)));
+        assert!(circle(0.5).is_ok_and(|(_, stretch)| (0.3..0.7).contains(&stretch)));
+    }
+}

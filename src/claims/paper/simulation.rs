@@ -4,6 +4,7 @@ use crate::claims::driven::{Creep, model, undefined};
 use crate::claims::{
     Claim, Domain, Fault, Machine, Outcome, Sampling, Statement, Status, Verdict, at_points, near, proving, value_said,
 };
+use crate::formula::Symbol;
 use crate::model::{Model, Trailer};
 use crate::motion::{Reading, fig7_case, fig7_path};
 use proptest::prelude::*;
@@ -92,15 +93,20 @@ fn energy_rule() -> Claim {
         )
 }
 
-/// A vehicle with masses, inertias, creeps, a configuration and inputs.
+/// A vehicle with creeps, a configuration, inputs and an energy.
 #[derive(Clone, Debug)]
 struct Bodies {
     vehicle: usize,
-    trailers: Vec<(f64, f64)>,
-    creep: Vec<f64>,
+    /// Of the wheels, of the axle, and of the left wheel where it has its own.
+    creep: [f64; 3],
+    /// Bar, hitch and creep of each trailer.
+    trailers: Vec<(f64, f64, f64)>,
+    /// Of the body and of the trailers.
     angles: Vec<f64>,
-    inputs: Vec<f64>,
-    masses: Vec<f64>,
+    /// Values of inputs that are rates, and of those that are angles.
+    inputs: [(f64, f64); 2],
+    /// Linear forms of all rates.
+    energy: Vec<Vec<f64>>,
 }
 
 const VEHICLES: [(&str, &[(&str, f64)]); 4] = [
@@ -111,81 +117,76 @@ const VEHICLES: [(&str, &[(&str, f64)]); 4] = [
 ];
 
 fn bodies() -> impl Strategy<Value = Bodies> {
-    let list = |n| prop::collection::vec(-0.4..0.4f64, n);
-    let trailers = prop::collection::vec((0.5..2.0f64, -0.3..0.3f64), 0..=3);
-    let masses = prop::collection::vec(0.2..3.0f64, 16);
-    (0..VEHICLES.len(), trailers, list(6), list(5), list(2), masses).prop_map(
-        |(vehicle, trailers, creep, angles, inputs, masses)| Bodies {
+    let small = || -0.4..0.4f64;
+    let trailers = prop::collection::vec((0.5..2.0f64, -0.3..0.3f64, small()), 0..=3);
+    let inputs = (1.6..2.4f64, small());
+    // Three coordinates, three trailers, two inputs.
+    let form = prop::collection::vec(-1.0..1.0f64, 8);
+    let made = (prop::array::uniform3(small()), trailers, prop::collection::vec(small(), 4));
+    (0..VEHICLES.len(), made, [inputs.clone(), inputs], prop::collection::vec(form, 3)).prop_map(
+        |(vehicle, (creep, trailers, angles), inputs, energy)| Bodies {
             vehicle,
-            trailers,
             creep,
+            trailers,
             angles,
             inputs,
-            masses,
+            energy,
         },
     )
 }
 
 impl Bodies {
     fn shown(&self) -> Vec<(String, String)> {
-        let list = |name: &str, v: &[f64]| (name.to_string(), format!("{v:?}"));
         vec![
             ("vehicle".into(), VEHICLES[self.vehicle].0.into()),
+            ("creeps".into(), format!("{:?}", self.creep)),
             ("trailers".into(), format!("{:?}", self.trailers)),
-            list("creeps", &self.creep),
-            list("angles", &self.angles),
-            list("inputs", &self.inputs),
-            list("masses and inertias", &self.masses),
+            ("angles".into(), format!("{:?}", self.angles)),
+            ("inputs".into(), format!("{:?}", self.inputs)),
+            ("energy".into(), format!("{:?}", self.energy)),
         ]
     }
 
-    /// The vehicle with its creeps times a factor.
-    fn model(&self, factor: f64) -> crate::Result<Model> {
-        let (vehicle, parameters) = VEHICLES[self.vehicle];
-        let trailers: Vec<Trailer> = self.trailers.iter().map(|&(length, hitch)| Trailer { length, hitch }).collect();
-        let mut creeps: Vec<Creep> = vec![
-            ("rotation-creep", None, vec![factor * self.creep[0]]),
-            ("traverse-creep", None, vec![factor * self.creep[1]]),
-        ];
-        if vehicle == "differential-drive" {
-            creeps[0] = ("unequal-rotation-creep", None, vec![factor * self.creep[0], factor * self.creep[2]]);
-        }
-        let of_trailer = |i: usize| ("trailer-traverse-creep", Some(i), vec![factor * self.creep[2 + i]]);
-        creeps.extend((1..=trailers.len()).map(of_trailer));
-        model(vehicle, parameters, &trailers, &creeps)
+    fn creeps(&self) -> Vec<Creep> {
+        let [all, across, left] = self.creep;
+        let along: Creep = match VEHICLES[self.vehicle].0 {
+            "differential-drive" => ("unequal-rotation-creep", None, vec![all, left]),
+            _ => ("rotation-creep", None, vec![all]),
+        };
+        let of_trailers = (1..).zip(&self.trailers).map(|(i, t)| ("trailer-traverse-creep", Some(i), vec![t.2]));
+        [along, ("traverse-creep", None, vec![across])].into_iter().chain(of_trailers).collect()
     }
 
-    /// Σ m·|v|² + I·φ̇² over bodies and J·ω² over driven wheels, the inputs that are rates times λ.
+    fn model(&self, creeps: &[Creep]) -> Result<Model, Fault> {
+        let (vehicle, parameters) = VEHICLES[self.vehicle];
+        let trailers: Vec<Trailer> =
+            self.trailers.iter().map(|&(length, hitch, _)| Trailer { length, hitch }).collect();
+        model(vehicle, parameters, &trailers, creeps).map_err(|e| undefined(&e))
+    }
+
+    /// The energy with the inputs that are rates times λ.
+    ///
+    /// Whatever turns and moves with the vehicle has velocities that are linear in its rates, so any kinetic energy is
+    /// a sum of squares of linear forms; here the forms themselves are generated.
     fn energy(&self, model: &Model, lambda: f64) -> Result<f64, Fault> {
         let equations = model.equations(&[]).map_err(|e| undefined(&e))?;
         let mut w = equations.workspace(&[]);
         let mut z = vec![0.0; equations.n()];
         z[2..].iter_mut().zip(&self.angles).for_each(|(q, a)| *q = *a);
-        let value = |(i, name): (usize, &crate::formula::Symbol)| {
-            let is_rate = model.vehicle.inputs.get(name.as_str()).is_some_and(|input| input.unit == "rad/s");
-            if is_rate { lambda * (2.0 + self.inputs[i]) } else { self.inputs[i] }
-        };
-        let u: Vec<f64> = equations.inputs.iter().enumerate().map(value).collect();
+        let is_rate =
+            |name: &Symbol| model.vehicle.inputs.get(name.as_str()).is_some_and(|input| input.unit == "rad/s");
+        let value = |(name, (rate, angle)): (&Symbol, &(f64, f64))| if is_rate(name) { lambda * rate } else { *angle };
+        let u: Vec<f64> = equations.inputs.iter().zip(&self.inputs).map(value).collect();
         let mut rates = vec![0.0; equations.n()];
         equations.rates(&mut w, &z, &u, &mut rates);
-        let mut mass = self.masses.iter();
-        let mut next = || mass.next().copied().unwrap_or(1.0);
-        let (mut vx, mut vy, mut heading, mut turn) = (rates[0], rates[1], z[2], rates[2]);
-        let mut energy = next() * (vx * vx + vy * vy) + next() * turn * turn;
-        for (i, (length, hitch)) in self.trailers.iter().enumerate() {
-            // Back to the hitch along the body ahead, back to the axle along the trailer.
-            (vx, vy) = (vx + hitch * turn * heading.sin(), vy - hitch * turn * heading.cos());
-            (heading, turn) = (z[3 + i], rates[3 + i]);
-            (vx, vy) = (vx + length * turn * heading.sin(), vy - length * turn * heading.cos());
-            energy += next() * (vx * vx + vy * vy) + next() * turn * turn;
-        }
-        let wheels = equations.inputs.iter().zip(&u).filter(|(name, _)| name.as_str().starts_with("wheel_rate"));
-        Ok(wheels.fold(energy, |e, (_, rate)| e + next() * rate * rate))
+        rates.extend(equations.inputs.iter().zip(&u).filter(|(name, _)| is_rate(name)).map(|(_, u)| u));
+        let square = |form: &Vec<f64>| form.iter().zip(&rates).map(|(c, v)| c * v).sum::<f64>().powi(2);
+        Ok(self.energy.iter().map(square).sum())
     }
 }
 
 fn scaled_energy(s: &Statement, b: &Bodies) -> Verdict {
-    let (ideal, crept) = (b.model(0.0).map_err(|e| undefined(&e))?, b.model(1.0).map_err(|e| undefined(&e))?);
+    let (ideal, crept) = (b.model(&[])?, b.model(&b.creeps())?);
     let (e_ideal, e_crept) = (b.energy(&ideal, 1.0)?, b.energy(&crept, 1.0)?);
     let at = |name: &str| match name {
         "E_ideal" => Some(e_ideal),
@@ -193,7 +194,7 @@ fn scaled_energy(s: &Statement, b: &Bodies) -> Verdict {
         _ => None,
     };
     let lambda = value_said(s, "lambda", &at)?;
-    if lambda <= 0.0 {
+    if lambda.is_sign_negative() {
         return Err(Fault::False("the vehicle would drive backwards".into()));
     }
     near("the energy", b.energy(&crept, lambda)?, e_ideal, 1e-10)

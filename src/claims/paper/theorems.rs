@@ -146,7 +146,6 @@ fn passive_formula() -> Option<Expr> {
     let mounted = Definition { formula: Expr::sym("as_mounted"), unit: "rad".into(), meaning: "of the wheel".into() };
     vehicle.define.insert("mu".into(), mounted);
     vehicle.wheels.push(Wheel {
-        name: "further wheel".into(),
         forward: Expr::sym("h"),
         left: Expr::sym("b"),
         steering: Some("mu".into()),
@@ -257,8 +256,8 @@ fn forms(s: &Statement, _: &Sampling) -> Outcome {
 fn forms_of(s: &Statement, n: usize) -> Verdict {
     let car = super::structure::described("kinematic-car").ok_or(Fault::Outside)?;
     let constraints = mechanism(car, n).constraints;
-    let k = constraints.iter().filter(|c| c.letter() == 'R').count();
-    for (name, found) in [("k", k), ("m", constraints.len() - k)] {
+    for (name, letter) in [("k", 'R'), ("m", 'T')] {
+        let found = constraints.iter().filter(|c| c.letter() == letter).count();
         let said = s.said_of(name).and_then(|e| e.eval(&|_: &Symbol| n as f64));
         if said != Some(found as f64) {
             return Err(Fault::False(format!("{name} is {found}, the statement says otherwise")));

@@ -153,6 +153,16 @@ fn the_vehicles_of_the_catalogue_pass_the_checks_of_a_users_own() {
     }
 }
 
+#[test]
+fn the_vehicle_of_the_readme_is_a_car() {
+    let readme = include_str!("../README.md");
+    let start = readme.find("[[vehicle]] ").unwrap();
+    let text = &readme[start..start + readme[start..].find("```").unwrap()];
+    let scooter = read(text.as_bytes()).unwrap().pop().unwrap();
+    let rows = |v: &Vehicle| Model::sample(v).unwrap().constraints().iter().map(|c| c.row()).collect::<Vec<_>>();
+    assert_eq!((scooter.id.as_str(), rows(&scooter)), ("scooter", rows(vehicles::named("car").unwrap())));
+}
+
 fn bus() -> Vehicle {
     vehicles_with_own(BUS).unwrap().into_iter().find(|v| v.id == "articulated-bus").unwrap()
 }

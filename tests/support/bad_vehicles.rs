@@ -788,7 +788,7 @@ pub const BAD_CONSTRAINTS: &[Case] = &[
     case(
         "creep taken",
         &[("creep = \"e_rc\"", "creep = \"b\"")],
-        "40:9: the coefficient b is also a declared name; give it a name of its own, such as e_b",
+        "41:1: the form of type cable is not linear in its coefficient; write it with e as a factor, such as 1 - e",
     ),
     case(
         "creep coordinate",
@@ -835,7 +835,7 @@ pub const BAD_CONSTRAINTS: &[Case] = &[
                 "slots = { \"q'\" = \"theta'\", sigma = \"b\" }\n",
             ),
         ],
-        "41:1: the slot pi' of type rolling is missing; write \"pi'\" = \"…\" in slots, quasi-velocity: speed of the contact along the wheel, m/s",
+        "41:1: the slot pi' of type rolling is missing; write \"pi'\" = \"…\" in slots, quasi-velocity: speed of the contact along the wheel",
     ),
     case(
         "slot unknown",

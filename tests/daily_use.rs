@@ -43,7 +43,7 @@ fn a_file_to_begin_with_is_valid_for_every_vehicle() {
         }
         if vehicle.pulls() {
             let tractor = Some(vehicle.id.clone());
-            let train = Wanted { vehicle: "n-trailer".into(), tractor, trailers: Some(2), log: None };
+            let train = Wanted { vehicle: "n-trailer".into(), tractor, trailers: Some(2), ..Wanted::default() };
             let file = parsed(&Starter::new(&train).unwrap());
             assert_eq!((file.trailer_lengths.len(), file.tractor.as_deref()), (2, Some(vehicle.id.as_str())));
             Model::check_motion(&file).unwrap();
@@ -64,6 +64,17 @@ fn columns_are_found_whatever_they_are_called() {
     let starter = Starter::new(&Wanted { vehicle: "car".into(), log, ..Wanted::default() }).unwrap();
     parsed(&starter);
     assert_eq!(starter.missing, ["time", "x", "y", "steering_angle", "wheel_rate"]);
+    let file = |name: &str, columns: &[&str]| Some((name.to_string(), columns.iter().map(|c| c.to_string()).collect()));
+    let starter = Starter::new(&Wanted {
+        vehicle: "unicycle".into(),
+        log: file("in.csv", &["Time", "speed", "gyro_z"]),
+        truth: file("pose.csv", &["stamp", "px", "py", "theta"]),
+        ..Wanted::default()
+    });
+    let starter = starter.unwrap();
+    let columns = parsed(&starter).columns;
+    assert_eq!((columns.time.as_str(), columns.truth_time.as_deref()), ("Time", Some("stamp")));
+    assert_eq!((columns.y.as_str(), columns.heading.as_deref(), starter.missing.len()), ("py", Some("theta"), 0));
 }
 
 #[test]
@@ -233,6 +244,9 @@ fn check_answers_scripts_and_people() {
     assert!(json.status.success(), "{}", text(&json.stderr));
     let found: Check = serde_json::from_slice(&json.stdout).unwrap();
     assert_eq!((found.schema, found.verdict), (1, Standing::Identifiable), "{}", found.summary);
+    let driven = &found.data.runs[0];
+    assert!(driven.left > 0.2 && driven.right > 0.2 && driven.left + driven.right <= 1.0, "{driven:?}");
+    assert!(driven.standing == 0.0 && driven.backwards == 0.0 && (driven.way_ratio.unwrap() - 1.0).abs() < 0.01);
     assert!(found.effects.iter().all(|e| e.seen == Seen::Yes && e.parameters.values().any(|p| p.std.is_some())));
     let people = creepage(folder.path(), &["check", &run, "--model", &model]);
     let page = text(&people.stdout);

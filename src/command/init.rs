@@ -13,6 +13,7 @@ use std::path::PathBuf;
 Examples:
   creepage init differential-drive --from RUN.csv
   creepage init unicycle --from examples/runs/cornering/eights.csv --out model.toml
+  creepage init unicycle --from INPUTS.csv --truth POSES.csv
   creepage init n-trailer --tractor car --trailers 2 --out truck.toml
 
 The file is valid at once: parameters are placeholders with unit and meaning, columns are those of RUN.csv that the
@@ -27,6 +28,9 @@ pub struct Arguments {
     /// A log whose columns are matched with what the vehicle needs
     #[arg(long, value_name = "RUN.csv")]
     from: Option<PathBuf>,
+    /// A file of poses, where they are not in the log
+    #[arg(long, value_name = "POSE.csv", requires = "from")]
+    truth: Option<PathBuf>,
     /// The vehicle in front of trailers [default: car]
     #[arg(long, value_name = "VEHICLE")]
     tractor: Option<String>,
@@ -40,12 +44,15 @@ pub struct Arguments {
 
 /// Carries out the command.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
-    let log = arguments.from.as_ref().map(|path| Ok((path.display().to_string(), read_header(path)?))).transpose()?;
+    let read = |path: &PathBuf| Ok((path.display().to_string(), read_header(path)?));
+    let log = arguments.from.as_ref().map(read).transpose()?;
+    let truth = arguments.truth.as_ref().map(read).transpose()?;
     let starter = Starter::new(&Wanted {
         vehicle: arguments.vehicle.clone(),
         tractor: arguments.tractor.clone(),
         trailers: arguments.trailers.map(usize::from),
         log,
+        truth,
     })?;
     // What is written must be readable, whatever the columns are called.
     ModelFile::parse(&starter.text, &arguments.out, &model::known(effects::all()))?;
@@ -73,5 +80,6 @@ fn screen(starter: &Starter, arguments: &Arguments) -> String {
         text += &format!("  name under [columns]: {}\n", starter.missing.join(", "));
     }
     let run = arguments.from.as_ref().map_or("RUN.csv".into(), |p| p.display().to_string());
-    text + &format!("next: creepage check {run} --model {}\n", arguments.out.display())
+    let truth = arguments.truth.as_ref().map_or(String::new(), |p| format!(" --truth {}", p.display()));
+    text + &format!("next: creepage check {run}{truth} --model {}\n", arguments.out.display())
 }

@@ -88,22 +88,26 @@ impl Problem {
             let whole = self.plan.iter().zip(linear);
             return whole.map(|(s, windows)| Block { fold: s.record, windows: windows.clone() }).collect();
         }
-        let windows: usize = linear.iter().map(Vec::len).sum();
-        let size = (windows / (2 * FOLDS)).clamp(1, BLOCK);
-        let loose = |block: &[Linear]| {
-            let mut block = block.to_vec();
-            if let Some(last) = block.last_mut() {
-                last.back = None;
-            }
-            block
-        };
-        let pieces = linear.iter().flat_map(|windows| windows.chunks(size).map(loose));
-        pieces.enumerate().map(|(i, windows)| Block { fold: i % FOLDS, windows }).collect()
+        loose(linear).into_iter().enumerate().map(|(i, windows)| Block { fold: i % FOLDS, windows }).collect()
     }
 }
 
 /// Windows, segment by segment.
-type Along = Vec<Vec<Linear>>;
+pub(super) type Along = Vec<Vec<Linear>>;
+
+/// Blocks of neighbouring windows, cut loose from one another.
+pub(super) fn loose(linear: &Along) -> Along {
+    let windows: usize = linear.iter().map(Vec::len).sum();
+    let size = (windows / (2 * FOLDS)).clamp(1, BLOCK);
+    let cut = |block: &[Linear]| {
+        let mut block = block.to_vec();
+        if let Some(last) = block.last_mut() {
+            last.back = None;
+        }
+        block
+    };
+    linear.iter().flat_map(|windows| windows.chunks(size).map(cut)).collect()
+}
 
 fn total(gains: &[f64]) -> f64 {
     gains.iter().sum()

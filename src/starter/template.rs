@@ -18,6 +18,8 @@ pub struct Wanted {
     pub trailers: Option<usize>,
     /// Name and columns of a log.
     pub log: Option<(String, Vec<String>)>,
+    /// Name and columns of a file of poses, where they are not in the log.
+    pub truth: Option<(String, Vec<String>)>,
 }
 
 /// A model file to begin with.
@@ -31,10 +33,14 @@ pub struct Starter {
     pub missing: Vec<String>,
     /// Parameters whose values are placeholders.
     pub placeholders: Vec<String>,
+    /// The line of the poses' own time.
+    truth_time: String,
 }
 
 /// Placeholders of the parameters that most vehicles share, in SI units; any other is one, an offset zero.
 const USUAL: [(&str, f64); 3] = [("wheel_radius", 0.1), ("track_width", 0.4), ("wheelbase", 0.5)];
+/// Roles of time and pose, the first ones.
+const POSE: usize = 4;
 /// Most trailers of a file to begin with.
 const MOST_TRAILERS: usize = 100;
 
@@ -59,7 +65,13 @@ impl Starter {
             return Err(Error::input(format!("{trailers} trailers are too many to begin with"))
                 .help(format!("give at most {MOST_TRAILERS}, and add lengths to the file")));
         }
-        let mut starter = Self { text: String::new(), found: vec![], missing: vec![], placeholders: vec![] };
+        let mut starter = Self {
+            text: String::new(),
+            found: vec![],
+            missing: vec![],
+            placeholders: vec![],
+            truth_time: String::new(),
+        };
         starter.head(wanted, vehicle, trailers);
         starter.parameters(vehicle, trailers);
         starter.columns(wanted, vehicle, trailers);
@@ -119,17 +131,31 @@ impl Starter {
         let described = roles(vehicle);
         let names: Vec<String> = described.iter().map(|r| r.name.clone()).collect();
         let header = wanted.log.as_ref().map(|(_, header)| header.as_slice());
+        let poses = wanted.truth.as_ref().map(|(_, header)| header.as_slice());
         let stands: Vec<(String, String)> =
             described.iter().filter_map(|r| r.instead_of.clone().map(|of| (of, r.name.clone()))).collect();
-        let matches = matched(&names, &stands, header.unwrap_or(&[]));
+        let mut matches = matched(&names, &stands, header.unwrap_or(&[]));
+        if let Some(poses) = poses {
+            let own = matched(&names[..POSE], &[], poses);
+            matches[1..POSE].clone_from_slice(&own[1..]);
+            self.truth_time(&own[0], &matches[0]);
+        }
         self.line("\n[columns]                         # role = name of the column; a role left out is looked for by its own name");
         if let Some((name, header)) = &wanted.log {
             self.line(&format!("# columns of {}: {}", plain(name), listed(header)));
         }
+        if let Some((name, header)) = &wanted.truth {
+            self.line(&format!("# columns of {}: {}", plain(name), listed(header)));
+        }
+        let known = |i: usize| if (1..POSE).contains(&i) { poses.or(header).is_some() } else { header.is_some() };
         let has = |role: &str| matches.iter().any(|m| m.role == role && m.column.is_some());
-        for (role, m) in described.iter().zip(&matches) {
+        for (i, (role, m)) in described.iter().zip(&matches).enumerate() {
             let replaced = stands.iter().any(|(a, b)| (a == &role.name && has(b)) || (b == &role.name && has(a)));
-            self.column(role, m, header.is_some(), replaced);
+            self.column(role, m, known(i), replaced);
+            if i == 0 {
+                let line = std::mem::take(&mut self.truth_time);
+                self.text.push_str(&line);
+            }
         }
         if trailers > 0 {
             let names: Vec<String> = (1..=trailers).map(|i| format!("\"phi_{i}\"")).collect();
@@ -137,6 +163,15 @@ impl Starter {
                 &format!("# trailer_headings = [{}]", names.join(", ")),
                 "rad; measured absolute headings, all of them or none",
             );
+        }
+    }
+
+    /// The time of the poses, where it is called otherwise than that of the inputs.
+    fn truth_time(&mut self, own: &Match, inputs: &Match) {
+        if let Some(column) = own.column.as_ref().filter(|c| inputs.column.as_ref() != Some(c)) {
+            self.found.push(("truth_time".into(), column.clone()));
+            let entry = format!("truth_time = {}", quoted(column));
+            self.truth_time = format!("{entry:<33} # s; time in the file of poses\n");
         }
     }
 

@@ -6,10 +6,13 @@
 //!
 //! gain(s) = min over jumps of D(noise + J·s) − D(noise),
 //!
-//! in expectation over the noise. Along a run a constant creep is half imitated by a random walk, and gains far less than λ.
+//! in expectation over the noise. Along a run a constant creep is half imitated by a random walk, and gains far less than
+//! λ; and as `discover` names only what predicts blocks of windows (or runs) that were left out, it is counted block by block.
 
 use super::information::Driven;
 use crate::discrepancy::chain::{Variances, eliminate};
+use crate::discrepancy::crossval::loose;
+use crate::discrepancy::fit::FEWEST_RUNS;
 use crate::discrepancy::variances::{self, Free};
 use crate::discrepancy::windows::{Linear, linearise};
 use crate::effects::Applied;
@@ -53,7 +56,9 @@ impl Driven {
             e.parameters().iter().filter_map(|s| free.iter().position(|f| f == s)).collect()
         };
         let columns = effects.iter().map(position).collect();
-        Ok(linear.map(|windows| Marks { windows, columns, parameters: free.len() }))
+        // Of fewer runs blocks of windows must be predicted better: what shows over a whole run only is not named.
+        let cut = |linear| if self.records.len() < FEWEST_RUNS { loose(&linear) } else { linear };
+        Ok(linear.map(|linear| Marks { windows: cut(linear), columns, parameters: free.len() }))
     }
 }
 

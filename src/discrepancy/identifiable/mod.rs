@@ -5,7 +5,7 @@
 //! |---|---|
 //! | information of effects | I = Σ JᵀJ over the rows, poses and jumps eliminated, at the neutral value |
 //! | deviation of a value | √(τ·(I⁻¹)ᵢᵢ), I restricted to the effect, τ the rows and windows in a row that are alike |
-//! | gain of naming an effect of size s | min over jumps of D(noise + J·s) − D(noise), over τ: jumps are what it is mistaken for |
+//! | gain of naming an effect of size s | min over jumps of D(noise + J·s) − D(noise), over τ, block by block: jumps are what it is mistaken for |
 //! | what is seen | √gain > √(k·ln n + 2·ln M) + 1.645: with 95 % the effect passes the bar that `discover` sets for one of M |
 //! | misfit of b where a is fitted | sᵀ(I_bb − I_ba·I_aa⁻¹·I_ab)s/τ: what tells a from b |
 //!

@@ -105,7 +105,8 @@ impl Model {
         for target in TARGETS.iter().filter(|t| !self.vehicle.holds(&t.definition.into())) {
             let symbols = Symbols::of(target, &definitions);
             // What does not move has no speed for a term.
-            let moves = |factors: &[&Factor; 2]| !self.vehicle.stays() || factors.iter().all(|f| !f.formula.contains('v'));
+            let moves =
+                |factors: &[&Factor; 2]| !self.vehicle.stays() || factors.iter().all(|f| !f.formula.contains('v'));
             found.extend(products().filter(moves).map(|factors| term(target, &factors, &symbols, &bare)));
         }
         if self.vehicle.inputs.contains_key("steering_angle") {

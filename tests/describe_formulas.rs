@@ -260,7 +260,7 @@ fn the_catalogues_parse_and_hold_these_entries() {
     let ids: Vec<&str> = vehicles::all().iter().map(|v| v.id.as_str()).collect();
     let first = ["unicycle", "differential-drive", "car", "four-wheel-car", "tricycle"];
     let later = ["disk", "sleigh", "hopper", "differential-drive-castor", "synchro-drive", "skid-steer"];
-    assert_eq!(ids, [first, later].concat());
+    assert_eq!(ids, first.into_iter().chain(later).collect::<Vec<_>>());
     let ids: Vec<&str> = effects::all().iter().map(|e| e.id.as_str()).collect();
     let expected = [
         "rotation-creep",

@@ -99,7 +99,7 @@ fn it_is_described_in_every_format() {
     ] {
         assert!(text.contains(said), "{said}\n{text}");
     }
-    assert!(run(&["--format", "latex"]).contains(r"\dot{\psi} = -\frac{"));
+    assert!(run(&["--format", "latex"]).contains(r"\dot{\psi} &= -\frac{"));
     let json: serde_json::Value = serde_json::from_str(&run(&["--format", "json"])).unwrap();
     assert_eq!(json["constraints_by_form"]["s"], 1);
     assert_eq!(json["structure"]["holonomy"]["growth_vector"], serde_json::json!([2, 3]));

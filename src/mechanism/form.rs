@@ -1,6 +1,7 @@
 //! A generic form with its slots filled in.
 
 use super::constraint_type::COEFFICIENT;
+use super::vanish::vanishes;
 use super::{ConstraintType, Part, Row};
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
@@ -100,11 +101,9 @@ impl Form {
     }
 }
 
-/// Whether a row is linear in its coefficient: its second difference vanishes.
+/// Whether a row is linear in its coefficient: its second derivative vanishes.
 fn is_linear(row: &Row, creep: &Symbol) -> bool {
-    let at = |e: i64| row.substitute(&|s| (s == creep).then(|| Expr::int(e)));
-    let bent = at(0).plus(&Expr::int(-2), &at(1)).plus(&Expr::int(1), &at(2));
-    row.terms().iter().all(|(_, c)| !c.mentions(creep)) || bent.terms().is_empty()
+    row.terms().iter().all(|(_, c)| !c.mentions(creep) || vanishes(&c.derivative(creep).derivative(creep)))
 }
 
 /// The slots of a type with what is given for them, in the order of print.

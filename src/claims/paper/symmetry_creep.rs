@@ -114,7 +114,7 @@ fn coefficient() -> Claim {
     )
 }
 
-/// A momentum under drag, with where the motion began, and the coefficient it gives.
+/// A momentum under drag, with where the motion began, and the coefficient it gives; M is m·(l + d)².
 fn creeping() -> Machine {
     let memory = drag(AIR).and_then(|d| d.memory(&["l".into()])).unwrap_or_default();
     let began = memory.substitute(&|s| match s.as_str() {
@@ -124,15 +124,16 @@ fn creeping() -> Machine {
     });
     Machine::default()
         .with("p", &began - &memory)
-        .with_text("e", "p/(m*(l + d)^2*theta')")
+        .with_text("e", "p/(M*theta')")
         .with("p_other", -&memory)
-        .with_text("e_other", "p_other/(m*(l + d)^2*theta')")
+        .with_text("e_other", "p_other/(M*theta')")
 }
 
 fn creep() -> Claim {
-    let resting = creeping().with_text("theta'", "0");
-    let names = ["psi", "theta", "psi_0", "theta_0", "l", "c_b", "c_l"].map(|n| (n, Domain::Any));
-    let names: Vec<_> = names.into_iter().chain([("m", Domain::Positive), ("d", Domain::Positive)]).collect();
+    // One state is enough for a counterexample, ψ = θ = 0.
+    let state = || creeping().with_text("psi", "0").with_text("theta", "0");
+    let resting = state().with_text("theta'", "0");
+    let names = ["psi_0", "theta_0", "c_b", "c_l", "M"].map(|n| (n, Domain::Positive));
     let at_rest = move |s: &Statement, sampling: &Sampling| at_points(&resting, s, &names, sampling);
     // As drag grows the motion is that in which it has nothing to take away.
     let slow = crate::mechanism::solve::together(
@@ -147,7 +148,7 @@ fn creep() -> Claim {
         .under("hopper in flight, drag with constants c_b, c_l > 0 or none")
         .remark(
             "The limit is the opposite one: the constraint is recovered as drag vanishes, not as a viscosity grows. The \
-             violation is a memory integral, p = −c_b·(ψ − ψ₀) − c_l·(ψ + θ − ψ₀ − θ₀), and e = p/(m·(l + d)²·θ̇) no \
+             violation is a memory integral, p = −c_b·(ψ − ψ₀) − c_l·(ψ + θ − ψ₀ − θ₀), and e = p/(M·θ̇), M = m·(l + d)², no \
              constitutive coefficient: it differs between motions through the same state, and has no value at θ̇ = 0.",
         )
         .code(&[DRAG])
@@ -155,18 +156,18 @@ fn creep() -> Claim {
         .refutation(
             "a coefficient e(q, q̇): two motions through the same state that began elsewhere have the same",
             &[("e - e_other", "0")],
-            &[("e - e_other", "(c_b*psi_0 + c_l*(psi_0 + theta_0))/(m*(l + d)^2*theta')")],
-            proving(creeping()),
+            &[("e - e_other", "(c_b*psi_0 + c_l*(psi_0 + theta_0))/(M*theta')")],
+            proving(state()),
         )
         .refutation(
             "a coefficient that gives the momentum in every state: not where the leg stands",
-            &[("p", "e*(m*(l + d)^2*theta')")],
+            &[("p", "e*(M*theta')")],
             &[("p - p_other", "c_b*psi_0 + c_l*(psi_0 + theta_0)")],
             at_rest,
         )
         .refutation(
             "the constraint recovered as the viscosity grows: then body and leg are still to the air on the average",
-            &[("limit", "-m*(l + d)^2/(I + m*(l + d)^2)*theta'")],
+            &[("limit", "-M/(I + M)*theta'")],
             &[("limit", "-c_l/(c_b + c_l)*theta'")],
             proving(viscous),
         )

@@ -75,7 +75,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     drop(progress);
     write(&found, &file, &arguments.out)?;
     if !quiet {
-        print(&screen(&found, &arguments.out));
+        print(&screen(&found, &arguments.out))?;
     }
     Ok(())
 }

@@ -49,20 +49,17 @@ pub fn vehicles(arguments: &Vehicles) -> Result<()> {
     print(&match arguments.format {
         Format::Text => vehicles_text()?,
         Format::Json => pretty(&vehicles_json()?),
-    });
-    Ok(())
+    })
 }
 
 /// Carries out `creepage effects`.
 pub fn effects(arguments: &Effects) -> Result<()> {
     let library = arguments.own.library()?;
     if let Some(vehicle) = &arguments.vehicle {
-        print(&vehicle_effects_text(vehicle, &library)?);
-        return Ok(());
+        return print(&vehicle_effects_text(vehicle, &library)?);
     }
     print(&match arguments.format {
         Format::Text => effects_text(&library)?,
         Format::Json => pretty(&effects_json(&library)?),
-    });
-    Ok(())
+    })
 }

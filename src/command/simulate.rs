@@ -58,14 +58,20 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let signals = Signals::new(&inputs.time, &inputs.columns, file.input_timing.into());
     let start = file.initial.clone().or(inputs.pose).unwrap_or_else(|| at_origin(&file));
     let start: Vec<f64> = [start.x, start.y, start.heading].into_iter().chain(start.trailer_headings).collect();
-    let integrator = Integrator::default().with_tolerance(arguments.rtol, arguments.atol);
+    let max_steps = most_steps(inputs.time.len());
+    let integrator = Integrator { max_steps, ..Integrator::default() }.with_tolerance(arguments.rtol, arguments.atol);
     let table = simulate_model(&model, &signals, &inputs.time, &start, &integrator)?;
     drop(progress);
     write_whole(&arguments.out, csv(&table)?.as_bytes())?;
     if !quiet {
-        print(&format!("{} rows are in {}\n", table.rows(), arguments.out.display()));
+        print(&format!("{} rows are in {}\n", table.rows(), arguments.out.display()))?;
     }
     Ok(())
+}
+
+/// Enough for rows far apart, and an end in seconds for a motion no integrator can follow.
+fn most_steps(rows: usize) -> u32 {
+    u32::try_from(rows).unwrap_or(u32::MAX).saturating_mul(100).saturating_add(1_000_000)
 }
 
 fn at_origin(file: &ModelFile) -> Initial {

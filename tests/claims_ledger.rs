@@ -355,6 +355,14 @@ fn bad_input_is_one_clear_message() {
     told(&entry("status = \"proved\"\nequations = [\"x = sin(\"]"), "claims.toml:4:14: a formula cannot be read");
     told(&entry("status = \"proved\"\nvehicle = \"boat\""), "claims.toml:4:11: no vehicle is called \"boat\"");
     told(&entry("status = \"proved\"\n[[claim]]\nid = \"a\"\nstatus = \"open\""), "two claims are called \"a\"");
+    told(
+        &entry("status = \"proved\"\nvehicle = \"car\"\ntrailers = 100000000000"),
+        "claims.toml:5:12: 100000000000 trailers",
+    );
+    let powers = "status = \"proved\"\nequations = [\"((((2^64)^64)^64)^64)^64 = x\"]";
+    told(&entry(powers), "claims.toml:4:14: the formula has a product of more than 64 factors");
+    let long = format!("status = \"proved\"\nequations = [\"{}x = 1\"]", "x + ".repeat(1000));
+    told(&entry(&long), "claims.toml:4:14: an equation has at most 4000 characters");
     told("[[claim]]\nid = \"eq-21\"\nstatus = \"open\"", "the claim eq-21");
     for arguments in [&["verify", "nothing"][..], &["verify", "--cases", "0"], &["verify", "--seed", "-1"]] {
         let found = creepage(arguments);

@@ -55,8 +55,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     drop(progress);
     let json = || serde_json::to_string_pretty(&answer).map_err(|e| Error::run(format!("no JSON: {e}")));
     match arguments.format {
-        Format::Json => print(&format!("{}\n", json()?)),
-        Format::Text if !quiet => print(&check_text(&answer)),
+        Format::Json => print(&format!("{}\n", json()?))?,
+        Format::Text if !quiet => print(&check_text(&answer))?,
         Format::Text => {}
     }
     Ok(())

@@ -22,6 +22,6 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<()> {
     let mut script = Vec::new();
     generate(arguments.shell, &mut Cli::command(), "creepage", &mut script);
-    print(&String::from_utf8_lossy(&script));
+    print(&String::from_utf8_lossy(&script))?;
     Ok(())
 }

@@ -54,11 +54,11 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let (file, library) = &arguments.own.read(&arguments.model)?;
     let roles: Vec<String> = file.columns.inputs.iter().map(|i| i.role.clone()).collect();
     let limits = CreepLimits { rotation: arguments.rotation_limits, traverse: arguments.traverse_limits };
-    let description = Description::of(&Model::from_file(file, library, &roles)?)?.with_limits(limits);
+    let description = Description::of(&Model::from_file(file, library, &roles)?);
+    let description = description.map_err(|e| e.at_file(&arguments.model))?.with_limits(limits);
     print(&match arguments.format {
         Format::Text => text(&description),
         Format::Latex => latex(&description),
         Format::Json => pretty(&json(&description)),
-    });
-    Ok(())
+    })
 }

@@ -101,8 +101,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     drop(progress);
     write(&found, file, &arguments.out)?;
     match arguments.format {
-        Format::Json => print(&json(&found)?),
-        Format::Text if !quiet => print(&screen(&found, &arguments.out)),
+        Format::Json => print(&json(&found)?)?,
+        Format::Text if !quiet => print(&screen(&found, &arguments.out))?,
         Format::Text => {}
     }
     Ok(())

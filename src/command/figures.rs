@@ -51,8 +51,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     if !quiet {
         let texts: Vec<&str> = drawn.iter().map(|(_, d)| d.text.as_str()).filter(|t| !t.is_empty()).collect();
         let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
-        texts.iter().for_each(|text| print(&format!("{text}\n")));
-        print(&format!("{} are in {}\n", names.join(", "), arguments.out.display()));
+        texts.iter().try_for_each(|text| print(&format!("{text}\n")))?;
+        print(&format!("{} are in {}\n", names.join(", "), arguments.out.display()))?;
     }
     Ok(())
 }

@@ -63,7 +63,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     }
     write_whole(&arguments.out, starter.text.as_bytes())?;
     if !quiet {
-        print(&screen(&starter, arguments));
+        print(&screen(&starter, arguments))?;
     }
     Ok(())
 }

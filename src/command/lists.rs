@@ -57,23 +57,20 @@ pub fn vehicles(arguments: &Vehicles) -> Result<()> {
     print(&match arguments.format {
         Format::Text => vehicles_text(&all)?,
         Format::Json => pretty(&vehicles_json(&all)?),
-    });
-    Ok(())
+    })
 }
 
 /// Carries out `creepage effects`.
 pub fn effects(arguments: &Effects) -> Result<()> {
     let (vehicles, library) = arguments.own.catalogues()?;
     if let Some(vehicle) = &arguments.vehicle {
-        print(&match arguments.format {
+        return print(&match arguments.format {
             Format::Text => vehicle_effects_text(vehicle, &vehicles, &library)?,
             Format::Json => pretty(&vehicle_effects_json(vehicle, &vehicles, &library)?),
         });
-        return Ok(());
     }
     print(&match arguments.format {
         Format::Text => effects_text(&vehicles, &library)?,
         Format::Json => pretty(&effects_json(&vehicles, &library)?),
-    });
-    Ok(())
+    })
 }

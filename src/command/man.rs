@@ -24,7 +24,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let mut all = Cli::command();
     all.build();
     let Some(out) = &arguments.out else {
-        print(&page(all)?);
+        print(&page(all)?)?;
         return Ok(());
     };
     let mut pages = vec![("creepage.1".to_string(), page(all.clone())?)];
@@ -34,7 +34,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let files: Vec<(&str, &[u8])> = pages.iter().map(|(name, text)| (name.as_str(), text.as_bytes())).collect();
     write_all_or_nothing(out, &files)?;
     if !quiet {
-        print(&format!("{} pages are in {}\n", pages.len(), out.display()));
+        print(&format!("{} pages are in {}\n", pages.len(), out.display()))?;
     }
     Ok(())
 }

@@ -62,10 +62,12 @@ impl Cli {
     /// # Errors
     /// With the exit code the contract gives.
     pub fn run(self) -> Result<()> {
-        if let Some(n) = self.common.threads {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(n)).build_global();
-            pool.map_err(|e| Error::run(format!("no threads could be started: {e}")))?;
-        }
+        // Here, where it can be told: threads that cannot be started later would end the process.
+        let threads = self.common.threads.map_or(0, usize::from);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
+        pool.map_err(|e| {
+            Error::run(format!("no threads could be started: {e}")).help("try --threads 1, or end other programs")
+        })?;
         match self.command {
             Command::Init(arguments) => init::run(&arguments, self.common.quiet),
             Command::Check(arguments) => check::run(&arguments, self.common.quiet),
@@ -84,9 +86,14 @@ impl Cli {
     }
 }
 
-/// Writes text to standard output; a reader that has gone away is no error.
-fn print(text: &str) {
-    use std::io::Write;
+/// Writes text to standard output; a reader that has gone away is no error, a full disk behind it is one.
+fn print(text: &str) -> Result<()> {
+    use std::io::{ErrorKind, Write};
     let mut out = std::io::stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => {
+            Err(Error::run(format!("standard output cannot be written: {e}")).help("free space and try again"))
+        }
+        _ => Ok(()),
+    }
 }

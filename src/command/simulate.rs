@@ -62,13 +62,14 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
             let model = Model::from_file(file, library, &inputs.roles)?;
             let (signals, start) = begun(file, &inputs);
             let start: Vec<f64> = [start.x, start.y, start.heading].into_iter().chain(start.trailer_headings).collect();
+            let integrator = Integrator { max_steps: most_steps(inputs.time.len()), ..integrator };
             simulate_model(&model, &signals, &inputs.time, &start, &integrator)?
         }
     };
     drop(progress);
     write_whole(&arguments.out, csv(&table)?.as_bytes())?;
     if !quiet {
-        print(&format!("{} rows are in {}\n", table.rows(), arguments.out.display()));
+        print(&format!("{} rows are in {}\n", table.rows(), arguments.out.display()))?;
     }
     Ok(())
 }
@@ -87,7 +88,18 @@ fn forced(file: &ModelFile, entry: &DynamicsEntry, inputs: &Path, integrator: In
     let (signals, pose) = begun(file, &inputs);
     let method = if dynamics.has_friction() { Method::Radau5 } else { integrator.method };
     let start = Start::from_file(entry, &pose);
-    simulate_dynamics(&dynamics, &signals, &inputs.time, &start, &Integrator { method, ..integrator })
+    simulate_dynamics(
+        &dynamics,
+        &signals,
+        &inputs.time,
+        &start,
+        &Integrator { method, max_steps: most_steps(inputs.time.len()), ..integrator },
+    )
+}
+
+/// Enough for rows far apart, and an end in seconds for a motion no integrator can follow.
+fn most_steps(rows: usize) -> u32 {
+    u32::try_from(rows).unwrap_or(u32::MAX).saturating_mul(100).saturating_add(1_000_000)
 }
 
 fn at_origin(file: &ModelFile) -> Initial {

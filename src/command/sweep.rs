@@ -49,7 +49,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     };
     drop(progress);
     if !quiet {
-        print(&format!("{text} are in {}\n", out.display()));
+        print(&format!("{text} are in {}\n", out.display()))?;
     }
     Ok(())
 }

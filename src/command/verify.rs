@@ -106,7 +106,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
             Format::Text => ledger::text(&made),
             Format::Json => pretty(&ledger::json(&made)),
             Format::Errata => ledger::errata(&made),
-        });
+        })?;
     }
     let unearned: Vec<&str> = made.entries.iter().filter(|e| !e.is_earned()).map(|e| e.claim.id.as_str()).collect();
     match unearned.is_empty() {
@@ -122,6 +122,5 @@ pub fn list(arguments: &List) -> Result<()> {
         ListFormat::Text => ledger::claims_text(&all),
         ListFormat::Json => pretty(&ledger::claims_json(&all)),
         ListFormat::Contents => ledger::contents(&all),
-    });
-    Ok(())
+    })
 }

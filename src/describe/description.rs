@@ -60,12 +60,20 @@ pub struct EffectInModel {
     pub changes: Vec<Equation>,
 }
 
+/// The most trailers that are written out: matrix, derivatives and ranks grow with the cube of their number.
+pub const MOST_TRAILERS: usize = 64;
+
 impl Description {
     /// Derives everything from a model.
     ///
     /// # Errors
-    /// When an effect does not apply, or formulas use each other in a circle.
+    /// When an effect does not apply, formulas use each other in a circle, or there are more than [`MOST_TRAILERS`].
     pub fn of(model: &Model) -> Result<Self> {
+        if model.trailers.len() > MOST_TRAILERS {
+            let found = model.trailers.len();
+            return Err(Error::input(format!("{found} trailers are too many to write out"))
+                .help(format!("describe at most {MOST_TRAILERS}; `creepage simulate` takes more")));
+        }
         let definitions = model.row_definitions()?;
         let plain = Model { effects: vec![], ..model.clone() }.row_definitions()?;
         let undetermined = model.determined().err();

@@ -33,7 +33,7 @@ mod text;
 mod vehicles;
 
 pub use constraint::{ConstraintEntry, Part};
-pub use description::{Description, EffectInModel, Equation};
+pub use description::{Description, EffectInModel, Equation, MOST_TRAILERS};
 pub use effects::{effects_json, effects_text};
 pub use holonomy::Holonomy;
 pub use jacobian::Jacobian;

@@ -2,6 +2,7 @@
 
 use super::bounds::Bounds;
 use super::chain::{Eliminated, Variances, eliminate};
+use super::damped::damped_step;
 use super::problem::Problem;
 use super::variances;
 use super::whiteness;
@@ -262,15 +263,10 @@ fn inverse(information: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     Some(DMatrix::from_fn(scale.len(), scale.len(), |i, j| inverse[(i, j)] * scale[i] * scale[j]))
 }
 
-/// The Levenberg–Marquardt step in the scaling of the information's diagonal.
 fn step(e: &Eliminated, damping: f64) -> Option<DVector<f64>> {
-    let (mut information, gradient) = e.normal();
-    for i in 0..information.nrows() {
-        let d = information[(i, i)];
-        information[(i, i)] = if d > 0.0 { d * (1.0 + damping) } else { 1.0 };
-    }
-    let step = -information.cholesky()?.solve(&gradient);
-    step.iter().all(|x| x.is_finite()).then_some(step)
+    let (information, gradient) = e.normal();
+    let unseen = DVector::zeros(gradient.len());
+    damped_step(information, &gradient, damping, &unseen)
 }
 
 /// What a step gains in deviance if the model is as linear as it looks.

@@ -22,6 +22,7 @@ pub mod choose;
 pub mod clock;
 pub mod course;
 pub mod crossval;
+pub mod damped;
 mod data;
 pub mod discover;
 pub mod envelope;

@@ -1,10 +1,16 @@
 //! A user's own claims: equations of formulas, with what their author thinks is known of them.
 
+use super::formula_text::too_large;
 use super::text::read_text;
 use super::toml_table::{Section, Source, Value};
 use crate::error::{Error, Result};
 use crate::formula::Expr;
 use std::path::Path;
+
+/// The most trailers of a claim: the normal form of longer trains is out of reach in any case.
+const MOST_TRAILERS: usize = 20;
+/// The longest equation, in characters.
+const LONGEST: usize = 4000;
 
 /// A claim as it stands in a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,7 +58,7 @@ fn entry(section: &Section, vehicles: &[&str]) -> Result<ClaimEntry> {
     section.only(&["id", "says", "status", "under", "vehicle", "trailers", "equations", "printed"])?;
     let text = |key: &str| section.get(key).map(|v| v.text().map(str::to_string)).transpose();
     let need = |key: &str, example: &str| section.need(key, example)?.text().map(str::to_string);
-    let trailers = section.get("trailers").map(|v| v.count()).transpose()?.unwrap_or(0);
+    let trailers = section.get("trailers").map(|v| trailers(&v)).transpose()?.unwrap_or(0);
     let vehicle = section.get("vehicle").map(|v| known_vehicle(&v, vehicles)).transpose()?;
     Ok(ClaimEntry {
         id: need("id", "id = \"my-claim\"")?,
@@ -75,6 +81,15 @@ fn status(section: &Section) -> Result<String> {
     }
 }
 
+fn trailers(value: &Value) -> Result<usize> {
+    match value.count()? {
+        n if n <= MOST_TRAILERS => Ok(n),
+        n => Err(value
+            .error(format!("{n} trailers are more than a claim may have"))
+            .help(format!("give at most {MOST_TRAILERS}"))),
+    }
+}
+
 fn known_vehicle(value: &Value, vehicles: &[&str]) -> Result<String> {
     let name = value.text()?;
     match vehicles.contains(&name) {
@@ -92,8 +107,14 @@ fn equation(value: &Value) -> Result<(String, String)> {
     let text = value.text()?;
     let sides = text.split_once('=').filter(|(_, right)| !right.contains('='));
     let (left, right) = sides.ok_or_else(|| value.error("an equation has one =").help("write \"left = right\""))?;
+    if text.len() > LONGEST {
+        return Err(value.error(format!("an equation has at most {LONGEST} characters")).help("write a shorter one"));
+    }
     for side in [left, right] {
-        Expr::parse(side.trim()).map_err(|e| misread(value, &e))?;
+        let formula = Expr::parse(side.trim()).map_err(|e| misread(value, &e))?;
+        if let Some(complaint) = too_large(&formula) {
+            return Err(value.error(complaint).help("write smaller powers"));
+        }
     }
     Ok((left.trim().to_string(), right.trim().to_string()))
 }

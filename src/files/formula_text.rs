@@ -11,6 +11,12 @@ const LONGEST: usize = 400;
 /// The most factors a product of it may have: larger powers of powers fill any memory with exact numbers.
 const MOST_FACTORS: usize = 64;
 
+/// What is wrong with a formula that would fill any memory with exact numbers.
+pub(super) fn too_large(formula: &Expr) -> Option<String> {
+    let degree = Size::of(formula, &|_| Size::SYMBOL).degree;
+    (degree > MOST_FACTORS).then(|| format!("the formula has a product of more than {MOST_FACTORS} factors"))
+}
+
 /// A formula, and where it stands in a file.
 #[derive(Clone, Debug)]
 pub struct FormulaText {
@@ -43,9 +49,8 @@ impl FormulaText {
         let columns = offsets(source.text, value.span(), text).into_iter().map(column).collect();
         let unread = Self { formula: Expr::int(0), text: text.into(), path: source.path.into(), line, columns };
         let formula = Expr::parse(text).map_err(|e| unread.placed(e))?;
-        if Size::of(&formula, &|_| Size::SYMBOL).degree > MOST_FACTORS {
-            let error = unread.error(format!("the formula has a product of more than {MOST_FACTORS} factors"));
-            return Err(error.help("write smaller powers"));
+        if let Some(complaint) = too_large(&formula) {
+            return Err(unread.error(complaint).help("write smaller powers"));
         }
         Ok(Self { formula, ..unread })
     }

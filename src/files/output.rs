@@ -113,8 +113,14 @@ fn target(path: &Path) -> Result<PathBuf> {
         }
         Ok(_) => Ok(fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf())),
         Err(_) if path.file_name().is_none() => refuse("is not a file name", "choose another output path"),
+        // Renaming a file over the link would lose where it points to.
+        Err(_) if is_link(path) => refuse("is a link that leads to nothing", "remove the link or make its target"),
         Err(_) => Ok(path.to_path_buf()),
     }
+}
+
+fn is_link(path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok_and(|data| data.is_symlink())
 }
 
 fn is_device(target: &Path) -> bool {
@@ -154,6 +160,11 @@ fn folder_of(target: &Path) -> &Path {
 fn make_dir(dir: &Path) -> Result<Vec<PathBuf>> {
     if dir.exists() && !dir.is_dir() {
         return Err(Error::input("is a file, not a folder").help("choose another output folder").at_file(dir));
+    }
+    if !dir.exists() && is_link(dir) {
+        return Err(Error::input("is a link that leads to nothing")
+            .help("remove the link or make its target")
+            .at_file(dir));
     }
     let missing = dir.ancestors().filter(|d| !d.as_os_str().is_empty()).take_while(|d| !d.exists());
     let missing: Vec<PathBuf> = missing.map(Path::to_path_buf).collect();
@@ -239,6 +250,23 @@ mod tests {
         assert_eq!(fs::read(&real).unwrap(), b"new");
         write_whole("/dev/null", b"gone").unwrap();
         assert!(!fs::metadata("/dev/null").unwrap().is_file());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_that_lead_nowhere_are_refused_and_kept() {
+        let dir = tempfile::tempdir().unwrap();
+        let (broken, ring) = (dir.path().join("broken"), dir.path().join("ring"));
+        std::os::unix::fs::symlink("none", &broken).unwrap();
+        std::os::unix::fs::symlink("ring", &ring).unwrap();
+        for link in [&broken, &ring] {
+            let refused = [write_whole(link, b"x"), write_all_or_nothing(link, &[("one", b"1")])];
+            for error in refused.map(Result::unwrap_err) {
+                assert!(error.exit_code() == 2 && error.message().contains("link that leads to nothing"), "{error}");
+            }
+            assert!(is_link(link));
+        }
+        assert_eq!(names(dir.path()), ["broken", "ring"]);
     }
 
     #[cfg(unix)]

@@ -41,9 +41,13 @@ struct Hashing<R> {
 
 impl<R: Read> Read for Hashing<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let read = self.input.read(buffer)?;
-        self.hash.update(&buffer[..read]);
-        Ok(read)
+        loop {
+            match self.input.read(buffer) {
+                // A signal on the way is no fault of the file.
+                Err(e) if e.kind() == io::ErrorKind::Interrupted => {}
+                read => return read.inspect(|&read| self.hash.update(&buffer[..read])),
+            }
+        }
     }
 }
 
@@ -174,6 +178,22 @@ mod tests {
 
     fn read(text: &str, wanted: &[usize]) -> Result<Numbers> {
         Sheet::new(text.as_bytes(), Path::new("run.csv"))?.numbers(wanted)
+    }
+
+    /// Every other read is interrupted by a signal.
+    struct Disturbed<'a>(&'a [u8], bool);
+
+    impl Read for Disturbed<'_> {
+        fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+            self.1 = !self.1;
+            if self.1 { Err(io::ErrorKind::Interrupted.into()) } else { self.0.read(buffer) }
+        }
+    }
+
+    #[test]
+    fn a_signal_is_no_fault_of_the_file() {
+        let sheet = Sheet::new(Disturbed(b"a\n1\n2\n", false), Path::new("run.csv")).unwrap();
+        assert_eq!(sheet.numbers(&[0]).unwrap().columns, [[1.0, 2.0]]);
     }
 
     #[test]

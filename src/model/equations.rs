@@ -64,6 +64,19 @@ impl Model {
     /// # Errors
     /// When a formula uses a name that nothing defines, or formulas refer to each other in a circle.
     pub fn equations(&self, free: &[Symbol]) -> Result<Equations> {
+        let inputs: Vec<Symbol> = self.inputs.iter().map(|i| Symbol::new(i)).collect();
+        self.compiled(free, &[&self.states()[..], &inputs, free].concat())
+    }
+
+    /// The equations of motion for a simulation: the rates have no derivatives where nothing asks for them. Those of a
+    /// train of N trailers are N² formulas.
+    pub(crate) fn equations_to_simulate(&self) -> Result<Equations> {
+        let hidden = self.effects.iter().any(|e| !e.states().is_empty());
+        if hidden { self.equations(&[]) } else { self.compiled(&[], &[]) }
+    }
+
+    /// The equations with the derivatives of the rates by some symbols.
+    fn compiled(&self, free: &[Symbol], by: &[Symbol]) -> Result<Equations> {
         let definitions = self.definitions()?;
         let mut graph = Graph::default();
         definitions.insert_into(&mut graph)?;
@@ -90,7 +103,7 @@ impl Model {
             Ok::<_, Error>(Lanes::new(&program, &changes))
         };
         let plain = compile(&graph, &rates)?;
-        let jacobian = with_derivatives(&mut graph, &rates, &[&states[..], &inputs, free].concat());
+        let jacobian = with_derivatives(&mut graph, &rates, by);
         let jacobian = compile(&graph, &jacobian)?;
         let mut measured: Vec<NodeId> = ["x_m", "y_m", "heading_m"].map(|s| graph.insert(&Expr::sym(s))).to_vec();
         measured.extend((1..=self.trailer_count()).map(|i| graph.insert(&Expr::sym(trailer_heading(i)))));

@@ -61,7 +61,7 @@ pub fn simulate_model(
     start: &[f64],
     integrator: &Integrator,
 ) -> Result<Table> {
-    let equations = model.equations(&[])?;
+    let equations = model.equations_to_simulate()?;
     let first = *times.first().ok_or_else(|| Error::input("a simulation needs at least one time"))?;
     if inputs.channels() != equations.inputs.len() {
         let (given, wanted) = (inputs.channels(), equations.inputs.len());
@@ -78,11 +78,12 @@ pub fn simulate_model(
     z0.extend(initial_hidden(&equations, &[], &at(first), &z0));
     let states = simulate(&equations, &[], inputs, &z0, times, integrator)?;
     let speeds = Speeds::new(model, &equations)?;
-    let rows: Result<Vec<Vec<f64>>> =
-        times.iter().zip(&states).map(|(t, z)| row(*t, z, &at(*t), &equations, &mut w, &speeds)).collect();
     let names = names(&equations);
-    let rows = rows?;
-    let columns = (0..names.len()).map(|c| rows.iter().map(|r| r[c]).collect()).collect();
+    let mut columns = vec![Vec::with_capacity(times.len()); names.len()];
+    for (t, z) in times.iter().zip(states) {
+        let row = row(*t, &z, &at(*t), &equations, &mut w, &speeds)?;
+        columns.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
+    }
     Ok(Table { names, columns })
 }
 

@@ -1,0 +1,57 @@
+//! Names that would be code in a page stay text: of a column, a file, an effect.
+
+use std::fs;
+use std::process::Command;
+
+const SCRIPT: &str = "<script>alert(1)</script>";
+
+/// The elements of a page or drawing, by name.
+fn elements(text: &str) -> Vec<&str> {
+    let opened = text.split('<').skip(1);
+    opened.map(|t| t.trim_start_matches('/').split([' ', '>', '/', '\n']).next().unwrap()).collect()
+}
+
+fn creepage(dir: &std::path::Path, arguments: &[&str]) {
+    let output = Command::new(env!("CARGO_BIN_EXE_creepage")).current_dir(dir).args(arguments).output().unwrap();
+    assert!(output.status.success(), "{output:?}");
+}
+
+#[test]
+fn names_stay_text_in_the_report_and_its_drawings() {
+    let dir = tempfile::tempdir().unwrap();
+    let put = |name: &str, text: String| fs::write(dir.path().join(name), text).unwrap();
+    // A file's name cannot hold a slash.
+    let run = "<script>alert(2)<img src=x onerror=alert(3)>.csv";
+    let row = |i: usize| {
+        let t = i as f64 * 0.05;
+        let rate = if i == 7 { "nan".to_string() } else { format!("{}", 2.0 + (0.5 * t).sin()) };
+        format!("{t},{},{},0,{rate},0.0\n", 0.5 * (2.0 * t - 2.0 * ((0.5 * t).cos() - 1.0)), 0.001 * (i % 3) as f64)
+    };
+    put(run, format!("time,x,y,heading,{SCRIPT},yaw_rate\n{}", (0..400).map(row).collect::<String>()));
+    put(
+        "model.toml",
+        format!(
+            "# {SCRIPT}\nvehicle = \"unicycle\"\n[parameters]\nwheel_radius = 0.5\n[columns]\nwheel_rate = \"{SCRIPT}\"\n"
+        ),
+    );
+    put(
+        "effects.toml",
+        format!(
+            "[[effect]]\nid = \"gain\"\nwhere = \"{SCRIPT}\"\nsays = \"{SCRIPT}\"\nsource = \"{SCRIPT}\"\n\
+             [effect.parameters.k]\nunit = \"1\"\nrange = [-1.0, 1.0]\nsize = 0.1\n[effect.changes]\nv_t = \"it + k*v_l\"\n"
+        ),
+    );
+    creepage(
+        dir.path(),
+        &["discover", run, "--model", "model.toml", "--effects", "effects.toml", "--horizon", "1", "--out", "out"],
+    );
+    let read = |name: &str| fs::read_to_string(dir.path().join("out").join(name)).unwrap();
+    let page = read("report.html");
+    assert!(page.contains("&lt;script&gt;alert(1)&lt;/script&gt;"), "the column is not named");
+    assert!(page.contains("&lt;script&gt;alert(2)&lt;img src=x"), "the file is not named");
+    for text in [&page, &read("gap.svg")] {
+        let found = elements(text);
+        assert!(!found.iter().any(|e| ["script", "img"].contains(e)), "{found:?}");
+    }
+    assert!(read("report.json").contains("alert(1)"));
+}

@@ -1,0 +1,282 @@
+//! What any bytes must do to every file format and every command: be read, or end in one message.
+//!
+//! Used by `tests/fuzzed.rs` on every commit and by the targets of `fuzz/` for as long as one likes. A new file format or
+//! command is one more row of [`TARGETS`], one function that returns what the program said, and one file of
+//! `fuzz/fuzz_targets`.
+
+use creepage::claims::{self, ledger};
+use creepage::describe::{Description, effects_json, effects_text, json, latex, text};
+use creepage::discrepancy::discover::{Request, discover};
+use creepage::discrepancy::html::{gap_svg, html};
+use creepage::files::{EffectsFile, Initial, Inputs, ModelFile, Run, read_claims};
+use creepage::formula::Expr;
+use creepage::model::{self, Model};
+use creepage::motion::{Integrator, Signals, simulate_model};
+use creepage::{Error, Result, effects, library, vehicles};
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+/// A way into the program.
+pub struct Target {
+    /// Its name, that of the file in `fuzz/fuzz_targets` too.
+    pub name: &'static str,
+    /// Reads the files of a folder; returns whether they were good.
+    run: fn(&Path) -> Result<()>,
+    /// The names of the files the bytes are cut into at [`CUT`].
+    files: &'static [&'static str],
+    /// Longer inputs are cut off, to bound the time of one.
+    pub longest: usize,
+    /// Inputs to begin with.
+    pub seeds: fn() -> Vec<Vec<u8>>,
+}
+
+/// What parts the files of an input.
+const CUT: &[u8] = b"\n=====\n";
+
+/// Every way in.
+pub const TARGETS: &[Target] = &[
+    Target { name: "formula", run: formula, files: &["formula.txt"], longest: 4096, seeds: formulas },
+    Target { name: "model", run: model_file, files: &["model.toml"], longest: 8192, seeds: models },
+    Target { name: "effects", run: effects_file, files: &["effects.toml"], longest: 8192, seeds: effects_files },
+    Target { name: "claims", run: claims_file, files: &["claims.toml"], longest: 8192, seeds: claims_files },
+    Target { name: "run", run: run_file, files: &["run.csv", "model.toml"], longest: 16384, seeds: logged },
+    Target { name: "inputs", run: inputs_file, files: &["run.csv", "model.toml"], longest: 16384, seeds: logged },
+    Target { name: "describe", run: describe, files: &["model.toml"], longest: 2048, seeds: models },
+    Target { name: "simulate", run: simulate, files: &["run.csv", "model.toml"], longest: 4096, seeds: logged },
+    Target { name: "discover", run: discovered, files: &["run.csv", "model.toml"], longest: 4096, seeds: logged },
+    Target { name: "verify", run: verify, files: &["claims.toml"], longest: 2048, seeds: claims_files },
+    Target { name: "list_effects", run: list_effects, files: &["effects.toml"], longest: 4096, seeds: effects_files },
+];
+
+impl Target {
+    /// The target of that name.
+    pub fn named(name: &str) -> &'static Target {
+        TARGETS.iter().find(|t| t.name == name).unwrap()
+    }
+
+    /// Puts bytes to it; panics where they do what no input may do.
+    pub fn meets(&self, bytes: &[u8]) -> Result<()> {
+        let dir = folder();
+        let mut rest = &bytes[..bytes.len().min(self.longest)];
+        for (i, name) in self.files.iter().enumerate() {
+            let last = i + 1 == self.files.len();
+            let end = rest.windows(CUT.len()).position(|w| w == CUT).filter(|_| !last);
+            std::fs::write(dir.join(name), &rest[..end.unwrap_or(rest.len())]).unwrap();
+            rest = end.map_or(&[], |end| &rest[end + CUT.len()..]);
+        }
+        let met = (self.run)(dir);
+        if let Err(error) = &met {
+            self.check(error);
+        }
+        met
+    }
+
+    /// One message, for a person, at a place.
+    fn check(&self, error: &Error) {
+        let said = error.to_string();
+        assert!(!error.message().trim().is_empty(), "says nothing: {said}");
+        // Only a simulation can fail although every file was good.
+        assert!(error.exit_code() == 2 || self.name == "simulate", "exit code {}: {said}", error.exit_code());
+        let file = self.files.iter().find(|name| said.contains(*name));
+        assert!(self.name == "formula" || file.is_some() || error.exit_code() == 1, "no file is named: {said}");
+        let whole =
+            ["is empty", "is a binary file", "is UTF-16", "is larger than", "usable rows", "the constraints of"];
+        let placed = error.place().is_some() || whole.iter().any(|w| error.message().contains(w));
+        assert!(placed || error.exit_code() == 1, "no line is named: {said}");
+        let controls = said.chars().filter(|c| c.is_control() && *c != '\n').count();
+        assert_eq!(controls, 0, "control characters are sent to the terminal: {said:?}");
+    }
+}
+
+/// A folder of this process and thread, in memory where there is one.
+fn folder() -> &'static Path {
+    thread_local! {
+        static FOLDER: OnceLock<&'static Path> = const { OnceLock::new() };
+    }
+    let make = || {
+        let top = Path::new("/dev/shm");
+        let top = if top.is_dir() { top.to_path_buf() } else { std::env::temp_dir() };
+        let dir = top.join(format!("creepage-fuzz-{}-{:?}", std::process::id(), std::thread::current().id()));
+        std::fs::create_dir_all(&dir).unwrap();
+        &*Box::leak(dir.into_boxed_path())
+    };
+    FOLDER.with(|f| *f.get_or_init(make))
+}
+
+/// Removes the folder of this thread.
+pub fn tidy() {
+    drop(std::fs::remove_dir_all(folder()));
+}
+
+fn formula(dir: &Path) -> Result<()> {
+    let bytes = std::fs::read(dir.join("formula.txt")).unwrap();
+    let Ok(text) = std::str::from_utf8(&bytes) else { return Ok(()) };
+    let e = Expr::parse(text)?;
+    let printed = e.to_string();
+    let again = Expr::parse(&printed).unwrap_or_else(|x| panic!("{text:?} is printed as {printed:?}: {x}"));
+    assert_eq!(again.to_string(), printed, "{text:?}");
+    Ok(())
+}
+
+fn model_file(dir: &Path) -> Result<()> {
+    let known = model::known(effects::all());
+    let file = ModelFile::read(dir.join("model.toml"), &known)?;
+    let again = ModelFile::parse(&file.patched(&file.effects), "model.toml", &known).unwrap();
+    assert_eq!(again.effects, file.effects);
+    Ok(())
+}
+
+fn effects_file(dir: &Path) -> Result<()> {
+    EffectsFile::read(&dir.join("effects.toml")).map(drop)
+}
+
+fn claims_file(dir: &Path) -> Result<()> {
+    let vehicles: Vec<&str> = vehicles::all().iter().map(|v| v.id.as_str()).collect();
+    read_claims(&dir.join("claims.toml"), &vehicles).map(drop)
+}
+
+fn read_model(dir: &Path) -> Result<ModelFile> {
+    let file = ModelFile::read(dir.join("model.toml"), &model::known(effects::all()))?;
+    Model::check_motion(&file)?;
+    Ok(file)
+}
+
+fn run_file(dir: &Path) -> Result<()> {
+    let run = Run::read(dir.join("run.csv"), &read_model(dir)?)?;
+    assert!(run.time.windows(2).all(|t| t[0] < t[1]) && run.time.len() >= 2);
+    let columns = [&run.time, &run.x, &run.y].into_iter().chain(&run.heading).chain(&run.inputs);
+    assert!(columns.chain(&run.trailer_headings).all(|c| c.len() == run.time.len() && c.iter().all(|v| v.is_finite())));
+    Ok(())
+}
+
+fn inputs_file(dir: &Path) -> Result<()> {
+    let inputs = Inputs::read(dir.join("run.csv"), &read_model(dir)?)?;
+    assert!(inputs.time.windows(2).all(|t| t[0] < t[1]) && inputs.time.len() >= 2);
+    assert!(inputs.columns.iter().all(|c| c.len() == inputs.time.len() && c.iter().all(|v| v.is_finite())));
+    Ok(())
+}
+
+fn describe(dir: &Path) -> Result<()> {
+    let file = ModelFile::read(dir.join("model.toml"), &model::known(effects::all()))?;
+    let roles: Vec<String> = file.columns.inputs.iter().map(|i| i.role.clone()).collect();
+    let d = Description::of(&Model::from_file(&file, effects::all(), &roles)?)?;
+    assert!(!text(&d).is_empty() && !latex(&d).is_empty() && json(&d).is_object());
+    Ok(())
+}
+
+fn simulate(dir: &Path) -> Result<()> {
+    let file = read_model(dir)?;
+    let inputs = Inputs::read(dir.join("run.csv"), &file)?;
+    let model = Model::from_file(&file, effects::all(), &inputs.roles)?;
+    let signals = Signals::new(&inputs.time, &inputs.columns, file.input_timing.into());
+    let start = file
+        .initial
+        .clone()
+        .or(inputs.pose)
+        .unwrap_or_else(|| Initial { trailer_headings: vec![0.0; file.trailer_lengths.len()], ..Initial::default() });
+    let start: Vec<f64> = [start.x, start.y, start.heading].into_iter().chain(start.trailer_headings).collect();
+    // Steps are what a simulation spends; that they end it is tested with the command.
+    let brief = Integrator { max_steps: 2_000, ..Integrator::default() };
+    let table = simulate_model(&model, &signals, &inputs.time, &start, &brief)?;
+    assert!(table.columns.iter().flatten().all(|v| v.is_finite()));
+    Ok(())
+}
+
+fn discovered(dir: &Path) -> Result<()> {
+    let file = read_model(dir)?;
+    let runs = [Run::read(dir.join("run.csv"), &file)?];
+    let request =
+        Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[0.1], seed: 0 };
+    let found = discover(&request, &|_| {})?;
+    let page = html(&found.report, &found.pictures);
+    assert!(page.ends_with("</html>\n") && gap_svg(&found.report, &found.pictures).ends_with("</svg>\n"));
+    assert!(serde_json::to_string(&found.report).is_ok_and(|t| !t.contains("NaN")));
+    ModelFile::parse(&found.patched(&file), "model.toml", &model::known(effects::all())).unwrap();
+    Ok(())
+}
+
+fn verify(dir: &Path) -> Result<()> {
+    let claims = claims::read(&dir.join("claims.toml"), creepage::vehicles::all())?;
+    let made = claims::verify(&claims, &claims::Options { cases: 5, seed: 0 }, &|_| {});
+    assert!(!ledger::text(&made).is_empty() && ledger::json(&made).is_object());
+    Ok(())
+}
+
+fn list_effects(dir: &Path) -> Result<()> {
+    let library = library::with_own(dir.join("effects.toml"))?;
+    assert!(!effects_text(creepage::vehicles::all(), &library)?.is_empty() && effects_json(creepage::vehicles::all(), &library)?.is_object());
+    Ok(())
+}
+
+/// A path of the repository.
+fn here(path: &str) -> PathBuf {
+    let top = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let top = if top.ends_with("fuzz") { top.parent().unwrap() } else { top };
+    top.join(path)
+}
+
+fn file(path: &str) -> Vec<u8> {
+    std::fs::read(here(path)).unwrap()
+}
+
+const RUNS: [(&str, &str); 3] = [("cornering", "eights"), ("steering", "meander"), ("track", "rosette")];
+
+fn models() -> Vec<Vec<u8>> {
+    let mut seeds: Vec<_> = RUNS.iter().map(|(d, _)| file(&format!("examples/runs/{d}/model.toml"))).collect();
+    seeds.extend([TRAILERS, MANY].map(|t| t.as_bytes().to_vec()));
+    seeds
+}
+
+const TRAILERS: &str = "vehicle = \"n-trailer\"\ntractor = \"car\"\n[parameters]\nwheel_radius = 0.3\nwheelbase = 2.5\n\
+trailer_lengths = [3.0, 2]\nhitch_offsets = [0.5, 0]\n[columns]\ntrailer_headings = [\"a\", \"b\"]\n[initial]\nx = 0\n\
+y = 1\nheading = -2\ntrailer_headings = [0.1, 0.2]\n[noise]\nposition = 0.01\nheading = 0.02\n\
+[[effects]]\nid = \"trailer-traverse-creep\"\ntrailer = 2\ne_tc = 0.01\n";
+
+const MANY: &str = "vehicle = \"unicycle\"\ninput_timing = \"interval-mean\"\n[parameters]\nwheel_radius = 0.1\n\
+[sensor]\nlever_arm = [0.1, -0.2]\nheading_offset = 0.3\n[[effects]]\nid = \"rotation-creep\"\ne_rc = 0.02\n\
+[[effects]]\nid = \"input-delay\"\ndelay = 0.1\n[[effects]]\nid = \"traction-creep\"\nmass_over_bR = 0.2\n\
+[[effects]]\nid = \"relaxation-length\"\nlength = 0.5\ne_tc = 0.1\n[[effects]]\nid = \"side-slope\"\nrate = 0.1\n\
+direction = 1.0\n";
+
+fn effects_files() -> Vec<Vec<u8>> {
+    vec![file("examples/effects/my_effects.toml")]
+}
+
+fn claims_files() -> Vec<Vec<u8>> {
+    let texts = [
+        "[[claim]]\nid = \"course\"\nsays = \"traverse creep turns the course\"\nstatus = \"proved\"\n\
+         equations = [\"cot(phi + atan(e)) = (cot(phi) - e)/(1 + e*cot(phi))\"]\n",
+        "[[claim]]\nid = \"yaw\"\nstatus = \"corrected\"\nvehicle = \"car\"\ntrailers = 2\nunder = \"no creep\"\n\
+         equations = [\"phi' = v_l/L*tan(delta)\", \"(a + b)^2 = a^2 + 2*a*b + b^2\"]\nprinted = [\"phi' = v_l/L\"]\n\
+         [[claim]]\nid = \"two\"\nstatus = \"open\"\nequations = [\"sin(2*x) = 2*sin(x)*cos(x)\"]\n",
+    ];
+    texts.map(|t| t.as_bytes().to_vec()).to_vec()
+}
+
+/// Logs of a few rows, each with its model.
+fn logged() -> Vec<Vec<u8>> {
+    let rows =
+        |bytes: Vec<u8>| -> Vec<u8> { bytes.split_inclusive(|b| *b == b'\n').take(24).flatten().copied().collect() };
+    let pair = |(d, r): &(&str, &str)| {
+        let (log, model) =
+            (rows(file(&format!("examples/runs/{d}/{r}.csv"))), file(&format!("examples/runs/{d}/model.toml")));
+        [&log, CUT, &model].concat()
+    };
+    let mut seeds: Vec<Vec<u8>> = RUNS.iter().map(pair).collect();
+    let trailers = "time,x,y,heading,wheel_rate,steering_angle,a,b\n0,0,0,0,1,0.1,0,0\n1,1,0,0,1,0.1,0,0\n\
+                    2,2,0.1,0.1,1,0.2,0,0\n3,3,0.2,0.1,1,0,0,0\n4,4,0.2,0.1,1,0,0,0\n";
+    seeds.push([trailers.as_bytes(), CUT, TRAILERS.as_bytes()].concat());
+    let many = "time,x,y,heading,speed,yaw_rate\n0,0,0,0,1,0.1\n1,1,0,0,1,0.1\n2,2,0.1,0.1,1,0.2\n3,3,0.2,0.1,1,0\n";
+    seeds.push([many.as_bytes(), CUT, MANY.as_bytes()].concat());
+    seeds
+}
+
+fn formulas() -> Vec<Vec<u8>> {
+    let texts = [
+        "cos(delta)*L*phi' - sin(phi + delta)*x' + cos(phi + delta)*y'",
+        "-(cot(phi) - e)/(1 + e*cot(phi))^-3 + 1.5e-3*x",
+        "sqrt(abs(a.b)) + tanh(exp(ln(u)))*sign(-v)",
+        "2^64/3 - 7/0.25*atan(-x)",
+    ];
+    texts.map(|t| t.as_bytes().to_vec()).to_vec()
+}

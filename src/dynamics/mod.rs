@@ -17,6 +17,7 @@
 //! The slip of a rolling contact is v_A = v_l − r·ω (type R), of a direction v_t (type T), to the left.
 
 mod bodies;
+mod carried;
 mod contact;
 mod derive;
 mod description;

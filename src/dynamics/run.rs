@@ -115,14 +115,15 @@ impl System {
         let mut input = (vec![0.0; channels], vec![0.0; channels]);
         let rates = |t: f64, z: &[f64], rates: &mut [f64]| {
             inputs.at(t, &mut input.0, &mut input.1);
-            self.write_rates(&mut w, z, &input.0, &input.1, rates);
+            self.carried_rates(&mut w, z, &input.0, &input.1, rates);
         };
         let mut w = self.work();
         let mut input = (vec![0.0; channels], vec![0.0; channels]);
         let slopes = |t: f64, z: &[f64], slopes: &mut [f64]| {
             inputs.at(t, &mut input.0, &mut input.1);
-            self.write_slopes(&mut w, z, &input.0, &input.1, slopes);
+            self.carried_slopes(&mut w, z, &input.0, &input.1, slopes);
         };
-        integrate(inputs.knots(), z0, times, by, rates, slopes)
+        let states = integrate(inputs.knots(), &self.to_body(z0), times, by, rates, slopes)?;
+        Ok(states.iter().map(|z| self.to_world(z)).collect())
     }
 }

@@ -26,6 +26,8 @@ pub struct System {
     pub(super) n: usize,
     /// How many contacts are ideal.
     pub(super) ideal: usize,
+    /// Whether the body moves along a line.
+    pub(super) line: bool,
     pub(super) observed: Observed,
     /// How many of the inputs are forces; the others steer.
     forces: usize,
@@ -84,17 +86,18 @@ impl Dynamics {
         let compile = |graph: &Graph, nodes: &[NodeId]| Program::compile(graph, &slots, nodes).map_err(undefined);
         let difference: Vec<NodeId> = d.force.iter().zip(&d.bias).map(|(q, h)| d.graph.sub(*q, *h)).collect();
         let motion = compile(&d.graph, &[&d.mass[..], &difference, &d.rows, &d.drift, &d.memory].concat())?;
-        let slopes = residual_slopes(&mut d, &difference, &unknown, &states);
+        let mut all: Vec<Symbol> = states;
+        all.extend(if self.by_rate { self.prescribed.clone() } else { vec![] });
+        let slopes = residual_slopes(&mut d, &difference, &unknown, &all);
         let slopes = compile(&d.graph, &slopes)?;
         let observed = Observed::compile(self, &mut d.graph, &slots)?;
         let prescribed = self.prescribed.len();
-        let mut all: Vec<Symbol> = states;
-        all.extend(if self.by_rate { self.prescribed.clone() } else { vec![] });
         Ok(System {
             states: all,
             inputs: self.inputs(),
             n: free.len(),
             ideal: self.ideal().count(),
+            line: self.model.vehicle.line,
             observed,
             forces: forces.len(),
             memory: memory.len(),
@@ -287,16 +290,16 @@ impl System {
         let (matrix, _) = self.equations(w);
         self.slopes.run(&w.slots, &mut w.registers, &mut w.slopes);
         let unknowns = n + self.ideal;
-        let right = DMatrix::from_fn(unknowns, inner, |i, k| -w.slopes[i * inner + k]);
+        let right = DMatrix::from_fn(unknowns, size, |i, k| -w.slopes[i * size + k]);
         let accelerations = solutions(matrix, right);
         out.fill(0.0);
         for i in 0..n {
             out[i * size + n + i] = 1.0;
-            (0..inner).for_each(|k| out[(n + i) * size + k] = accelerations[(i, k)]);
+            (0..size).for_each(|k| out[(n + i) * size + k] = accelerations[(i, k)]);
         }
         for i in 0..self.memory {
-            let row = &w.slopes[(unknowns + i) * inner..][..inner];
-            out[(2 * n + i) * size..][..inner].copy_from_slice(row);
+            let row = &w.slopes[(unknowns + i) * size..][..size];
+            out[(2 * n + i) * size..][..size].copy_from_slice(row);
         }
     }
 }
@@ -346,8 +349,8 @@ impl System {
     pub(super) fn check_determined(&self, z: &[f64], u: &[f64], slope: &[f64]) -> Result<()> {
         let mut w = self.work();
         self.load(&mut w, z, u, slope);
-        let (matrix, _) = self.equations(&mut w);
-        if matrix.iter().any(|v| !v.is_finite()) {
+        let (matrix, side) = self.equations(&mut w);
+        if matrix.iter().chain(side.iter()).any(|v| !v.is_finite()) {
             return Err(Error::run("the motion is undefined at the start")
                 .help("rocard friction is undefined at rest: give a speed, or use elastic or viscous friction"));
         }
@@ -357,8 +360,8 @@ impl System {
         let svd = scaled.svd(false, true);
         let Some(v) = svd.v_t else { return Ok(()) };
         let most = svd.singular_values.max();
-        for (i, size) in svd.singular_values.iter().enumerate().filter(|(_, s)| **s <= SINGULAR * most) {
-            let _ = size;
+        let still = (0..svd.singular_values.len()).filter(|i| svd.singular_values[*i] <= SINGULAR * most);
+        for i in still {
             let moving = (0..self.n).max_by(|a, b| v[(i, *a)].abs().total_cmp(&v[(i, *b)].abs()));
             if let Some(q) = moving.filter(|q| v[(i, *q)].abs() > 1e-6) {
                 let name = &self.states[q];

@@ -97,8 +97,12 @@ pub(super) const MOST_STATES: usize = 256;
 const SHORTEST: f64 = 1e-15;
 /// The smallest relative tolerance the crate takes.
 const FINEST: f64 = 1e-14;
-/// The first step where none is known, as a share of what the rates at the start would take for the size of the state.
-const CAUTIOUS: f64 = 1e-3;
+/// The first step where none is known, as a share of the shortest time constant.
+const CAUTIOUS: f64 = 0.1;
+/// How much longer a step may be than the one before; layers must not be leapt over.
+const GROWTH: f64 = 2.0;
+/// Newton's method stops at this share of what the crate thinks enough: an error across a stiff direction is a force.
+const NEWTON: f64 = 1e-3;
 
 fn padded<const N: usize>(
     rates: &mut impl FnMut(f64, &[f64], &mut [f64]),
@@ -144,12 +148,13 @@ struct Step<const N: usize> {
 }
 
 impl<F: FnMut(f64, &[f64], &mut [f64]), J: Slopes> Padded<'_, F, J> {
-    /// A first step over which a state that goes on as it begins changes little.
+    /// A first step shorter than the shortest time constant: a layer at the start is otherwise stepped over, which the
+    /// method damps and its estimate of the error does not see.
     fn cautious<const N: usize>(&self, y: &[f64; N], span: &Span) -> f64 {
-        let mut rate = [0.0; N];
-        self.diff(0.0, y, &mut rate);
-        let scale = |y: f64| span.atol + span.rtol + y.abs();
-        let fastest = rate.iter().zip(y).map(|(r, y)| r.abs() / (1e-6 + scale(*y))).fold(0.0, f64::max);
+        let mut slopes = vec![0.0; self.n * self.n];
+        self.write_slopes(0.0, y, &mut slopes);
+        let rows = slopes.chunks(self.n.max(1)).map(|row| row.iter().map(|s| s.abs()).sum::<f64>());
+        let fastest = rows.fold(0.0, f64::max);
         if fastest > 0.0 { (CAUTIOUS / fastest).min(span.length) } else { span.length }
     }
 
@@ -157,10 +162,15 @@ impl<F: FnMut(f64, &[f64], &mut [f64]), J: Slopes> Padded<'_, F, J> {
     fn step<const N: usize>(&self, at: f64, h: f64, y: &[f64; N], span: &Span) -> Option<Step<N>> {
         // Components that rest must not dilute the mean error: a power 2/3 of this factor and then a root come after.
         let share = (self.n.max(1) as f64 / N as f64).powf(0.75);
+        let rtol = share * span.rtol.max(FINEST);
+        let estimated = 0.1 * rtol.powf(2.0 / 3.0);
+        let newton = (NEWTON * estimated.sqrt().min(0.03)).max(1e-15 / estimated);
         let mut solver = ImplicitRungeKutta::radau5()
-            .rtol(vec![share * span.rtol.max(FINEST); N])
+            .rtol(vec![rtol; N])
             .atol(vec![share * span.atol; N])
-            .newton_tol(0.0)
+            .newton_tol(newton)
+            .max_newton_iter(10)
+            .max_scale(GROWTH)
             .h0(h);
         // The end it is told is only a bound on its steps, and well beyond this one.
         solver.init(self, at, at + 2.0 * span.length, y).ok()?;
@@ -179,14 +189,18 @@ impl<F: FnMut(f64, &[f64], &mut [f64]), J: Slopes, const N: usize> ODE<f64, [f64
     fn jacobian(&self, s: f64, y: &[f64; N], j: &mut Matrix<f64>) {
         let n = self.n;
         let mut slopes = vec![0.0; n * n];
-        if !self.parts.borrow_mut().1.write(s, &y[..n], &mut slopes) {
-            self.differences(s, y, &mut slopes);
-        }
+        self.write_slopes(s, y, &mut slopes);
         (0..n).for_each(|i| (0..n).for_each(|k| j[(i, k)] = slopes[i * n + k]));
     }
 }
 
 impl<F: FnMut(f64, &[f64], &mut [f64]), J: Slopes> Padded<'_, F, J> {
+    fn write_slopes<const N: usize>(&self, s: f64, y: &[f64; N], slopes: &mut [f64]) {
+        if !self.parts.borrow_mut().1.write(s, &y[..self.n], slopes) {
+            self.differences(s, y, slopes);
+        }
+    }
+
     fn differences<const N: usize>(&self, s: f64, y: &[f64; N], slopes: &mut [f64]) {
         let (mut here, mut there, mut moved) = ([0.0; N], [0.0; N], *y);
         self.diff(s, y, &mut here);

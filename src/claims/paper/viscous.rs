@@ -93,8 +93,9 @@ fn disk_ideal() -> Claim {
             "omega'" => Some(w.clone()),
             _ => None,
         });
-        let without = slip.substitute(&|s: &Symbol| (s.as_str() == "f").then(|| Expr::int(0)));
-        let force = &-&without / &slip.derivative(&"f".into());
+        // Linear in f: what f is must not speak of f.
+        let no_force = |e: &Expr| e.substitute(&|s: &Symbol| (s.as_str() == "f").then(|| Expr::int(0)));
+        let force = &-&no_force(&slip) / &no_force(&slip.derivative(&"f".into()));
         Ok(disk_machine()?.with("f", force).with("v_i'", v))
     });
     base("viscous-disk-limit", "the ideal disk has v' = (F + τ/r)/(m + J/r²), and the viscous one is ahead of it by J/(m·r² + J)·v_A: by O(1/b) for all time")

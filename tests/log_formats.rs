@@ -13,6 +13,7 @@ mod to_bag;
 #[allow(dead_code)]
 mod to_parquet;
 
+#[cfg(any(feature = "parquet", feature = "mcap"))]
 const EXAMPLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/runs/cornering/eights.csv");
 
 fn example_model() -> ModelFile {

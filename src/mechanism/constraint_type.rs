@@ -20,9 +20,9 @@ use std::sync::{Arc, LazyLock};
 /// use creepage::mechanism::{Constraint, ConstraintType};
 /// // A cable that pays out: the length paid out is what the drum turns, less what slips.
 /// let cable = ConstraintType::new("cable", 'C', "pays' - (1 - e)*drum*turns'").unwrap();
-/// let slots = [("pays'", "w'"), ("drum", "d/2"), ("turns'", "theta'")];
+/// let slots = [("pays'", "w'"), ("drum", "r"), ("turns'", "theta'")];
 /// let constraint = Constraint::new("winch", &cable, &slots, "e_w").unwrap();
-/// assert_eq!(constraint.row().to_string(), "w' + (d*e_w/2 - d/2)*theta'");
+/// assert_eq!(constraint.generic().to_string(), "w' - (1 - e_w)*r*theta'");
 /// assert_eq!(constraint.letter(), 'C');
 /// ```
 #[derive(Clone, Debug, PartialEq, Deserialize)]

@@ -108,11 +108,9 @@ fn functions_are_within_their_stated_units() {
             x.iter_mut().for_each(|x| *x = scale * (2.0 * next() - 1.0));
             // Beside whole quarter turns, where most digits cancel.
             x[0] = (x[0] / std::f64::consts::FRAC_PI_2).round() * std::f64::consts::FRAC_PI_2;
-            for (f, exact, most) in [
-                (Fun::Sin, f64::sin as fn(f64) -> f64, 2.0),
-                (Fun::Cos, f64::cos, 2.0),
-                (Fun::Tan, f64::tan, 6.0),
-            ] {
+            for (f, exact, most) in
+                [(Fun::Sin, f64::sin as fn(f64) -> f64, 2.0), (Fun::Cos, f64::cos, 2.0), (Fun::Tan, f64::tan, 6.0)]
+            {
                 for (x, y) in x.iter().zip(of(f, x)) {
                     assert!(ulps(y, exact(*x)) <= most, "{f:?} {x:e}: {y:e} is not {:e}", exact(*x));
                 }

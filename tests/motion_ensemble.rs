@@ -38,7 +38,12 @@ fn subjects() -> Vec<Subject> {
         plain("slide", with(wheel(), "cornering-creep", None, &[0.2]), wheel_inputs(), 3),
         plain("late", with(wheel(), "input-delay", None, &[0.25]), wheel_inputs(), 3),
         plain("car", with(car(), "understeer", None, &[0.01]), car_inputs(), 3),
-        plain("train", with(car().with_trailers(&trailers), "trailer-traverse-creep", Some(2), &[0.05]), car_inputs(), 5),
+        plain(
+            "train",
+            with(car().with_trailers(&trailers), "trailer-traverse-creep", Some(2), &[0.05]),
+            car_inputs(),
+            5,
+        ),
     ]
 }
 
@@ -102,7 +107,8 @@ fn logged_inputs_and_their_delays_are_followed() {
     let gain = || Varied::Input("gain".into());
     for varied in [vec![gain()], vec![gain(), Varied::Model("input_delay.delay".into())]] {
         let e = Ensemble::new(&wheel, &inputs, &varied, &[0.0; 3], 0.0, &times[1..], 1e-10).unwrap();
-        let cases: Vec<Vec<f64>> = (0..3).map(|i| vec![1.0, 0.05 + 0.03 * f64::from(i)][..varied.len()].to_vec()).collect();
+        let cases: Vec<Vec<f64>> =
+            (0..3).map(|i| vec![1.0, 0.05 + 0.03 * f64::from(i)][..varied.len()].to_vec()).collect();
         let given: Vec<&[f64]> = cases.iter().map(Vec::as_slice).collect();
         let found = e.run(&e.plan(|i| cases[i].clone(), 3).unwrap(), &given).unwrap();
         for (case, found) in cases.iter().zip(&found) {

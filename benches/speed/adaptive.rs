@@ -35,7 +35,7 @@ pub fn dop853<const N: usize>(f: impl Fn(f64, &[f64; N]) -> [f64; N], from: f64,
             third += (e3 / scale) * (e3 / scale);
         }
         let both = fifth + 0.01 * third;
-        let error = h * fifth / (if both > 0.0 { both } else { 1.0 } * N as f64).sqrt();
+        let error = h * fifth / (if both > 0.0 { both } else { 1.0 } * (N + 1) as f64).sqrt();
         let change = error.powf(0.125) / 0.9;
         if error <= 1.0 {
             if last {
@@ -70,9 +70,8 @@ fn first_step<const N: usize>(
     y: &[f64; N],
     k: &[f64; N],
 ) -> f64 {
-    let norm = |v: &[f64; N]| -> f64 {
-        (0..N).map(|i| (v[i] / (TOLERANCE[1] + TOLERANCE[0] * y[i].abs())).powi(2)).sum()
-    };
+    let norm =
+        |v: &[f64; N]| -> f64 { (0..N).map(|i| (v[i] / (TOLERANCE[1] + TOLERANCE[0] * y[i].abs())).powi(2)).sum() };
     let (d0, d1) = (norm(y), norm(k));
     let h0 = if d0 < 1e-10 || d1 < 1e-10 { 1e-6 } else { 0.01 * (d0 / d1).sqrt() };
     let ahead = f(from + h0, &std::array::from_fn(|i| y[i] + h0 * k[i]));

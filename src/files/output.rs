@@ -32,9 +32,8 @@ pub(crate) fn check_target(path: &Path) -> Result<()> {
 pub(crate) fn put_in_place(finished: &Path, path: &Path) -> Result<()> {
     let target = target(path)?;
     if is_device(&target) {
-        let copied = File::open(finished).and_then(|mut from| {
-            io::copy(&mut from, &mut OpenOptions::new().write(true).open(&target)?)
-        });
+        let copied = File::open(finished)
+            .and_then(|mut from| io::copy(&mut from, &mut OpenOptions::new().write(true).open(&target)?));
         return copied.and_then(|_| fs::remove_file(finished)).map_err(|e| unwritable(path, &e));
     }
     fs::rename(finished, &target).map_err(|e| unwritable(path, &e))

@@ -50,7 +50,10 @@ pub(super) fn read_grid(section: &Section) -> Result<Vec<Axis>> {
 /// Every quantity of `[sample.of]`, in the order of the file.
 pub(super) fn read_sampled(section: &Section) -> Result<Vec<Sampled>> {
     let leaves = leaves(section, &KINDS)?;
-    leaves.into_iter().map(|(name, value)| Ok(Sampled { name, spot: spot(&value), from: distribution(&value)? })).collect()
+    leaves
+        .into_iter()
+        .map(|(name, value)| Ok(Sampled { name, spot: spot(&value), from: distribution(&value)? }))
+        .collect()
 }
 
 fn spot(value: &Value) -> Spot {
@@ -88,7 +91,9 @@ fn axis(value: &Value) -> Result<Vec<f64>> {
     let (from, to) = (number("from")?, number("to")?);
     let count = table.need("count", &example)?;
     match count.count()? {
-        1 if from != to => Err(count.error("one value cannot reach from one bound to the other").help("write count = 2")),
+        1 if from != to => {
+            Err(count.error("one value cannot reach from one bound to the other").help("write count = 2"))
+        }
         1 => Ok(vec![from]),
         n if n > MOST => Err(count.error(format!("count = {n} is more than {MOST}")).help("give fewer values")),
         n => Ok((0..n).map(|i| between(from, to, i, n - 1)).collect()),
@@ -105,18 +110,22 @@ const KINDS: [&str; 3] = ["uniform", "log_uniform", "normal"];
 
 fn distribution(value: &Value) -> Result<Distribution> {
     let example = format!("{} = {{ uniform = [0.0, 0.1] }}", value.name);
+    if !value.is_table() {
+        let error = value.key_error(format!("\"{}\" is no distribution", near::shown(&value.name)));
+        return Err(error.help("write e = { uniform = [0.0, 0.1] }, or log_uniform, or normal = [mean, deviation]"));
+    }
     let table = value.section(value.name.clone())?;
     table.only(&KINDS)?;
     let given: Vec<Value> = table.entries();
     let [kind] = given.as_slice() else {
-        let advice = near::advice("", "write one of", &KINDS);
-        return Err(value.error(format!("{} needs one distribution", value.name)).help(format!("{advice}: {example}")));
+        return Err(value.error(format!("{} has two distributions", value.name)).help(format!("write {example}")));
     };
     let numbers: Vec<f64> = kind.list(&example)?.iter().map(Value::number).collect::<Result<_>>()?;
     let [a, b] = numbers[..] else {
         return Err(kind.error(format!("{} needs 2 numbers, not {}", kind.name, numbers.len())).help(example));
     };
-    let refuse = |why: &str| Err(kind.error(format!("{} [{a:?}, {b:?}] {why}", kind.name)).help(format!("write {example}")));
+    let refuse =
+        |why: &str| Err(kind.error(format!("{} [{a:?}, {b:?}] {why}", kind.name)).help(format!("write {example}")));
     match kind.name.as_str() {
         "normal" if b < 0.0 => refuse("has a negative standard deviation"),
         "normal" => Ok(Distribution::Normal(a, b)),

@@ -1,8 +1,8 @@
 //! A sweep: one model, many cases.
 
 use super::formula_text::FormulaText;
-use super::sweep_axis::{Axis, Sampled, read_grid, read_sampled};
 use super::spot::Spot;
+use super::sweep_axis::{Axis, Sampled, read_grid, read_sampled};
 use super::text::read_hashed;
 use super::toml_table::{Section, Source, Value};
 use crate::error::Result;
@@ -168,7 +168,8 @@ fn read_constants(section: &Section) -> Result<BTreeMap<String, (Spot, f64)>> {
     let mut found = BTreeMap::new();
     for value in section.entries() {
         if !Symbol::new(&value.name).is_well_formed() {
-            let error = value.key_error(format!("{:?} cannot be the name of a constant", super::near::shown(&value.name)));
+            let error =
+                value.key_error(format!("{:?} cannot be the name of a constant", super::near::shown(&value.name)));
             return Err(error.help("begin with a letter, go on with letters, digits and _"));
         }
         found.insert(value.name.clone(), (Spot::at(value.source, value.key_at), value.number()?));

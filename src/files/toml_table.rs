@@ -222,7 +222,6 @@ impl<'a, 'd> Value<'a, 'd> {
         self.value.get_ref().is_table()
     }
 
-
     /// A table, under the heading the user knows it by.
     pub fn section(&self, heading: String) -> Result<Section<'a, 'd>> {
         match self.value.get_ref().as_table() {

@@ -66,12 +66,7 @@ impl Graph {
         }
     }
 
-    fn derivative_of(
-        &mut self,
-        id: NodeId,
-        d: &Derivative,
-        rate: &impl Fn(&mut Self, &Symbol) -> NodeId,
-    ) -> NodeId {
+    fn derivative_of(&mut self, id: NodeId, d: &Derivative, rate: &impl Fn(&mut Self, &Symbol) -> NodeId) -> NodeId {
         let known = |x: &NodeId| d.known[x];
         match self.op(id).clone() {
             Op::Num(_) => self.int(0),

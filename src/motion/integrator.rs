@@ -187,7 +187,9 @@ impl Walk {
         let Integrator { rtol, atol, .. } = self.integrator;
         let request = Request { from, to, rtol, atol, first: self.first, most_steps: self.left };
         let done = self.memory.run(&mut watched, request, &mut end).map_err(|stop| match stop {
-            dop853::Stop::Underflow(x) => self.explain(&IntegrationError::StepSizeUnderflow { x }, undefined.get(), |x| x),
+            dop853::Stop::Underflow(x) => {
+                self.explain(&IntegrationError::StepSizeUnderflow { x }, undefined.get(), |x| x)
+            }
             dop853::Stop::Steps(x) => {
                 self.explain(&IntegrationError::MaxNumStepReached { x, n_step: self.left }, undefined.get(), |x| x)
             }

@@ -71,7 +71,8 @@ impl Sweep {
             values
         };
         let plan = ensemble.plan(one, file.cases)?;
-        let names: Vec<String> = file.grid.iter().map(|a| &a.name).chain(file.sampled.iter().map(|s| &s.name)).cloned().collect();
+        let names: Vec<String> =
+            file.grid.iter().map(|a| &a.name).chain(file.sampled.iter().map(|s| &s.name)).cloned().collect();
         let (rows, width) = (times.len(), 3 + names.len() + ensemble.columns().len());
         let identity = identity(&file, &model_file, &library)?;
         Ok(Self { file, names, cases, ensemble, plan, identity, rows, width })

@@ -8,20 +8,66 @@ use crate::formula::float::quotient;
 /// One step: operands and result are registers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Step {
-    Neg { a: u32, d: u32 },
-    Add { a: u32, b: u32, d: u32 },
-    Sub { a: u32, b: u32, d: u32 },
-    Mul { a: u32, b: u32, d: u32 },
-    Div { a: u32, b: u32, d: u32 },
+    Neg {
+        a: u32,
+        d: u32,
+    },
+    Add {
+        a: u32,
+        b: u32,
+        d: u32,
+    },
+    Sub {
+        a: u32,
+        b: u32,
+        d: u32,
+    },
+    Mul {
+        a: u32,
+        b: u32,
+        d: u32,
+    },
+    Div {
+        a: u32,
+        b: u32,
+        d: u32,
+    },
     /// a·b + c
-    MulAdd { a: u32, b: u32, c: u32, d: u32 },
+    MulAdd {
+        a: u32,
+        b: u32,
+        c: u32,
+        d: u32,
+    },
     /// a·b − c
-    MulSub { a: u32, b: u32, c: u32, d: u32 },
+    MulSub {
+        a: u32,
+        b: u32,
+        c: u32,
+        d: u32,
+    },
     /// c − a·b
-    SubMul { a: u32, b: u32, c: u32, d: u32 },
-    Power { a: u32, n: i32, d: u32 },
-    SinCos { a: u32, s: u32, c: u32 },
-    Call { f: Fun, a: u32, d: u32 },
+    SubMul {
+        a: u32,
+        b: u32,
+        c: u32,
+        d: u32,
+    },
+    Power {
+        a: u32,
+        n: i32,
+        d: u32,
+    },
+    SinCos {
+        a: u32,
+        s: u32,
+        c: u32,
+    },
+    Call {
+        f: Fun,
+        a: u32,
+        d: u32,
+    },
 }
 
 /// A list of steps about to run.

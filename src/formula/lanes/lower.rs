@@ -184,7 +184,14 @@ impl<'p> Emitter<'p> {
             registers: fixed,
             instant_registers: fixed,
         };
-        Self { plan, place: vec![u32::MAX; program.code.len()], handed: HashMap::new(), free: vec![], folded: vec![], lanes }
+        Self {
+            plan,
+            place: vec![u32::MAX; program.code.len()],
+            handed: HashMap::new(),
+            free: vec![],
+            folded: vec![],
+            lanes,
+        }
     }
 
     fn emit(&mut self, k: usize) {
@@ -310,6 +317,8 @@ fn plain(i: Instruction, reads: &[u32], d: u32) -> Step {
         Instruction::Square(_) => Step::Power { a, n: 2, d },
         Instruction::Pow(_, n) => Step::Power { a, n, d },
         Instruction::Call(f, _) => Step::Call { f, a, d },
-        Instruction::Input(_) | Instruction::Constant(_) => unreachable!("inputs and constants have places of their own"),
+        Instruction::Input(_) | Instruction::Constant(_) => {
+            unreachable!("inputs and constants have places of their own")
+        }
     }
 }

@@ -119,16 +119,19 @@ impl LaneEquations {
         for (_, rate) in model.effects.iter().flat_map(|e| e.states()) {
             rates.push(graph.insert(&rate));
         }
-        let sensor = ["x_m", "y_m", "heading_m"].map(Symbol::from).into_iter().chain(states[3..visible].iter().cloned());
+        let sensor =
+            ["x_m", "y_m", "heading_m"].map(Symbol::from).into_iter().chain(states[3..visible].iter().cloned());
         let mut readings: Vec<NodeId> = sensor.map(|s| graph.insert(&Expr::sym(s))).collect();
         let shows_state = |(node, s): (&NodeId, &Symbol)| matches!(graph.op(*node), Op::Sym(name) if name == s);
         let plain_sensor = readings.iter().zip(&states).all(shows_state);
         readings.extend(["v_l", "v_t", "phi'"].map(|s| graph.insert(&Expr::sym(s))));
         readings.extend(driven);
-        let channels: Vec<Symbol> = inputs.log.iter().flat_map(|(names, _)| names).map(|n| Symbol::new(&format!("log.{n}"))).collect();
+        let channels: Vec<Symbol> =
+            inputs.log.iter().flat_map(|(names, _)| names).map(|n| Symbol::new(&format!("log.{n}"))).collect();
         // A component of the initial pose has a slot too, so that slots and cases agree; no formula reads it.
         let slot = |v: &Varied| v.symbol().unwrap_or_else(|| Symbol::new("initial pose"));
-        let slots: Vec<Symbol> = states.iter().cloned().chain(varied.iter().map(slot)).chain([clock]).chain(channels).collect();
+        let slots: Vec<Symbol> =
+            states.iter().cloned().chain(varied.iter().map(slot)).chain([clock]).chain(channels).collect();
         let changes: Vec<Changes> = (0..slots.len())
             .map(|i| match i {
                 i if i < states.len() => Changes::Lane,

@@ -32,7 +32,13 @@ impl Start {
 
 impl Ensemble {
     /// The states at the first time, lane by lane; lanes beyond the cases repeat the last one.
-    pub(super) fn start(&self, e: &LaneEquations, readings: &mut Memory<LANES>, cases: &[&[f64]], isa: Isa) -> Result<Vec<Lane>> {
+    pub(super) fn start(
+        &self,
+        e: &LaneEquations,
+        readings: &mut Memory<LANES>,
+        cases: &[&[f64]],
+        isa: Isa,
+    ) -> Result<Vec<Lane>> {
         let mut z = vec![[0.0; LANES]; e.n];
         for l in 0..LANES {
             let case = cases[l.min(cases.len() - 1)];

@@ -87,14 +87,7 @@ impl Kernel for Advance<'_> {
 }
 
 #[inline(always)]
-fn step(
-    e: &LaneEquations,
-    scheme: &Scheme,
-    (t, h): (f64, f64),
-    within: [f64; 2],
-    z: &mut [Lane],
-    block: &mut Block,
-) {
+fn step(e: &LaneEquations, scheme: &Scheme, (t, h): (f64, f64), within: [f64; 2], z: &mut [Lane], block: &mut Block) {
     let n = e.n;
     for s in 0..scheme.stages {
         // States that no rate reads need no value between the steps.

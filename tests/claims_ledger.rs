@@ -242,7 +242,7 @@ fn every_numbered_equation_and_erratum_has_a_claim() {
     ids.dedup();
     assert_eq!(ids.len(), all.len(), "two claims have one name");
     let open: Vec<&str> = all.iter().filter(|c| c.stated == Status::Open).map(|c| c.id.as_str()).collect();
-    assert_eq!(open, ["E13", "E14", "E15", "E22"]);
+    assert_eq!(open, [""; 0]);
 }
 
 #[test]

@@ -135,66 +135,62 @@ fn long() -> String {
     SPEC.replace("count = 7", "count = 4000").replace("duration", "every = 0.5\nduration")
 }
 
-fn killed_after(dir: &Path, wait: Duration) -> Child {
-    let mut child = command(dir, &["--out", "all.csv", "--threads", "2"]).stdout(Stdio::null()).spawn().unwrap();
-    std::thread::sleep(wait);
+/// Cases that the note beside the journal says are done.
+fn noted(dir: &Path) -> usize {
+    let text = std::fs::read_to_string(dir.join("all.csv.partial.json")).unwrap_or_default();
+    let state: serde_json::Value = serde_json::from_str(&text).unwrap_or_default();
+    state["cases"].as_u64().unwrap_or(0) as usize
+}
+
+/// Starts a sweep and kills it as soon as it has noted more cases than before, or a little later; whether it was in time.
+fn killed(dir: &Path, later: Duration) -> bool {
+    let before = noted(dir);
+    let mut child = command(dir, &["--out", "all.csv", "--threads", "1"]).stdout(Stdio::null()).spawn().unwrap();
+    while noted(dir) <= before && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    std::thread::sleep(later);
     // SIGKILL: nothing is tidied up.
     child.kill().unwrap();
     child.wait().unwrap();
-    child
+    !dir.join("all.csv").exists()
 }
 
 #[test]
 fn killed_at_any_moment_it_goes_on_to_the_same_bytes() {
     let (dir, undisturbed) = (folder(&long()), folder(&long()));
-    let started = std::time::Instant::now();
-    good(undisturbed.path(), &["--out", "all.csv"]);
-    let whole = started.elapsed();
-    let mut stopped = 0;
-    for share in [0.05, 0.2, 0.4, 0.4, 0.5, 0.3] {
-        if dir.path().join("all.csv").exists() {
-            break;
-        }
-        killed_after(dir.path(), whole.mul_f64(share));
-        stopped += usize::from(!dir.path().join("all.csv").exists());
-    }
-    assert!(stopped >= 2, "killed before the end {stopped} times");
-    let said = good(dir.path(), &["--out", "all.csv", "--threads", "1"]);
+    let stopped = [0, 3, 41].into_iter().take_while(|later| killed(dir.path(), Duration::from_millis(*later))).count();
+    assert!(stopped > 0, "the sweep is over before it can be killed");
+    let said = good(dir.path(), &["--out", "all.csv", "--threads", "2"]);
     assert!(said.contains("of them from a run that was stopped"), "{said}");
+    good(undisturbed.path(), &["--out", "all.csv"]);
     assert!(bytes(dir.path(), "all.csv") == bytes(undisturbed.path(), "all.csv"));
     assert_eq!(names(dir.path()), ["all.csv", "model.toml", "spec.toml"]);
 }
 
 #[test]
 fn what_was_done_for_another_sweep_or_damaged_is_not_used() {
-    let dir = folder(&long());
-    for damage in ["spec", "bytes", "note"] {
-        let note = dir.path().join("all.csv.partial.json");
-        let mut child = command(dir.path(), &["--out", "all.csv"]).stdout(Stdio::null()).spawn().unwrap();
-        while !note.exists() && child.try_wait().unwrap().is_none() {
-            std::thread::sleep(Duration::from_millis(5));
-        }
-        child.kill().unwrap();
-        child.wait().unwrap();
-        assert!(note.exists(), "killed too late for {damage}");
+    let undisturbed = folder(&long());
+    good(undisturbed.path(), &["--out", "all.csv"]);
+    let (dir, other) = (folder(&long()), long().replace("seed = 3", "seed = 4"));
+    let (partial, note) = (dir.path().join("all.csv.partial"), dir.path().join("all.csv.partial.json"));
+    for damage in ["another sweep", "another row", "no note", "fewer rows"] {
+        let first = if damage == "another sweep" { other.clone() } else { long() };
+        std::fs::write(dir.path().join("spec.toml"), first).unwrap();
+        assert!(killed(dir.path(), Duration::ZERO), "killed too late for {damage}");
+        let mut rows = std::fs::read(&partial).unwrap();
         match damage {
-            "spec" => std::fs::write(dir.path().join("spec.toml"), SPEC.replace("seed = 3", "seed = 4")).unwrap(),
-            "bytes" => {
-                let mut partial = bytes(dir.path(), "all.csv.partial");
-                partial[200] ^= 1;
-                std::fs::write(dir.path().join("all.csv.partial"), partial).unwrap();
-                std::fs::write(dir.path().join("spec.toml"), long()).unwrap();
-            }
-            _ => std::fs::write(note, "{").unwrap(),
+            "another row" => rows[300] ^= 1,
+            "no note" => std::fs::write(&note, "{").unwrap(),
+            "fewer rows" => rows.truncate(200),
+            _ => {}
         }
-        if damage != "bytes" {
-            let short = folder(&String::from_utf8(bytes(dir.path(), "spec.toml")).unwrap().replace("4000", "7"));
-            std::fs::copy(short.path().join("spec.toml"), dir.path().join("spec.toml")).unwrap();
-        }
+        std::fs::write(&partial, rows).unwrap();
+        std::fs::write(dir.path().join("spec.toml"), long()).unwrap();
         let said = good(dir.path(), &["--out", "all.csv"]);
         assert!(!said.contains("stopped"), "{damage}: {said}");
+        assert!(bytes(dir.path(), "all.csv") == bytes(undisturbed.path(), "all.csv"), "{damage}");
         std::fs::remove_file(dir.path().join("all.csv")).unwrap();
-        std::fs::write(dir.path().join("spec.toml"), long()).unwrap();
     }
 }
 
@@ -210,7 +206,7 @@ fn what_a_file_gets_wrong_is_told_with_its_place() {
         ("duration = 3.0", "durations = 3.0", "spec.toml:2:1: unknown key \"durations\""),
         ("duration = 3.0", "", "key \"duration\" is missing"),
         ("duration = 3.0", "duration = -3.0", "spec.toml:2:12: duration"),
-        ("uniform", "triangle", "unknown key"),
+        ("uniform", "triangle", "spec.toml:15:21: \"triangle\" is no distribution"),
         ("[-3.0, 3.0]", "[3.0, -3.0]", "begins above its end"),
         ("model.toml", "models.toml", "models.toml: no such file"),
         ("count = 7", "count = 1000000000000000000", "there are more than 10^15 cases"),

@@ -35,7 +35,7 @@ pub fn dop853<const N: usize>(f: impl Fn(f64, &[f64; N]) -> [f64; N], from: f64,
             third += (e3 / scale) * (e3 / scale);
         }
         let both = fifth + 0.01 * third;
-        let error = h * fifth / (if both > 0.0 { both } else { 1.0 } * N as f64).sqrt();
+        let error = h * fifth / (if both > 0.0 { both } else { 1.0 } * (N + 1) as f64).sqrt();
         let change = error.powf(0.125) / 0.9;
         if error <= 1.0 {
             if last {

@@ -110,12 +110,15 @@ const KINDS: [&str; 3] = ["uniform", "log_uniform", "normal"];
 
 fn distribution(value: &Value) -> Result<Distribution> {
     let example = format!("{} = {{ uniform = [0.0, 0.1] }}", value.name);
+    if !value.is_table() {
+        let error = value.key_error(format!("\"{}\" is no distribution", near::shown(&value.name)));
+        return Err(error.help("write e = { uniform = [0.0, 0.1] }, or log_uniform, or normal = [mean, deviation]"));
+    }
     let table = value.section(value.name.clone())?;
     table.only(&KINDS)?;
     let given: Vec<Value> = table.entries();
     let [kind] = given.as_slice() else {
-        let advice = near::advice("", "write one of", &KINDS);
-        return Err(value.error(format!("{} needs one distribution", value.name)).help(format!("{advice}: {example}")));
+        return Err(value.error(format!("{} has two distributions", value.name)).help(format!("write {example}")));
     };
     let numbers: Vec<f64> = kind.list(&example)?.iter().map(Value::number).collect::<Result<_>>()?;
     let [a, b] = numbers[..] else {

@@ -132,7 +132,8 @@ impl Dop853 {
         }
         let both = fifth + 0.01 * third;
         let both = if both <= 0.0 { 1.0 } else { both };
-        h.abs() * fifth * (1.0 / (both * n as f64)).sqrt()
+        // The time counts as a state without error, as where it is carried as one.
+        h.abs() * fifth * (1.0 / (both * (n + 1) as f64)).sqrt()
     }
 
     /// A first step by the sizes of y, y′ and y″.

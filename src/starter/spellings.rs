@@ -100,6 +100,8 @@ const OTHER: &[&str] = &[
     "effort",
     "torque",
 ];
+/// Words that make of a quantity its rate.
+const OF_A_RATE: &[&str] = &["rate", "rated", "dot"];
 /// Words of a unit behind a name.
 const UNITS: &[&str] = &["m", "s", "rad", "rads", "mps", "radps"];
 
@@ -123,7 +125,9 @@ pub(super) fn rank(role: &str, column: &str) -> Option<usize> {
     // A word more than the name has: "gt_x", "pose.yaw".
     let within = |name: &&str| {
         let name: Vec<&str> = name.split('_').collect();
-        words.windows(name.len()).any(|w| w.iter().zip(&name).all(|(a, b)| a == b))
+        let rest = words.iter().filter(|w| !name.contains(&w.as_str()));
+        let is_rate = rest.into_iter().any(|w| OF_A_RATE.contains(&w.as_str()));
+        !is_rate && words.windows(name.len()).any(|w| w.iter().zip(&name).all(|(a, b)| a == b))
     };
     names.iter().position(within).map(|at| 100 + at + 10 * words.len() + doubt)
 }

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// How often the state is noted, at most; what was done since is done again after a kill.
-const NOTED: Duration = Duration::from_millis(300);
+const NOTED: Duration = Duration::from_millis(100);
 
 /// Rows already computed, and how far they can be trusted.
 pub(super) struct Journal {

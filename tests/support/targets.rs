@@ -204,7 +204,10 @@ fn verify(dir: &Path) -> Result<()> {
 
 fn list_effects(dir: &Path) -> Result<()> {
     let library = library::with_own(dir.join("effects.toml"))?;
-    assert!(!effects_text(creepage::vehicles::all(), &library)?.is_empty() && effects_json(creepage::vehicles::all(), &library)?.is_object());
+    assert!(
+        !effects_text(creepage::vehicles::all(), &library)?.is_empty()
+            && effects_json(creepage::vehicles::all(), &library)?.is_object()
+    );
     Ok(())
 }
 

@@ -92,7 +92,7 @@ const BAD: &[(&str, &str, &[&str])] = &[
     (
         TRAIN,
         "[dynamics]\nmass = 1.0\ninertia = 1.0\ntrailer_masses = [1.0]\ntrailer_inertias = [1.0, 1.0]\n",
-        &["trailer_masses has 1 elements, but trailer_lengths has 2"],
+        &["trailer_masses has 1 elements, but 2 are needed"],
     ),
     (TRAIN, "[dynamics]\nmass = 1.0\ninertia = 1.0\n", &["key \"trailer_masses\" in [dynamics] is missing"]),
     (

@@ -185,7 +185,8 @@ fn ideal_contacts_give_the_kinematic_motion() {
 #[test]
 fn every_vehicle_tends_to_its_ideal_motion() {
     let times: Vec<f64> = (0..=20).map(|i| f64::from(i) * 0.05).collect();
-    for vehicle in vehicles::all() {
+    // A body in the air has no contacts.
+    for vehicle in vehicles::all().iter().filter(|v| v.coordinates.is_empty()) {
         let model = Model::sample(vehicle).unwrap();
         let wheels = vehicle.wheels.iter().filter_map(|w| w.rate.clone()).map(|rate| (rate, 0.1)).collect();
         let castors = vehicle.wheels.iter().filter_map(|w| w.steering.clone()).map(|angle| (angle, 0.05)).collect();

@@ -131,7 +131,7 @@ fn effects_with_a_relaxation_approach_their_limit() {
     // A disk has no sideways motion, and a synchro drive's forward speed is not that of its wheels.
     let expected = |m: &Model| match m.vehicle.id.as_str() {
         "disk" => 1,
-        "synchro-drive" => 0,
+        "synchro-drive" | "hopper" => 0,
         _ => 3,
     };
     assert_eq!(seen, machines().iter().map(expected).sum::<usize>());

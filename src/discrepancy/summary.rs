@@ -1,7 +1,7 @@
 //! The report on one screen of a terminal, and the sentences every form of the report shares.
 
-use super::report::{BeforeAfter, Gap, Named, Report, Rival, RunClock, Verdict};
-use crate::picture::number::{plain, prefixed, significant, with_error};
+use super::report::{BeforeAfter, Estimate, Gap, Named, Report, Rival, RunClock, Verdict};
+use crate::picture::number::{decimals, plain, prefixed, significant, with_error};
 use crate::picture::svg::cut;
 
 /// Columns of the terminal.
@@ -179,9 +179,20 @@ fn arrow([before, after, floor]: [f64; 3], factor: f64, unit: &str) -> String {
     format!("{before:>7} → {after:>7} | {floor:>7} {unit}")
 }
 
+/// A time and its deviation in seconds, to the deviation's second digit: clocks may be years apart.
+pub fn seconds(e: &Estimate) -> String {
+    match e.std.filter(|s| *s > 0.0 && s.is_finite()) {
+        Some(std) => {
+            let places = (1.0 - std.log10().floor()).clamp(0.0, 9.0) as usize;
+            format!("{} ± {std:.places$}", decimals(e.value, places))
+        }
+        None => decimals(e.value, 3),
+    }
+}
+
 /// How the clocks of a run stand to each other, in words.
 pub fn clock_line(c: &RunClock) -> String {
-    let offset = with_error(c.offset_s.value, c.offset_s.std);
+    let offset = seconds(&c.offset_s);
     let drift = with_error(1e6 * c.drift.value, c.drift.std.map(|s| 1e6 * s));
     format!("clock of {}: offset {offset} s, drift {drift} µs/s", c.run)
 }

@@ -3,7 +3,7 @@
 use super::head::{counted, shrinkage};
 use super::part::{Cell, holding, section, table};
 use crate::discrepancy::report::{BeforeAfter, Gap, Pictures, Report};
-use crate::discrepancy::summary::why;
+use crate::discrepancy::summary::{seconds, why};
 use crate::picture::number::{decimals, plain, prefixed, probability, significant, with_error};
 use crate::picture::svg::Element;
 
@@ -149,7 +149,7 @@ fn clocks(report: &Report) -> Option<Element> {
         let drift = with_error(1e6 * c.drift.value, c.drift.std.map(|s| 1e6 * s));
         vec![
             Cell::Lines(vec![c.run.clone(), c.truth.clone()]),
-            Cell::Number(with_error(c.offset_s.value, c.offset_s.std)),
+            Cell::Number(seconds(&c.offset_s)),
             Cell::Number(drift),
             Cell::Number(significant(c.at_s, 6)),
         ]

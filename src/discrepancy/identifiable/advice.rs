@@ -2,9 +2,8 @@
 
 use super::information::Driven;
 use super::marks::Ground;
-use super::pairs::{misfit, separating};
-use super::prospects::{Bar, Candidate, Group, Shown, Table, gain};
-use crate::discrepancy::chain::Variances;
+use super::pairs::{separating, told_apart};
+use super::prospects::{Bar, Candidate, Shown, gain};
 use crate::discrepancy::experiment::Thought;
 use crate::discrepancy::fit::Fit;
 use crate::discrepancy::manoeuvre::{Manoeuvre, library};
@@ -17,6 +16,8 @@ use rayon::prelude::*;
 
 /// A manoeuvre within this share of the best one is as good.
 const ALIKE: f64 = 0.9;
+/// Things that are looked at, of either kind.
+const MOST: usize = 6;
 /// Names in a sentence.
 const NAMED: usize = 4;
 
@@ -28,10 +29,9 @@ pub(super) struct Open<'a> {
     /// Candidates that would be missed.
     pub missed: Vec<usize>,
     /// Pairs that would not be told apart, though they differ.
-    pub pairs: Vec<[usize; 2]>,
+    /// And by what they are told apart now.
+    pub pairs: Vec<([usize; 2], f64)>,
     pub bar: Bar,
-    pub variances: [Variances; 2],
-    pub dependence: [f64; 2],
 }
 
 /// How far a manoeuvre mends each thing, one for what is mended.
@@ -49,16 +49,14 @@ impl Mended {
 
 impl Open<'_> {
     /// What to drive; `None` with nothing open or for inputs that cannot be planned.
-    pub fn advice(&self, problem: &Problem, fit: &Fit, table: &Table) -> Result<Option<NextExperiment>> {
+    pub fn advice(&self, problem: &Problem, fit: &Fit) -> Result<Option<NextExperiment>> {
         if self.missed.is_empty() && self.pairs.is_empty() {
             return Ok(None);
         }
         let Some(thought) = Thought::of(problem, fit) else { return Ok(None) };
-        let wanted = self.groups();
         let mend = |m: &'static Manoeuvre| -> Result<Option<Mended>> {
             let Some(driven) = self.driven(&thought, fit, m)? else { return Ok(None) };
-            let new = Table::of(&fit.model, &driven, self.all, &wanted, &self.scaled(&thought), self.dependence)?;
-            Ok(Some(Mended { manoeuvre: m, shares: self.shares(&joined(table, new), &driven, &thought, fit)? }))
+            Ok(Some(Mended { manoeuvre: m, shares: self.shares(&driven, &thought, fit)? }))
         };
         let all: Vec<&'static Manoeuvre> = library(&thought.envelope).collect();
         let tried: Vec<Mended> =
@@ -66,30 +64,6 @@ impl Open<'_> {
         let most = tried.iter().map(Mended::worth).fold(0.0, f64::max);
         let best = tried.iter().find(|m| m.worth() >= ALIKE * most && most > 0.0);
         Ok(best.map(|best| self.said(best, &best.manoeuvre.sentence(&thought.envelope))))
-    }
-
-    /// The groups that hold what is open.
-    fn groups(&self) -> Vec<Vec<usize>> {
-        let all = super::prospects::groups(self.all);
-        let needed = |g: &Vec<usize>| {
-            let holds = |wanted: &[usize]| wanted.iter().all(|w| g.contains(w));
-            self.missed.iter().any(|m| holds(&[*m])) || self.pairs.iter().any(|p| holds(p))
-        };
-        let mut left: Vec<Vec<usize>> = self.missed.iter().map(|m| vec![*m]).collect();
-        left.extend(self.pairs.iter().map(|p| p.to_vec()));
-        // The first group that holds a thing is the one it is read from.
-        all.into_iter()
-            .filter(needed)
-            .filter(|g| {
-                let before = left.len();
-                left.retain(|w| !w.iter().all(|i| g.contains(i)));
-                left.len() < before
-            })
-            .collect()
-    }
-
-    fn scaled(&self, thought: &Thought) -> [Variances; 2] {
-        self.variances.map(|v| thought.scaled(v))
     }
 
     fn driven(&self, thought: &Thought, fit: &Fit, m: &Manoeuvre) -> Result<Option<Driven>> {
@@ -102,23 +76,27 @@ impl Open<'_> {
         Ok(Some(Driven { records, plan, starts }))
     }
 
-    fn shares(&self, table: &Table, driven: &Driven, thought: &Thought, fit: &Fit) -> Result<Vec<f64>> {
+    /// By how much the runs and the manoeuvre together mend each thing, at most one.
+    fn shares(&self, driven: &Driven, thought: &Thought, fit: &Fit) -> Result<Vec<f64>> {
         let ground = Ground { calm: thought.scaled(self.ground.calm), ..self.ground };
         let seen = |c: &usize| -> Result<f64> {
             let marks = driven.marks(&fit.model, &[&self.all[*c].applied])?;
             let new = marks.map_or(0.0, |m| gain(&m, &self.all[*c], &ground));
             let both = Shown { gain: self.shown[*c].gain + new, smallest: vec![] };
-            Ok(both.strength(self.all, *c, &self.bar))
+            Ok(both.strength(self.all, *c, &self.bar).min(1.0))
         };
-        let seen: Vec<f64> = self.missed.iter().map(seen).collect::<Result<_>>()?;
-        let told = self.pairs.iter().map(|[a, b]| misfit(table, self.all, *a, *b).unwrap_or(0.0) / separating());
-        Ok(seen.into_iter().chain(told).map(|s| s.min(1.0)).collect())
+        let told = |([a, b], before): &([usize; 2], f64)| -> Result<f64> {
+            let new = told_apart(&fit.model, driven, self.all, *a, *b, &ground)?;
+            Ok(((before + new) / separating()).min(1.0))
+        };
+        let seen = self.missed.iter().take(MOST).map(seen);
+        seen.chain(self.pairs.iter().take(MOST).map(told)).collect()
     }
 
     fn said(&self, best: &Mended, sentence: &str) -> NextExperiment {
         let label = |c: usize| self.all[c].applied.label();
-        let seen = self.missed.iter().map(|c| format!("show {}", label(*c)));
-        let told = self.pairs.iter().map(|[a, b]| format!("tell {} from {}", label(*a), label(*b)));
+        let seen = self.missed.iter().take(MOST).map(|c| format!("show {}", label(*c)));
+        let told = self.pairs.iter().take(MOST).map(|([a, b], _)| format!("tell {} from {}", label(*a), label(*b)));
         let mut names: Vec<String> =
             seen.chain(told).zip(&best.shares).filter(|(_, s)| **s >= 1.0).map(|(n, _)| n).collect();
         names.dedup();
@@ -131,15 +109,4 @@ impl Open<'_> {
         let named = names.iter().take(NAMED).map(String::as_str).chain((more > 0).then_some(last.as_str()));
         NextExperiment { why: format!("the minute is expected to {}", listed(named)), manoeuvre: sentence.into() }
     }
-}
-
-/// What the runs and the manoeuvre say together.
-fn joined(runs: &Table, new: Table) -> Table {
-    let groups = new.groups.into_iter().filter_map(|g| {
-        let (old, _) = runs.groups.iter().find(|o| o.members == g.members).map(|o| (o, ()))?;
-        let [a, b] = &g.information;
-        let information = [a.and(&old.information[0]), b.and(&old.information[1])];
-        Some(Group { information, members: g.members })
-    });
-    Table { groups: groups.collect() }
 }

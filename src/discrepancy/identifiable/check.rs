@@ -93,15 +93,13 @@ pub fn check(of: &Checked, progress: &dyn Fn(&str)) -> Result<Check> {
     progress("thinking manoeuvres through");
     let open = Open {
         missed: of_kind(&|s| s == Seen::No),
-        pairs: pairs.iter().filter(|u| u.pair.why == "data").map(|u| u.candidates).collect(),
+        pairs: pairs.iter().filter(|u| u.pair.why == "data").map(|u| (u.candidates, u.pair.misfit)).collect(),
         all: &all,
         shown: &shown,
         ground,
         bar,
-        variances,
-        dependence,
     };
-    let next_experiment = open.advice(&problem, &fit, &table)?;
+    let next_experiment = open.advice(&problem, &fit)?;
     let mut not_separated: Vec<_> = pairs.into_iter().map(|u| u.pair).collect();
     not_separated.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
     let (verdict, summary) = standing(&effects);

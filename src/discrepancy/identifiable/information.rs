@@ -69,11 +69,6 @@ impl Driven {
 }
 
 impl Information {
-    /// The sum of what two sources say of the same effects.
-    pub fn and(&self, other: &Information) -> Information {
-        Information { matrix: &self.matrix + &other.matrix, columns: self.columns.clone() }
-    }
-
     /// All of it divided: values that are alike count once.
     pub fn over(mut self, dependence: f64) -> Information {
         self.matrix /= dependence;
@@ -147,7 +142,7 @@ mod tests {
         let i = information();
         assert_eq!(i.deviations(0), [Some(0.5)]);
         assert_eq!(i.deviations(1), [Some(0.5), None]);
-        assert_eq!(i.and(&i).over(0.5).deviations(0), [Some(0.25)]);
+        assert_eq!(i.over(4.0).deviations(0), [Some(1.0)]);
     }
 
     #[test]

@@ -75,7 +75,7 @@ pub struct Parameter {
     pub std_unexplained: Option<f64>,
     /// A plausible magnitude.
     pub plausible: f64,
-    /// The smallest magnitude that would be seen, against the noise alone.
+    /// The smallest magnitude that would be seen with 95 %, against the noise alone; smaller ones may be.
     pub smallest_seen: Option<f64>,
 }
 

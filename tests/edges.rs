@@ -72,6 +72,18 @@ fn numbers_at_the_edge_are_used_or_refused() {
     }
 }
 
+/// The work is bounded by the rows: 40 of them may take 1 004 000 steps.
+#[test]
+fn a_motion_that_cannot_be_followed_ends() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("run.csv"), log(0.1, 1.0, 1e9, 0.1)).unwrap();
+    fs::write(dir.path().join("model.toml"), model("0.1")).unwrap();
+    let output = creepage(dir.path(), &["simulate", "model.toml", "--inputs", "run.csv", "--out", "path.csv"]);
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.code() == Some(1) && message.contains("1004000 steps were not enough"), "{message}");
+    assert!(!dir.path().join("path.csv").exists());
+}
+
 /// A train of a thousand trailers is driven; writing out its matrix would take hours, and is refused.
 #[test]
 fn a_thousand_trailers_are_simulated_and_not_described() {

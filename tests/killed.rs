@@ -56,6 +56,12 @@ fn files(dir: &Path) -> Files {
     entries.filter_map(|e| Some((e.file_name().into_string().unwrap(), fs::read(e.path()).ok()?))).collect()
 }
 
+/// The lengths of the files in a folder.
+fn lengths(dir: &Path) -> BTreeMap<std::ffi::OsString, u64> {
+    let entries = fs::read_dir(dir).unwrap().flatten();
+    entries.filter_map(|e| Some((e.file_name(), e.metadata().ok()?.len()))).collect()
+}
+
 fn put(dir: &Path, files: &Files) {
     drop(fs::remove_dir_all(dir));
     fs::create_dir(dir).unwrap();
@@ -77,8 +83,8 @@ impl Bench {
             ("model.toml", MODEL.to_string()),
             ("other.toml", MODEL.replace("0.5", "0.6")),
             ("short.csv", log(12, 1.0)),
-            ("older.csv", log(2000, 1.0)),
-            ("newer.csv", log(3000, 2.0)),
+            ("older.csv", log(20_000, 1.0)),
+            ("newer.csv", log(20_000, 2.0)),
         ];
         inputs.iter().for_each(|(name, text)| fs::write(dir.path().join(name), text).unwrap());
         let out = dir.path().join("out");
@@ -138,10 +144,10 @@ fn a_kill_while_writing_leaves_whole_files() {
         let mut while_writing = 0;
         for round in 0..12u32 {
             put(&out, &bench.older);
-            let names = || fs::read_dir(&out).unwrap().count();
+            let before = lengths(&out);
             let mut child = start(bench.dir.path(), writer.newer);
-            // From the first temporary file on, a little later each time.
-            while names() == bench.older.len() && child.try_wait().unwrap().is_none() {}
+            // From the first change of a name or a length on, a little later each time.
+            while lengths(&out) == before && child.try_wait().unwrap().is_none() {}
             let begin = Instant::now();
             while begin.elapsed() < Duration::from_micros(u64::from(round) * 60) {}
             drop(child.kill());

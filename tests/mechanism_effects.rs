@@ -215,7 +215,8 @@ fn fits(model: &Compiled, start: Vec<f64>, target: &[f64]) -> bool {
 
 #[test]
 fn listed_equivalences_hold_with_the_change_of_parameter_stated() {
-    for model in machines() {
+    // The hopper has no wheel.
+    for model in machines().into_iter().filter(|m| m.vehicle.id != "hopper") {
         let all = |id: &str, v: f64| with(&model, effects::named(id).unwrap(), None, vec![v]);
         let steered = |id: &str| applies(&model, effects::named(id).unwrap());
         assert_eq!(steered("steering-offset"), steered("front-traverse-creep") || model.vehicle.id == "synchro-drive");

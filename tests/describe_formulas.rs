@@ -128,7 +128,7 @@ fn every_formula_has_one_unit() {
             assert!(rate.fits(&of(&e.name)), "{name}: rate of {} = {}", e.name, e.formula);
         }
         for c in &d.constraints {
-            let speed = if c.kind.letter == 'S' { unit(&d, &c.generic, &name) } else { speed.clone() };
+            let speed = if c.kind.letter == 'S' { unit(&d, &c.generic, &name) } else { speed };
             let zero = [c.generic.clone()].into_iter().chain(c.rows().map(|(_, row)| row));
             zero.for_each(|row| assert!(unit(&d, &row, &name).fits(&speed), "{name}: {row}"));
             let times = |e: &Expr, s: &Symbol| e * &Expr::sym(s.clone());

@@ -1,5 +1,6 @@
 //! Runs driven by forces, their friction hidden: `discover`, which knows no forces, names the creep that follows.
 
+#[allow(dead_code)] // a car can be pushed, too
 mod forced;
 #[path = "support/read_back.rs"]
 mod read_back;

@@ -143,6 +143,7 @@ fn hitches_keep_the_momenta() {
 #[test]
 fn ideal_contacts_give_the_kinematic_motion() {
     let trailers = [Trailer { length: 1.5, hitch: 0.3 }];
+    #[allow(clippy::type_complexity)]
     let cases: [(&str, &[(&str, f64)], &[&str], &[&str]); 4] = [
         ("unicycle", &[("wheel_radius", 0.4)], &["wheel_torque", "yaw_torque"], &["2 + sin(t)", "cos(2*t)"]),
         (

@@ -74,7 +74,8 @@ const INPUTS: [(&str, &str); 5] = [
 #[test]
 fn the_motion_of_every_vehicle() {
     let mut text = String::from("After 3 s: x, y, heading, headings of trailers; m and rad.\n");
-    for machine in models::machines() {
+    // The hopper has its own tests: it stands nowhere in the plane.
+    for machine in models::machines().into_iter().filter(|m| m.vehicle.id != "hopper") {
         let trailers = if machine.trailers.is_empty() { "" } else { " with two trailers" };
         text.push_str(&format!("\n{}{trailers}\n", machine.vehicle.id));
         text.push_str(&line("no effect", &machine));

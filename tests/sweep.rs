@@ -1,7 +1,7 @@
 //! The command `sweep`: the same bytes whatever stops it, splits it or runs it.
 
 use std::path::Path;
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 use tempfile::TempDir;
 

@@ -12,8 +12,10 @@ mod pair;
 mod serve;
 #[path = "../../src/motion/tableau.rs"]
 #[allow(dead_code)]
+#[allow(unused_imports)]
 mod tableau;
 mod trailers;
+#[allow(unsafe_code, clippy::excessive_precision)] // vector instructions by hand
 mod vector;
 mod wheel;
 

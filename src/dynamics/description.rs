@@ -168,7 +168,7 @@ impl Dynamics {
     /// use creepage::model::Model;
     /// let disk = Model::new("disk", &[("wheel_radius", 0.5)]).unwrap();
     /// let disk = Dynamics::new(&disk, &Masses { mass: 2.0, ..Masses::default() }).unwrap();
-    /// assert_eq!(disk.energy().to_string(), "body.mass*s'^2/2 + theta.inertia*theta'^2/2");
+    /// assert_eq!(disk.energy().to_string(), "body.mass*(s'^2/2) + theta.inertia*(theta'^2/2)");
     /// ```
     pub fn energy(&self) -> Expr {
         let bodies = self.bodies.iter().map(Body::energy).fold(Expr::int(0), |sum, e| &sum + &e);

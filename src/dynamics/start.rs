@@ -103,7 +103,9 @@ impl Dynamics {
         }
         let left = slips(&rates);
         let size = 1.0 + rates.amax();
-        let slipping = self.ideal().find(|(i, _)| !(left[*i].abs() <= ROUNDING * size));
+        // What is undefined slips, too.
+        let holds = |i: usize| left[i].abs() <= ROUNDING * size;
+        let slipping = self.ideal().find(|(i, _)| !holds(*i));
         match slipping {
             None => Ok(rates.as_slice().to_vec()),
             Some((i, contact)) => {

@@ -164,8 +164,8 @@ fn residual_slopes(d: &mut Derived, difference: &[NodeId], unknown: &[Symbol], s
     let symbols: Vec<NodeId> = unknown.iter().map(|s| d.graph.symbol(s.clone())).collect();
     let (accelerations, multipliers) = symbols.split_at(n);
     let mut residual = Vec::new();
-    for i in 0..n {
-        let mut sum = d.graph.neg(difference[i]);
+    for (i, difference) in difference.iter().enumerate() {
+        let mut sum = d.graph.neg(*difference);
         for (k, a) in accelerations.iter().enumerate() {
             let term = d.graph.mul(d.mass[i * n + k], *a);
             sum = d.graph.add(sum, term);

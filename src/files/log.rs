@@ -88,6 +88,10 @@ impl Log {
 }
 
 fn format(path: &Path) -> Result<Format> {
+    // What stands in a pipe can be read once.
+    if std::fs::metadata(path).is_ok_and(|m| !m.is_file() && !m.is_dir()) {
+        return Ok(Format::Csv);
+    }
     let mut file = open(path)?;
     let mut start = [0; 5];
     // A pipe gives its bytes once, so only a file is looked into.

@@ -22,7 +22,7 @@ impl Model {
         let mut unknown = self.unknown_rates();
         let mut left = self.constraints();
         while let Some((c, rate)) = single(&left, &unknown) {
-            let solved = isolated(&left.remove(c), &rate).ok_or_else(|| self.free(&[], &[rate.clone()]))?;
+            let solved = isolated(&left.remove(c), &rate).ok_or_else(|| self.free(&[], std::slice::from_ref(&rate)))?;
             unknown.retain(|r| *r != rate);
             d.define(rate, solved);
         }

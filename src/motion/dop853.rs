@@ -121,9 +121,9 @@ impl Dop853 {
         }
         sum(&mut self.new, y, h, ORDER_8.b, &self.k);
         let (mut fifth, mut third) = (0.0, 0.0);
-        for i in 0..n {
+        for (i, (old, new)) in y.iter().zip(&self.new).enumerate() {
             let k = |s: usize| self.k[s * n + i];
-            let scale = request.atol + y[i].abs().max(self.new[i].abs()) * request.rtol;
+            let scale = request.atol + old.abs().max(new.abs()) * request.rtol;
             let e5: f64 = (0..STAGES).filter(|s| E5[*s] != 0.0).map(|s| E5[s] * k(s)).sum();
             let b: f64 = (0..STAGES).filter(|s| ORDER_8.b[*s] != 0.0).map(|s| ORDER_8.b[s] * k(s)).sum();
             let e3 = b - E3[0] * k(0) - E3[1] * k(8) - E3[2] * k(11);

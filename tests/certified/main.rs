@@ -4,6 +4,7 @@ mod curve;
 mod nist;
 mod orbits;
 mod published;
+#[allow(clippy::excessive_precision)] // as published
 mod single_track;
 
 use curve::{Problem, digits, fit};

@@ -282,10 +282,10 @@ impl<'p> Emitter<'p> {
             self.lanes.instant_registers += 1;
             return self.lanes.instant_registers as u32 - 1;
         }
-        if self.plan.section[k] == Section::Body {
-            if let Some(register) = self.free.pop() {
-                return register;
-            }
+        if self.plan.section[k] == Section::Body
+            && let Some(register) = self.free.pop()
+        {
+            return register;
         }
         self.lanes.registers += 1;
         self.lanes.registers as u32 - 1

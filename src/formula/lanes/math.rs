@@ -16,6 +16,7 @@ const QUARTER: [f64; 3] = [
 ];
 
 /// Minimax coefficients of Sun's fdlibm for |r| ≤ π/4: sin r = r + r³·S(r²), cos r = 1 − r²/2 + r⁴·C(r²).
+#[allow(clippy::excessive_precision)] // as published
 const S: [f64; 6] = [
     -1.666_666_666_666_663_243_48e-1,
     8.333_333_333_322_489_461_24e-3,
@@ -24,6 +25,7 @@ const S: [f64; 6] = [
     -2.505_076_025_340_686_341_95e-8,
     1.589_690_995_211_550_102_21e-10,
 ];
+#[allow(clippy::excessive_precision)] // as published
 const C: [f64; 6] = [
     4.166_666_666_666_660_190_37e-2,
     -1.388_888_888_887_410_957_49e-3,

@@ -88,7 +88,7 @@ fn held(own: &OwnVehicle, model: &Model) -> Result<()> {
 /// That the motion uses every input, and needs no parameter that may be left out.
 fn needed(own: &OwnVehicle, model: &Model, d: &Definitions) -> Result<()> {
     let used = reached(d, &visible(model));
-    for role in own.vehicle.inputs.keys().map(|i| Symbol::new(i)).filter(|i| !used.contains(i)) {
+    if let Some(role) = own.vehicle.inputs.keys().map(|i| Symbol::new(i)).find(|i| !used.contains(i)) {
         let error = own.names[&role].error(format!("the motion does not depend on the input {role}"));
         return Err(error.help("use it in a formula, or remove it"));
     }

@@ -101,8 +101,8 @@ fn step(e: &LaneEquations, scheme: &Scheme, (t, h): (f64, f64), within: [f64; 2]
             block.k[s * n + i] = *e.rates.output(&block.memory, i);
         }
     }
-    for i in 0..n {
-        z[i] = sum(&z[i], &scheme.b, h, &block.k, n, i);
+    for (i, z) in z.iter_mut().enumerate().take(n) {
+        *z = sum(z, &scheme.b, h, &block.k, n, i);
     }
 }
 

@@ -10,7 +10,7 @@ use crate::motion::Integrator;
 ///
 /// | symbol | meaning |
 /// |---|---|
-/// | R | orientation, Ṙ = R·[ω] with [ω]·v = ω × v |
+/// | R | orientation, Ṙ = R·ω^ with ω^·v = ω × v |
 /// | Aᵢ | local form, a vector for each shape variable |
 /// | Fᵢⱼ = ∂Aⱼ/∂rᵢ − ∂Aᵢ/∂rⱼ + Aᵢ × Aⱼ | curvature; a small loop turns by F times its area |
 ///
@@ -45,7 +45,7 @@ impl RotationConnection {
     /// |---|---|
     /// | J₁, J₂ | principal moments of inertia of either body, in its own frame |
     /// | Q | orientation of the second body in the frame of the first |
-    /// | ω_Q | angular velocity of the second body in the first, [ω_Q] = Q̇·Qᵀ |
+    /// | ω_Q | angular velocity of the second body in the first, ω_Q^ = Q̇·Qᵀ |
     ///
     /// ω = −(J₁ + Q·J₂·Qᵀ)⁻¹·Q·J₂·Qᵀ·ω_Q.
     pub fn of_two_bodies(first: &[Expr; 3], second: &[Expr; 3], q: &Matrix, shape: &[Symbol]) -> Self {

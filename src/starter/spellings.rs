@@ -22,6 +22,7 @@ const USUAL: &[Usual] = &[
             "wz",
             "omega_z",
             "angular_velocity_z",
+            "angular_z",
             "heading_rate",
             "turn_rate",
             "omega",
@@ -32,7 +33,19 @@ const USUAL: &[Usual] = &[
     },
     Usual {
         role: "speed",
-        names: &["speed", "v", "velocity", "v_wheel", "vx", "wheel_speed", "linear_velocity", "v_x", "v_l", "v_odom"],
+        names: &[
+            "speed",
+            "v",
+            "velocity",
+            "v_wheel",
+            "vx",
+            "wheel_speed",
+            "linear_velocity",
+            "linear_x",
+            "v_x",
+            "v_l",
+            "v_odom",
+        ],
     },
     Usual { role: "wheel_rate", names: &["wheel_rate", "theta_dot", "wheel_omega", "omega_wheel", "wheel_velocity"] },
     Usual {
@@ -100,8 +113,10 @@ const OTHER: &[&str] = &[
     "effort",
     "torque",
 ];
-/// Words that make of a quantity its rate.
-const OF_A_RATE: &[&str] = &["rate", "rated", "dot"];
+/// Words of a rate, which no position and no angle has.
+const RATES: &[&str] = &["rate", "dot", "vel", "velocity", "speed", "twist", "linear", "angular", "gyro"];
+/// Words of a place, which no rate has.
+const PLACES: &[&str] = &["position", "pose", "pos", "orientation", "quaternion"];
 /// Words of a unit behind a name.
 const UNITS: &[&str] = &["m", "s", "rad", "rads", "mps", "radps"];
 
@@ -111,7 +126,7 @@ pub(super) fn rank(role: &str, column: &str) -> Option<usize> {
         return Some(0);
     }
     let words = words(column);
-    if words.iter().any(|w| OTHER.contains(&w.as_str())) {
+    if words.iter().any(|w| OTHER.contains(&w.as_str()) || against(role).contains(&w.as_str())) {
         return None;
     }
     let doubt = if words.iter().any(|w| DOUBTFUL.contains(&w.as_str())) { 1000 } else { 0 };
@@ -125,11 +140,18 @@ pub(super) fn rank(role: &str, column: &str) -> Option<usize> {
     // A word more than the name has: "gt_x", "pose.yaw".
     let within = |name: &&str| {
         let name: Vec<&str> = name.split('_').collect();
-        let rest = words.iter().filter(|w| !name.contains(&w.as_str()));
-        let is_rate = rest.into_iter().any(|w| OF_A_RATE.contains(&w.as_str()));
-        !is_rate && words.windows(name.len()).any(|w| w.iter().zip(&name).all(|(a, b)| a == b))
+        words.windows(name.len()).any(|w| w.iter().zip(&name).all(|(a, b)| a == b))
     };
     names.iter().position(within).map(|at| 100 + at + 10 * words.len() + doubt)
+}
+
+/// Words that say that a column does not hold a role.
+fn against(role: &str) -> &'static [&'static str] {
+    match role {
+        "x" | "y" | "heading" | "steering_angle" => RATES,
+        "speed" | "yaw_rate" | "wheel_rate" | "wheel_rate_left" | "wheel_rate_right" => PLACES,
+        _ => &[],
+    }
 }
 
 /// The words of a column's name in lower case, a unit at the end left out.
@@ -179,6 +201,10 @@ mod tests {
             ("speed", "v_wheel"),
             ("steering_angle", "delta"),
             ("wheel_rate", "theta_dot"),
+            ("speed", "/wheel_odom:twist.twist.linear.x"),
+            ("yaw_rate", "/imu:angular_velocity.z"),
+            ("heading", "orientation"),
+            ("heading", "/mocap/pose:yaw"),
         ] {
             assert!(rank(role, column).is_some(), "{column} for {role}");
         }
@@ -187,7 +213,9 @@ mod tests {
             ("x", "acc_x"),
             ("wheel_rate_left", "ticks_left"),
             ("time", "throttle"),
-            ("heading", "yaw_rated"),
+            ("heading", "yaw_rate"),
+            ("x", "/odom:twist.twist.linear.x"),
+            ("wheel_rate_left", "/joints:position.left_wheel"),
             ("wheel_rate", "wheel"),
             ("y", ""),
         ] {

@@ -211,7 +211,7 @@ fn what_a_file_gets_wrong_is_told_with_its_place() {
         ("model.toml", "models.toml", "models.toml: no such file"),
         ("count = 7", "count = 1000000000000000000", "there are more than 10^15 cases"),
         ("duration = 3.0", "duration = 3.0\nevery = 1e-9", "more than a million rows"),
-        ("u_0 = [1.0, 2.0]", "wheel_radius = [0.0]", "greater than zero"),
+        ("normal = [0.5, 0.01]", "uniform = [-1.0, 0.5]", "spec.toml:16:1: wheel_radius = -1.0 is out of range"),
         ("u_0 = [1.0, 2.0]", "wheel_radius = [0.4]\nu_0 = [1.0]", "stands under [grid] and [sample.of]"),
     ] {
         let changed = SPEC.replacen(change, by, 1);

@@ -1,9 +1,9 @@
 //! Two pieces of work timed side by side.
 
-use std::time::{Duration, Instant};
+use rustix::time::{ClockId, clock_gettime};
 
-/// How long a batch of either runs.
-const BATCH: Duration = Duration::from_millis(8);
+/// How long a batch of either runs, s.
+const BATCH: f64 = 8e-3;
 /// Batches of each, in turn.
 const BATCHES: usize = 25;
 
@@ -19,23 +19,26 @@ pub struct Pair {
     pub spread: [f64; 2],
 }
 
-/// Seconds of one run, and how many runs fill a batch.
-fn calibrate(f: &mut dyn FnMut()) -> usize {
-    let mut runs = 1;
-    loop {
-        let start = Instant::now();
-        (0..runs).for_each(|_| f());
-        if start.elapsed() >= BATCH / 2 || runs > 1 << 30 {
-            return runs;
-        }
-        runs *= 2;
-    }
+/// Seconds of processor time that this process has used: others on the machine do not count.
+pub fn processor_time() -> f64 {
+    let t = clock_gettime(ClockId::ProcessCPUTime);
+    t.tv_sec as f64 + t.tv_nsec as f64 * 1e-9
 }
 
+/// How many runs fill a batch.
+fn calibrate(f: &mut dyn FnMut()) -> usize {
+    let mut runs = 1;
+    while batch(f, runs) * (runs as f64) < BATCH / 2.0 && runs < 1 << 30 {
+        runs *= 2;
+    }
+    runs
+}
+
+/// Seconds a run.
 fn batch(f: &mut dyn FnMut(), runs: usize) -> f64 {
-    let start = Instant::now();
+    let start = processor_time();
     (0..runs).for_each(|_| f());
-    start.elapsed().as_secs_f64() / runs as f64
+    (processor_time() - start) / runs as f64
 }
 
 fn quantile(values: &mut [f64], q: f64) -> f64 {

@@ -1,22 +1,26 @@
 //! Batches on demand, for a script that times other programs in turn with this one.
 
+use super::pair::processor_time;
 use super::{CREEPS, MANY, jacobian, trailers, wheel};
 use creepage::formula::Isa;
 use creepage::motion::Ensemble;
 use std::hint::black_box;
 use std::io::BufRead;
-use std::time::{Duration, Instant};
 
-const BATCH: Duration = Duration::from_millis(200);
+/// Seconds of a batch.
+const BATCH: f64 = 0.2;
 
 /// Seconds a unit, over at least a batch.
 fn timed(units: usize, mut run: impl FnMut()) -> f64 {
-    let (start, mut count) = (Instant::now(), 0);
-    while start.elapsed() < BATCH {
-        run();
-        count += units;
+    let (start, mut count) = (processor_time(), 0);
+    loop {
+        (0..8).for_each(|_| run());
+        count += 8 * units;
+        let spent = processor_time() - start;
+        if spent >= BATCH {
+            return spent / count as f64;
+        }
     }
-    start.elapsed().as_secs_f64() / count as f64
 }
 
 fn sweep(e: &Ensemble, cases: &[[f64; 2]]) -> f64 {

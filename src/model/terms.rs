@@ -215,7 +215,8 @@ fn term(target: &Target, factors: &[&Factor], symbols: &Symbols, model: &Model) 
     let steered = model.vehicle.inputs.contains_key("steering_angle");
     let taken = NAMED.contains(&(target.definition, name.as_str()))
         || (target.definition == "phi'" && (logged && name == "constant" || steered && name == "v2-yaw"));
-    if taken {
+    // The effects that have these names speak of vehicles that move.
+    if taken && !model.vehicle.stays() {
         return None;
     }
     let product = factors.iter().map(|f| formula(f.formula, symbols)).filter(|f| !f.is_one());

@@ -27,7 +27,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
     /// Do the I-th of N parts, counted from 1
-    #[arg(long, value_name = "I/N", conflicts_with = "join")]
+    #[arg(long, value_name = "I/N", allow_hyphen_values = true, conflicts_with = "join")]
     shard: Option<Shard>,
     /// Join finished parts, given in their order
     #[arg(long, value_name = "PART", num_args = 1..)]

@@ -96,12 +96,12 @@ pub const BAD_FORMULAS: &[Case] = &[
     case(
         "unknown name",
         &[("\"it - u\"", "\"it - u*v_f/v_l\"")],
-        "20:15: no vehicle knows the name \"v_f\"; did you mean \"v_d\"? …",
+        "20:15: no vehicle knows the name \"v_f\"; did you mean \"v_l\"? …",
     ),
     case(
         "unknown name in a rate",
-        &[("phi'^2", "psi'^2")],
-        "18:12: no vehicle knows the name \"psi'\"; did you mean \"phi'\"? …",
+        &[("phi'^2", "chi'^2")],
+        "18:12: no vehicle knows the name \"chi'\"; did you mean \"phi'\"? …",
     ),
     case(
         "it in a rate",
@@ -111,7 +111,7 @@ pub const BAD_FORMULAS: &[Case] = &[
     case(
         "unknown definition",
         &[("v_t = \"it", "v_q = \"it")],
-        "20:1: no vehicle defines \"v_q\"; did you mean \"v_d\"? …",
+        "20:1: no vehicle defines \"v_q\"; did you mean \"v_l\"? …",
     ),
     case(
         "trailer in a formula",
@@ -151,7 +151,7 @@ pub const BAD_FORMULAS: &[Case] = &[
     case(
         "no vehicle",
         &[("v_t = \"it - u\"", "v_t = \"it - u\"\ndelta = \"it + q*phi'/v_l/tau\"")],
-        "2:6: the effect \"my-slip\" applies to no vehicle: formulas that use each other in a circle on car, four-wheel-car, tricycle and 3 more; no input wheel_rate on differential-drive, sleigh, differential-drive-castor and 3 more; no definition of delta on unicycle, unicycle logged by speed, disk and 1 more; change only names that one vehicle defines, in formulas of names it knows; see `creepage vehicles`",
+        "2:6: the effect \"my-slip\" applies to no vehicle: no input wheel_rate on differential-drive, sleigh, hopper and 4 more; formulas that use each other in a circle on car, four-wheel-car, tricycle and 3 more; no definition of delta on unicycle, unicycle logged by speed, disk and 1 more; change only names that one vehicle defines, in formulas of names it knows; see `creepage vehicles`",
     ),
     case(
         "not neutral",
@@ -201,17 +201,17 @@ pub const BAD_FORMULAS: &[Case] = &[
     case(
         "circle",
         &[("it - u\"", "it - u + q*x'/tau/v_l*phi'*tau\"")],
-        "2:6: the effect \"my-slip\" applies to no vehicle: formulas that use each other in a circle on unicycle, unicycle logged by speed, car and 6 more; no input wheel_rate on differential-drive, sleigh, differential-drive-castor and 3 more; v_t cannot change on disk, synchro-drive, n-trailer behind synchro-drive; change only names that one vehicle defines, in formulas of names it knows; see `creepage vehicles`",
+        "2:6: the effect \"my-slip\" applies to no vehicle: formulas that use each other in a circle on unicycle, unicycle logged by speed, car and 6 more; no input wheel_rate on differential-drive, sleigh, hopper and 4 more; v_t cannot change on disk, synchro-drive, n-trailer behind synchro-drive; change only names that one vehicle defines, in formulas of names it knows; see `creepage vehicles`",
     ),
     case(
         "no influence",
         &[("[\"wheel_rate\"]", "[\"wheel_rate_left\"]"), ("v_t = \"it - u\"", "\"theta_c'\" = \"it + u/r_c\"")],
-        "2:6: the effect \"my-slip\" applies to no vehicle: no input wheel_rate_left on unicycle, unicycle logged by speed, car and 11 more; no definition of theta_c' on differential-drive, n-trailer behind differential-drive; no influence on motion and sensor on differential-drive-castor, n-trailer behind differential-drive-castor; change only names that one vehicle defines, in formulas of names it knows; see `creepage vehicles`",
+        "2:6: the effect \"my-slip\" applies to no vehicle: no input wheel_rate_left on unicycle, unicycle logged by speed, car and 12 more; no definition of theta_c' on differential-drive, n-trailer behind differential-drive; no influence on motion and sensor on differential-drive-castor, n-trailer behind differential-drive-castor; change only names that one vehicle defines, in formulas of names it knows; see `creepage vehicles`",
     ),
     case(
         "no vehicle has both",
         &[("it - u", "it - u*a/L")],
-        "2:6: the effect \"my-slip\" applies to no vehicle: no a on car, four-wheel-car, tricycle and 3 more; no input wheel_rate on differential-drive, sleigh, differential-drive-castor and 3 more; no L on unicycle, unicycle logged by speed, n-trailer behind unicycle; change only names that one vehicle defines, in formulas of names it knows; see `creepage vehicles`",
+        "2:6: the effect \"my-slip\" applies to no vehicle: no input wheel_rate on differential-drive, sleigh, hopper and 4 more; no a on car, four-wheel-car, tricycle and 3 more; no L on unicycle, unicycle logged by speed, n-trailer behind unicycle; change only names that one vehicle defines, in formulas of names it knows; see `creepage vehicles`",
     ),
     case(
         "long formula",

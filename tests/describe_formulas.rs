@@ -271,6 +271,7 @@ fn the_catalogues_parse_and_hold_these_entries() {
         "traverse-creep",
         "cornering-creep",
         "load-dependent-creep",
+        "rocard-creep",
         "relaxation-length",
         "side-slope",
         "yaw-rate-scale",

@@ -78,6 +78,7 @@ fn entry(e: &Effect, vehicles: &[Vehicle]) -> Result<Value> {
     };
     Ok(json!({
         "id": e.id, "where": e.place, "says": e.says, "source": e.source, "per_trailer": e.per_trailer,
+        "limit": e.limit,
         "parameters": parameters,
         "changes": e.changes.iter().map(change).collect::<Vec<_>>(),
         "states": e.states.iter().map(state).collect::<Vec<_>>(),

@@ -3,6 +3,7 @@
 use super::bootstrap;
 use super::evidence::tail;
 use super::fit::Fit;
+use super::limits;
 use super::problem::Problem;
 use super::selection::{FINALISTS, FULL, MOST, Selection, bic, find, worth};
 use super::unnamed;
@@ -59,16 +60,17 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &d
     progress("fitting the model as it is");
     let starts = problem.starts(model)?;
     let Some(before) = problem.fit(model, &starts, &problem.variances, FULL)? else { return Ok(None) };
+    let quick = limits::without_transients(library);
     let selection = Selection {
         problem,
-        library,
-        size: model.applicable(library).len().max(1) as f64,
+        library: &quick,
+        size: model.applicable(&quick).len().max(1) as f64,
         given: before.variances,
         most: MOST,
         exchanges: true,
         drops: true,
     };
-    let named = selection.grown(&before, progress)?;
+    let named = limits::search(&selection, library, selection.grown(&before, progress)?)?;
     let grown = unnamed::search(&selection, model, &before, &named, progress)?.unwrap_or(named);
     let chosen = selection.examined(&grown.fit)?;
     Ok(Some(Choice { before, after: grown.fit, chosen, steps: grown.steps, candidates: grown.candidates }))

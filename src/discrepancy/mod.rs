@@ -34,6 +34,7 @@ pub mod html;
 pub mod identifiable;
 pub mod identity;
 mod judged;
+mod limits;
 pub mod locate;
 pub mod manoeuvre;
 pub mod outliers;

@@ -58,7 +58,17 @@ fn of_one(chosen: &Chosen, after: &Model, library: &[Effect], measured: Measured
     let by_data = chosen.rivals.iter().filter(listed);
     let by_data: Vec<Relative> =
         by_data.map(|r| Relative { applied: r.clone(), why: related(r).word().unwrap_or("data") }).collect();
-    identical.into_iter().chain(by_data).collect()
+    let listed: Vec<Relative> = identical.into_iter().chain(by_data).collect();
+    let limit =
+        quasi_static(&chosen.applied, library).filter(|l| !listed.iter().any(|r| r.applied.same_as(&l.applied)));
+    listed.into_iter().chain(limit).collect()
+}
+
+/// What a chosen effect becomes where its states follow at once: the same to first order in the time they take.
+fn quasi_static(chosen: &Applied, library: &[Effect]) -> Option<Relative> {
+    let limit = library.iter().find(|e| chosen.effect.limit.as_ref() == Some(&e.id))?;
+    let applied = Applied::new(limit, chosen.trailer, chosen.values.clone());
+    Some(Relative { applied, why: "first order" })
 }
 
 /// The effects of a library that a model has not.

@@ -32,6 +32,10 @@ pub struct Effect {
     pub states: BTreeMap<String, State>,
     /// Definitions it rewrites.
     pub changes: BTreeMap<String, Expr>,
+    /// The effect of the library that it becomes where its states follow at once; it is asked for in the place of
+    /// that one, with the same parameters, where that one does not explain everything.
+    #[serde(default)]
+    pub limit: Option<String>,
     /// Its place in the library; effects are applied in this order.
     #[serde(skip)]
     pub order: usize,

@@ -43,6 +43,8 @@ pub struct OwnEffect {
     pub names: BTreeMap<String, Spot>,
     /// Where each input it needs stands.
     pub needs: Vec<Spot>,
+    /// Where its limit stands.
+    pub limit: Option<Spot>,
     /// Its changes: where the definition is named, and the formula.
     pub changes: BTreeMap<String, (Spot, FormulaText)>,
     /// The rates of its states.
@@ -91,9 +93,21 @@ impl EffectsFile {
 }
 
 fn read_effect(section: &Section, origin: &Arc<Origin>) -> Result<OwnEffect> {
-    section.only(&["id", "where", "says", "source", "per_trailer", "needs", "parameters", "states", "changes"])?;
+    section.only(&[
+        "id",
+        "where",
+        "says",
+        "source",
+        "per_trailer",
+        "needs",
+        "limit",
+        "parameters",
+        "states",
+        "changes",
+    ])?;
     let text = |key: &str, example: &str| section.need(key, example)?.text().map(str::to_string);
     let id = section.need("id", "id = \"my-creep\"")?;
+    let limit = section.get("limit");
     let mut own = OwnEffect {
         effect: Effect {
             id: read_id(&id)?,
@@ -101,12 +115,14 @@ fn read_effect(section: &Section, origin: &Arc<Origin>) -> Result<OwnEffect> {
             says: text("says", "says = \"what the vehicle really does\"")?,
             source: section.get("source").map(|v| v.text()).transpose()?.unwrap_or("the user's own").into(),
             per_trailer: section.get("per_trailer").map_or(Ok(false), |v| v.truth())?,
+            limit: limit.as_ref().map(|v| v.text().map(str::to_string)).transpose()?,
             origin: Some(origin.clone()),
             ..Effect::default()
         },
         id: Spot::at(section.source, id.span().start),
         names: BTreeMap::new(),
         needs: vec![],
+        limit: limit.map(|v| Spot::at(section.source, v.span().start)),
         changes: BTreeMap::new(),
         rates: BTreeMap::new(),
     };

@@ -17,7 +17,7 @@ pub use vehicle::vehicles_with_own;
 
 use crate::effects::{self, Effect};
 use crate::error::Result;
-use crate::files::{EffectsFile, OwnEffect};
+use crate::files::{EffectsFile, OwnEffect, advice, shown};
 use crate::formula::Expr;
 use crate::vehicles::{self, Vehicle};
 use machine::Machine;
@@ -61,11 +61,32 @@ pub fn with_own_on(path: impl AsRef<Path>, vehicles: &[Vehicle]) -> Result<Vec<E
     let machines = Machine::all(vehicles)?;
     for own in file.effects {
         distinct(&own, &library)?;
+        check_limit(&own, &library)?;
         check(&own, &machines)?;
         library.push(Effect { order: library.len(), ..own.effect.clone() });
         growth::check(&own, &library, &machines)?;
     }
     Ok(library)
+}
+
+/// That what an effect becomes where its states follow at once is an effect with as many parameters.
+fn check_limit(own: &OwnEffect, library: &[Effect]) -> Result<()> {
+    let (Some(id), Some(spot)) = (&own.effect.limit, &own.limit) else { return Ok(()) };
+    let Some(limit) = library.iter().find(|e| e.id == *id) else {
+        let ids: Vec<&str> = library.iter().map(|e| e.id.as_str()).collect();
+        return Err(spot.error(format!("unknown effect \"{}\"", shown(id))).help(advice(id, "known effects", &ids)));
+    };
+    if limit.limit.is_some() {
+        let error = spot.error(format!("\"{id}\" has a limit of its own"));
+        return Err(error.help("name an effect without states that is asked for first"));
+    }
+    if limit.parameters.len() != own.effect.parameters.len() || limit.per_trailer != own.effect.per_trailer {
+        let error = spot.error(format!("\"{id}\" has other parameters, or another place on trailers"));
+        return Err(
+            error.help("an effect begins where its limit ends: give both the same parameters in the same order")
+        );
+    }
+    Ok(())
 }
 
 /// That the name of an effect, and the symbols made from it, are no other's.

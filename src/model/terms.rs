@@ -241,6 +241,7 @@ fn term(target: &Target, factors: &[&Factor], symbols: &Symbols, model: &Model) 
         parameters: BTreeMap::from([(COEFFICIENT.to_string(), parameter)]),
         states: BTreeMap::new(),
         changes: BTreeMap::from([(target.definition.to_string(), &Expr::sym("it") + &product)]),
+        limit: None,
         order: 0,
         origin: None,
     })

@@ -62,7 +62,22 @@ pub const BAD_FILES: &[Case] = &[
     case(
         "unknown key",
         &[("says = \"it", "say = \"it")],
-        "4:1: unknown key \"say\" in [[effect]]; did you mean \"says\"? known keys: id, where, says, source, per_trailer, needs, parameters, states, changes",
+        "4:1: unknown key \"say\" in [[effect]]; did you mean \"says\"? known keys: id, where, says, source, per_trailer, needs, limit, parameters, states, changes",
+    ),
+    case(
+        "unknown limit",
+        &[("says = \"it", "limit = \"load-dependent-crep\"\nsays = \"it")],
+        "4:9: unknown effect \"load-dependent-crep\"; did you mean \"load-dependent-creep\"? …",
+    ),
+    case(
+        "limit with other parameters",
+        &[("says = \"it", "limit = \"load-dependent-creep\"\nsays = \"it")],
+        "4:9: \"load-dependent-creep\" has other parameters, or another place on trailers; an effect begins where its limit ends: give both the same parameters in the same order",
+    ),
+    case(
+        "limit of a limit",
+        &[("says = \"it", "limit = \"rocard-creep\"\nsays = \"it")],
+        "4:9: \"rocard-creep\" has a limit of its own; name an effect without states that is asked for first",
     ),
     case(
         "missing key",

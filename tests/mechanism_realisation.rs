@@ -214,10 +214,8 @@ fn a_steered_wheel_is_passive_and_its_coefficient_does_not_depend_on_the_heading
     let at = names.iter().fold(general(), |p, (name, n, d)| p.with(*name, Exact::ratio(*n, *d)));
     let found = realised(&robot, &["theta_1'", "theta_2'"], &at.with("mu", toward(4, 3)));
     assert_eq!(found.passive, [3]);
-    let [ahead, seen] = [
-        robot.passive_coefficient_ahead(&found, 3).unwrap(),
-        robot.passive_coefficient(&found, 3).unwrap(),
-    ];
+    let [ahead, seen] =
+        [robot.passive_coefficient_ahead(&found, 3).unwrap(), robot.passive_coefficient(&found, 3).unwrap()];
     assert!(!ahead.mentions(&"phi".into()), "{ahead}");
     let value = |name: &str| match name {
         "phi" => 0.4_f64,

@@ -39,16 +39,16 @@ impl Places {
 }
 
 fn main() {
-    let mut arguments: Vec<String> = std::env::args().skip(1).collect();
-    let files = match arguments.first().is_some_and(|a| a == "--files") {
-        true => arguments.drain(..2).nth(1).unwrap().split(',').map(String::from).collect(),
-        false => Vec::new(),
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let (files, words) = match words[..] {
+        ["--files", files, ..] => (files.split(',').map(String::from).collect(), &words[2..]),
+        _ => (Vec::new(), &words[..]),
     };
     let scratch = std::env::var("MUTATION_SCRATCH").unwrap_or_else(|_| "/tmp/creepage-mutation".into());
     let root = std::fs::canonicalize(std::env::var("MUTATION_ROOT").unwrap_or_else(|_| ".".into())).unwrap();
     let at = Places { root, scratch: scratch.into(), files };
-    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    match words[..] {
+    match *words {
         [] => {
             build::make(&at);
             reach::measure(&at, &[]);

@@ -2,7 +2,7 @@
 
 mod support;
 
-use creepage::formula::{Expr, Symbol};
+use creepage::formula::{Expr, Symbol, latex_symbol};
 use num_rational::BigRational;
 use proptest::prelude::*;
 use support::check;
@@ -170,6 +170,7 @@ fn latex_cannot_be_misread() {
     for (text, latex) in table {
         assert_eq!(Expr::parse(text).unwrap().latex(), latex, "{text}");
     }
+    assert_eq!(latex_symbol(&"theta_rc'".into()), r"\dot{\theta}_{rc}");
 }
 
 #[test]

@@ -196,3 +196,51 @@ fn more_sets_than_can_be_listed_are_said_to_be_incomplete() {
     assert!(!found.is_complete && found.sets.len() == 1000 && found.signature() == "R^2T");
     assert_eq!(found.canonical(), [0, 2, 1]);
 }
+
+/// A differential drive with one more wheel that is steered, its place written as a difference and a quotient.
+const STEERED_BEHIND: &str = r#"
+[[wheels]]
+name = "further"
+forward = "h/k - c"
+left = "w"
+steering = "mu"
+traverse_creep = "e_further"
+"#;
+
+#[test]
+fn a_steered_wheel_is_passive_and_its_coefficient_does_not_depend_on_the_heading() {
+    let robot = of(&format!("{TWO_WHEEL}{STEERED_BEHIND}{}", measured(&["mu"])), 0);
+    let names = [("h", 3, 4), ("k", 5, 2), ("c", 2, 3), ("w", 1, 3)];
+    let at = names.iter().fold(general(), |p, (name, n, d)| p.with(*name, Exact::ratio(*n, *d)));
+    let found = realised(&robot, &["theta_1'", "theta_2'"], &at.with("mu", toward(4, 3)));
+    assert_eq!(found.passive, [3]);
+    let [ahead, seen] =
+        [robot.passive_coefficient_ahead(&found, 3).unwrap(), robot.passive_coefficient(&found, 3).unwrap()];
+    assert!(!ahead.mentions(&"phi".into()), "{ahead}");
+    let value = |name: &str| match name {
+        "phi" => 0.4_f64,
+        "mu" => 0.7,
+        "theta_1'" => 4.0,
+        "theta_2'" => 3.0,
+        "e_rc_1" => 0.02,
+        "e_rc_2" => 0.05,
+        "e_tc" => -0.1,
+        "r" => 0.5,
+        "a" => 1.5,
+        "h" => 0.75,
+        "k" => 2.5,
+        "c" => 0.6,
+        "w" => 0.3,
+        _ => panic!("{name}"),
+    };
+    // By hand: the velocity of the contact along the body and across it, then along the wheel and across it.
+    let [right, left] = [0.5 * 4.0 * 0.98, 0.5 * 3.0 * 0.95];
+    let (v_l, yaw) = ((right + left) / 2.0, (right - left) / 1.5);
+    let (u, w) = (v_l - 0.3 * yaw, -0.1 * v_l + (0.75 / 2.5 - 0.6) * yaw);
+    let (sin, cos) = 0.7_f64.sin_cos();
+    let expected = (w * cos - u * sin) / (u * cos + w * sin);
+    for formula in [ahead, seen] {
+        let e = formula.eval(&|s| value(s.as_str())).unwrap();
+        assert!((e - expected).abs() < 1e-12, "{e}, by hand {expected}: {formula}");
+    }
+}

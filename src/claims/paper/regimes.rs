@@ -2,6 +2,7 @@
 
 use crate::claims::{Claim, Fault, Outcome, Sampling, Statement, Status, Verdict};
 use crate::mechanism::{Limits, RotationMotion, RotationRegime, TraverseMotion, TraverseRegime};
+use proptest::prelude::Strategy;
 
 const CODE: &[&str] = &["src/mechanism/regime/rotation.rs", "src/mechanism/regime/traverse.rs"];
 
@@ -66,7 +67,8 @@ fn traverse(e: f64, limits: Limits) -> [i64; 2] {
 
 fn over(s: &Statement, sampling: &Sampling, names: Names) -> Outcome {
     let show = |(lower, upper): &(f64, f64)| vec![("e_2".into(), lower.to_string()), ("e_1".into(), upper.to_string())];
-    sampling.cases((-1.0..-1e-3f64, 1e-3..1.0f64), show, |(lower, upper)| at_limits(s, *lower, *upper, names))
+    let size = || 1e-3..1.0f64;
+    sampling.cases((size().prop_map(|e| -e), size()), show, |(lower, upper)| at_limits(s, *lower, *upper, names))
 }
 
 fn at_limits(s: &Statement, lower: f64, upper: f64, names: Names) -> Verdict {

@@ -321,3 +321,21 @@ fn degrees(found: &Found) -> Claim {
             found.checking(),
         )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_count_in_doubt_is_no_number() {
+        let found = Found::default();
+        let sure = found.of("unicycle").unwrap();
+        let disputed = Nonholonomy { holonomic: sure.holonomic + 1, ..sure.clone() };
+        let mut unfinished = sure;
+        unfinished.growth.is_final = false;
+        let all = [("disputed", disputed), ("unfinished", unfinished)];
+        found.0.lock().unwrap().extend(all.map(|(name, n)| (name.to_string(), Some(n))));
+        let rank = |name: &str| found.number(&Symbol::new(&format!("{name}.rank")));
+        assert_eq!([rank("unicycle"), rank("disputed"), rank("unfinished")], [Some(2), None, None]);
+    }
+}

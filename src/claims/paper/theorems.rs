@@ -265,3 +265,21 @@ fn forms_of(s: &Statement, n: usize) -> Verdict {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_set_with_one_of_each_type_is_found_or_missed() {
+        let says = |drive: Drive, yaw: bool, counts: [(&str, &str); 3]| {
+            let statement = Statement::parse(&counts).unwrap();
+            over(vehicles(Just(drive), 0, 0), yaw, &statement, &Sampling { cases: 3, seed: 1, shrink: false })
+        };
+        // With the yaw rate measured the only set of a unicycle is RT; a car without it needs three.
+        let unicycle = |one| says(Drive::Unicycle, true, [("k", "1"), ("m", "1"), ("one_of_each", one)]);
+        assert!(unicycle("1").holds() && unicycle("0").fails());
+        let car = |one| says(Drive::Car, false, [("k", "1"), ("m", "2"), ("one_of_each", one)]);
+        assert!(car("0").holds() && car("1").fails());
+    }
+}

@@ -18,7 +18,7 @@ const ROUNDS: usize = 25;
 
 /// Copies, rewrites and builds; leaves `fates.tsv` with a line for every mutant.
 pub fn make(at: &Places) {
-    let mutants = list(&at.root);
+    let mutants = list(&at.root, &at.files);
     std::fs::create_dir_all(at.copy()).unwrap();
     copy(at);
     let mut fates: BTreeMap<usize, Fate> = BTreeMap::new();

@@ -18,11 +18,13 @@ pub struct Mutant {
     pub end: Place,
 }
 
-/// Every mutant of the package. The number of a mutant is its index here: mutants of one place follow each other.
-pub fn list(root: &Path) -> Vec<Mutant> {
+/// Every mutant of the package, or of the files that begin with one of some paths. The number of a mutant is its index
+/// here: mutants of one place follow each other.
+pub fn list(root: &Path, files: &[String]) -> Vec<Mutant> {
     let made = Command::new("cargo").args(["mutants", "--list", "--json"]).current_dir(root).output().unwrap();
     let all: Value = serde_json::from_slice(&made.stdout).expect("cargo mutants --list --json");
-    let mut mutants: Vec<Mutant> = all.as_array().unwrap().iter().map(read).collect();
+    let wanted = |m: &Mutant| files.is_empty() || files.iter().any(|f| m.file.starts_with(f));
+    let mut mutants: Vec<Mutant> = all.as_array().unwrap().iter().map(read).filter(wanted).collect();
     mutants.sort_by(|a, b| (&a.file, &a.genre, a.start).cmp(&(&b.file, &b.genre, b.start)));
     mutants
 }

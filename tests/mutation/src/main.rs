@@ -17,6 +17,8 @@ pub struct Places {
     pub root: PathBuf,
     /// A folder outside it: the copy, its build and the results.
     pub scratch: PathBuf,
+    /// Beginnings of the paths of the files that are mutated; none for all.
+    pub files: Vec<String>,
 }
 
 impl Places {
@@ -38,11 +40,15 @@ impl Places {
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let (files, words) = match words[..] {
+        ["--files", files, ..] => (files.split(',').map(String::from).collect(), &words[2..]),
+        _ => (Vec::new(), &words[..]),
+    };
     let scratch = std::env::var("MUTATION_SCRATCH").unwrap_or_else(|_| "/tmp/creepage-mutation".into());
     let root = std::fs::canonicalize(std::env::var("MUTATION_ROOT").unwrap_or_else(|_| ".".into())).unwrap();
-    let at = Places { root, scratch: scratch.into() };
-    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    match words[..] {
+    let at = Places { root, scratch: scratch.into(), files };
+    match *words {
         [] => {
             build::make(&at);
             reach::measure(&at, &[]);
@@ -55,6 +61,6 @@ fn main() {
             run::run(&at, seconds.parse().unwrap(), part.parse().unwrap(), of.parse().unwrap());
         }
         ["table"] => table::print(&at),
-        _ => eprintln!("usage: mutation [build | reach [TESTS] | run SECONDS PART OF | table]"),
+        _ => eprintln!("usage: mutation [--files PATH,PATH] [build | reach [TESTS] | run SECONDS PART OF | table]"),
     }
 }

@@ -26,6 +26,9 @@ pub const ONE_IN: &str = "MUTATION_ONE_IN";
 /// What stands for a binary of tests where a claim is verified: `creepage verify` exits as the ledger's test does.
 pub const CLAIM: &str = "claim";
 
+/// The tests beside what they test.
+const LIBRARY: &str = "creepage";
+
 /// The seed and cases of `every_stated_status_is_earned_and_every_sabotage_noticed`.
 const AS_IN_THE_LEDGER_TEST: [&str; 6] = ["verify", "--quiet", "--cases", "40", "--seed", "3"];
 
@@ -40,7 +43,7 @@ pub enum End {
 /// Builds the tests, or only those in some files of `tests`: names and paths of their binaries.
 pub fn binaries(at: &Places, only: &[&str]) -> Vec<(String, String)> {
     let mut wanted = vec!["test".to_string(), "--no-run".into()];
-    wanted.extend(only.is_empty().then(|| "--lib".into()));
+    wanted.extend((only.is_empty() || only.contains(&LIBRARY)).then(|| "--lib".into()));
     let mut names: Vec<String> = std::fs::read_dir(at.root.join("tests"))
         .unwrap()
         .filter_map(|f| f.unwrap().file_name().to_str()?.strip_suffix(".rs").map(String::from))

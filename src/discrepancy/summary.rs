@@ -133,7 +133,7 @@ fn effect_lines(effects: &[Named]) -> Vec<String> {
 }
 
 fn row(effect: &str, parameter: &str, value: &str, unit: &str, bic: &str) -> String {
-    format!("  {:<23}{:<15}{:<22}{:<7}{bic:>9}", cut(effect, 22), cut(parameter, 14), cut(value, 21), cut(unit, 6))
+    format!("  {:<23}{:<15}{:<24}{:<7}{bic:>9}", cut(effect, 22), cut(parameter, 14), cut(value, 23), cut(unit, 6))
 }
 
 fn one_effect(effect: &Named) -> Vec<String> {
@@ -199,9 +199,10 @@ pub fn clock_line(c: &RunClock) -> String {
 
 fn data_lines(report: &Report) -> Vec<String> {
     let data = &report.data;
+    let runs = if data.runs == 1 { "1 run".to_string() } else { format!("{} runs", data.runs) };
     let mut lines = vec![
         String::new(),
-        format!("  data: {} runs, {} rows used, {} dropped", data.runs, data.rows, data.rows_dropped),
+        format!("  data: {runs}, {} rows used, {} dropped", data.rows, data.rows_dropped),
     ];
     lines.extend(data.clocks.iter().take(2).flat_map(|c| wrapped(&clock_line(c), 2, 2)));
     if data.clocks.len() > 2 {

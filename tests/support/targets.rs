@@ -14,11 +14,11 @@ use creepage::describe::{
 };
 use creepage::discrepancy::discover::{Request, discover};
 use creepage::discrepancy::html::{gap_svg, html};
-use creepage::dynamics::{self, Dynamics, Start, simulate_dynamics};
-use creepage::files::{DynamicsEntry, EffectsFile, Initial, Inputs, Known, ModelFile, Run, read_claims};
+use creepage::dynamics::{self, Dynamics, simulate_file};
+use creepage::files::{EffectsFile, Initial, Inputs, Known, ModelFile, Run, read_claims};
 use creepage::formula::Expr;
 use creepage::model::Model;
-use creepage::motion::{Integrator, Method, Signals, Table, simulate_model};
+use creepage::motion::{Integrator, Signals, Table, simulate_model};
 use creepage::sweep::{Shard, Sweep};
 use creepage::{Error, Result, effects, library, vehicles};
 use std::path::{Path, PathBuf};
@@ -55,7 +55,7 @@ pub const TARGETS: &[Target] = &[
     Target { name: "verify", run: verify, files: &["claims.toml"], longest: 2048, seeds: claims_files },
     Target { name: "list_effects", run: list_effects, files: &["effects.toml"], longest: 4096, seeds: effects_files },
     Target { name: "vehicles", run: own_vehicles, files: &["mine.toml"], longest: 8192, seeds: vehicles_files },
-    Target { name: "relatives", run: relatives, files: &["mine.toml"], longest: 4096, seeds: vehicles_files },
+    Target { name: "relatives", run: relatives, files: &["mine.toml"], longest: 8192, seeds: vehicles_files },
     Target { name: "own_model", run: own_model, files: &["mine.toml", "model.toml"], longest: 8192, seeds: own_models },
     Target { name: "dynamics", run: forced, files: &["run.csv", "model.toml"], longest: 4096, seeds: driven },
     Target { name: "sweep", run: swept, files: &["sweep.toml", "model.toml", "run.csv"], longest: 4096, seeds: sweeps },
@@ -218,17 +218,17 @@ fn finite(table: &Table) {
 
 fn forced(dir: &Path) -> Result<()> {
     let file = ModelFile::read(dir.join("model.toml"), known())?;
-    let dynamics = Dynamics::from_file(&file)?;
-    let entry = file.dynamics.clone().unwrap_or_else(DynamicsEntry::default);
+    if file.dynamics.is_none() {
+        return Ok(());
+    }
+    Dynamics::from_file(&file)?;
     let inputs = Inputs::read(dir.join("run.csv"), &file)?;
     let (signals, pose) = begun(&file, &inputs);
-    let method = if dynamics.has_friction() { Method::Radau5 } else { brief().method };
-    let by = Integrator { method, ..brief() };
-    finite(&simulate_dynamics(&dynamics, &signals, &inputs.time, &Start::from_file(&entry, &pose), &by)?);
+    finite(&simulate_file(&file, &signals, &inputs.time, &pose, &brief())?);
     Ok(())
 }
 
-/// A small part of the table, twice: what is done is taken over.
+/// A small part of the table.
 fn swept(dir: &Path) -> Result<()> {
     let sweep = Sweep::read(dir.join("sweep.toml"))?;
     let out = dir.join("sweep.csv");

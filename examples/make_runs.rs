@@ -7,7 +7,7 @@
 #[path = "../tests/simulator/mod.rs"]
 mod simulator;
 
-use simulator::{Hidden, Noise, Profile, Scenario, Signal, Timing, Tractor};
+use simulator::{Hidden, Log, Noise, Profile, Scenario, Signal, Timing, Tractor};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::{Path, PathBuf};
 
@@ -29,7 +29,7 @@ fn main() -> std::io::Result<()> {
     for set in [cornering(), track(), nothing(), steering(), pair()] {
         write(&root.join(set.folder), &set)?;
     }
-    Ok(())
+    write_apart(&root.join("clocks"))
 }
 
 fn write(folder: &Path, set: &Set) -> std::io::Result<()> {
@@ -120,6 +120,34 @@ fn pair() -> Set {
         runs: vec![("eights", eights(1.0, 15.0)), ("meander", meander(1.0))],
         base,
     }
+}
+
+/// What the clock of the poses reads when that of the inputs reads 0, s, and how much faster it runs.
+const OFFSET: f64 = 1500.25;
+const DRIFT: f64 = 1.5e-4;
+
+/// A drive that two devices log, each by its own clock and at its own rate.
+fn write_apart(folder: &Path) -> std::io::Result<()> {
+    let mut base = Scenario { profile: meander(0.5), jitter: 0.3, seed: 100, ..track().base };
+    base.hidden = vec![Hidden::WheelRadiusMismatch { scale: -0.02 }];
+    let story = "The vacuum cleaner of `track` with a worn left wheel. Its controller logs what the wheels turn, a camera in\n\
+                 another room where it is; nobody has set their clocks.";
+    write(folder, &Set { folder: "clocks", story, base: base.clone(), runs: vec![] })?;
+    let mut answer = base.answer();
+    answer["clock"] = serde_json::json!({ "offset_s": OFFSET, "drift": DRIFT, "at_s": 0.0 });
+    std::fs::write(folder.join("answer.json"), serde_json::to_string_pretty(&answer)? + "\n")?;
+    let inputs = base.run();
+    let poses = Scenario { rate: 10.0, seed: base.seed + 1, ..base }.run();
+    let first = inputs.columns.len() - 2;
+    part(&inputs, first..inputs.columns.len(), |t| t / (1.0 + DRIFT)).write_csv(folder.join("inputs.csv"))?;
+    part(&poses, 1..first, |t| OFFSET + t).write_csv(folder.join("poses.csv"))
+}
+
+/// The time by some clock and some columns of a log.
+fn part(log: &Log, columns: std::ops::Range<usize>, clock: impl Fn(f64) -> f64) -> Log {
+    let named = std::iter::once(&log.columns[0]).chain(&log.columns[columns.clone()]).cloned().collect();
+    let row = |row: &Vec<f64>| std::iter::once(clock(row[0])).chain(row[columns.clone()].iter().copied()).collect();
+    Log { columns: named, rows: log.rows.iter().map(row).collect(), truth: log.truth.clone() }
 }
 
 /// A robot of about 1 m/s whose pose is measured to 2 mm and 2 mrad.

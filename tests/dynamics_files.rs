@@ -202,6 +202,9 @@ fn a_car_is_driven_by_a_torque() {
     // Drive slip: the force that accelerates it over b.
     let slip = last(&table, "slip.rear-axle-rolling");
     assert!((slip + last(&table, "force.rear-axle-rolling") / 2e4).abs() < 1e-9 && slip < -0.03, "{slip}");
+    let weightless = simulated(&model.replace("wheel_inertia = 1\n", ""), &format!("time,tau,steering_angle\n{rows}"));
+    let weightless = weightless.unwrap_err();
+    assert!(weightless.contains("model.toml:7:1: nothing says how theta accelerates"), "{weightless}");
     let missing = simulated(&model, "time,steering_angle\n0,0\n1,0\n").unwrap_err();
     assert!(missing.contains("column \"tau\" for wheel_torque is missing"), "{missing}");
 }

@@ -35,8 +35,9 @@ const MOST_TIME: Duration = Duration::from_secs(60);
 /// Cases of one target when no time is given.
 fn cases(name: &str) -> u32 {
     match name {
+        "relatives" => 10,
         "list_effects" | "verify" => 30,
-        "describe" | "discover" | "simulate" => 100,
+        "describe" | "discover" | "dynamics" | "own_model" | "simulate" | "sweep" | "vehicles" => 100,
         _ => 1000,
     }
 }
@@ -214,6 +215,31 @@ fn verify() {
 #[test]
 fn list_effects() {
     fuzz("list_effects");
+}
+
+#[test]
+fn vehicles() {
+    fuzz("vehicles");
+}
+
+#[test]
+fn relatives() {
+    fuzz("relatives");
+}
+
+#[test]
+fn own_model() {
+    fuzz("own_model");
+}
+
+#[test]
+fn dynamics() {
+    fuzz("dynamics");
+}
+
+#[test]
+fn sweep() {
+    fuzz("sweep");
 }
 
 /// A target without a test, or without its file for libFuzzer, would never run.

@@ -203,17 +203,21 @@ fn what_a_file_gets_wrong_is_told_with_its_place() {
         ("u_0 = [1.0, 2.0]", "u_9 = [1.0, 2.0]", "spec.toml:9:1: nothing is called \"u_9\""),
         ("u_0 + sin(t)", "u_0 + sin(q)", "spec.toml:4:25: q has no value"),
         ("u_0 + sin(t)", "u_0 + sin(", "spec.toml:4:2"),
-        ("wheel_rate =", "wheel_rat =", "spec.toml: the input wheel_rate or speed has no formula"),
+        ("wheel_rate =", "wheel_rat =", "spec.toml:3:1: the input wheel_rate or speed has no formula"),
         ("count = 5", "count = 0", "spec.toml:10:"),
         ("to = 0.1", "to = 2000.0", "out of range"),
         ("duration = 3.0", "durations = 3.0", "spec.toml:2:1: unknown key \"durations\""),
-        ("duration = 3.0", "", "key \"duration\" is missing"),
+        ("duration = 3.0", "", "spec.toml:1:1: key \"duration\" is missing"),
         ("duration = 3.0", "duration = -3.0", "spec.toml:2:12: duration"),
         ("uniform", "triangle", "spec.toml:15:21: \"triangle\" is no distribution"),
         ("[-3.0, 3.0]", "[3.0, -3.0]", "begins above its end"),
-        ("model.toml", "models.toml", "models.toml: no such file"),
+        ("model.toml", "models.toml", "spec.toml:1:9: no file is at \"models.toml\""),
         ("count = 7", "count = 1000000000000000000", "there are more than 10^15 cases"),
-        ("duration = 3.0", "duration = 3.0\nevery = 1e-9", "more than a million rows"),
+        (
+            "duration = 3.0",
+            "duration = 3.0\nevery = 1e-9",
+            "spec.toml:3:1: every = 1e-9 gives more than a million rows",
+        ),
         ("normal = [0.5, 0.01]", "uniform = [-1.0, 0.5]", "spec.toml:16:1: wheel_radius = -1.0 is out of range"),
         ("u_0 = [1.0, 2.0]", "wheel_radius = [0.4]\nu_0 = [1.0]", "stands under [grid] and [sample.of]"),
     ] {
@@ -234,6 +238,53 @@ fn what_a_file_gets_wrong_is_told_with_its_place() {
         assert!(refused(dir.path(), &["--out", "all.parquet"]).contains("--features parquet"));
     }
     assert_eq!(names(dir.path()), ["model.toml", "spec.toml"]);
+}
+
+/// A vehicle of one's own with a section behind a joint: the last row of a case is what `simulate` ends with.
+#[test]
+fn a_vehicle_of_a_file_moves_as_by_simulate() {
+    const BUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/bus");
+    let model = "vehicle = \"articulated-bus\"\n[parameters]\nwheel_radius = 0.478\nwheelbase = 5.9\njoint_offset = 1.65\n\
+                 rear_length = 5.1\n[initial]\nx = 0\ny = 0\nheading = 0.1\ntrailer_headings = [0.4]\n";
+    let spec = "model = \"model.toml\"\nduration = 6.0\n[inputs]\nwheel_rate = \"5.0\"\nsteering_angle = \"s\"\n[grid]\n\
+                s = [0.0, 0.2]\nwheelbase = [5.9, 5.0]\n";
+    let dir = folder(spec);
+    let write = |name: &str, text: &str| std::fs::write(dir.path().join(name), text).unwrap();
+    write("model.toml", model);
+    assert!(refused(dir.path(), &["--out", "all.csv"]).contains("unknown vehicle \"articulated-bus\""));
+    write("model.toml", &format!("vehicles = \"{BUS}/bus.toml\"\n{model}"));
+    good(dir.path(), &["--out", "all.csv"]);
+    let named = bytes(dir.path(), "all.csv");
+    write("model.toml", model);
+    write("spec.toml", &format!("vehicles = \"{BUS}/bus.toml\"\n{spec}"));
+    good(dir.path(), &["--out", "all.csv"]);
+    assert_eq!(bytes(dir.path(), "all.csv"), named);
+    let of_case = |i: usize| -> Vec<f64> {
+        let text = String::from_utf8(named.clone()).unwrap();
+        let row = text.lines().nth(i + 1).unwrap().split(',').take(8).map(|v| v.parse().unwrap()).collect::<Vec<f64>>();
+        row[4..8].to_vec()
+    };
+    for (case, s) in [(0, "0.0"), (2, "0.2")] {
+        write("in.csv", &format!("time,wheel_rate,steering_angle\n0,5,{s}\n6,5,{s}\n"));
+        let mut command = Command::new(env!("CARGO_BIN_EXE_creepage"));
+        command.current_dir(dir.path()).args(["simulate", "model.toml", "--inputs", "in.csv", "--out", "path.csv"]);
+        let output = command.args(["--vehicles", &format!("{BUS}/bus.toml")]).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let path = String::from_utf8(bytes(dir.path(), "path.csv")).unwrap();
+        let end: Vec<f64> = path.lines().last().unwrap().split(',').map(|v| v.parse().unwrap()).collect();
+        let apart = of_case(case).iter().zip(&end[1..5]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(apart < 1e-8 && end[4] != end[3], "{apart} {end:?} {:?}", of_case(case));
+    }
+    assert_ne!(of_case(2), of_case(3), "the wheelbase matters");
+}
+
+#[test]
+fn forces_are_refused_with_a_place() {
+    let dir = folder(SPEC);
+    let forces = "vehicle = \"disk\"\n[parameters]\nwheel_radius = 0.5\n[dynamics]\nmass = 2.0\n";
+    std::fs::write(dir.path().join("model.toml"), forces).unwrap();
+    let message = refused(dir.path(), &["--out", "all.csv"]);
+    assert!(message.contains("model.toml:4:1: a sweep knows no forces"), "{message}");
 }
 
 #[test]

@@ -24,6 +24,9 @@ use creepage::motion::Ensemble;
 use pair::{Pair, pair};
 use std::hint::black_box;
 
+/// A comparison and its name.
+type Named = (&'static str, fn() -> Pair);
+
 const MANY: usize = 4096;
 const CREEPS: [f64; 2] = [0.1, 0.2];
 
@@ -37,7 +40,7 @@ fn main() {
     }
     let only = std::env::args().nth(1).filter(|a| !a.starts_with('-'));
     println!("| work | yardstick | creepage | yardstick | ratio (quartiles) |\n|---|---|---|---|---|");
-    let all: [(&str, fn() -> Pair); 5] = [
+    let all: [Named; 5] = [
         ("wheel", single),
         ("wheels", sweep),
         ("train", trailers_single),

@@ -63,15 +63,15 @@ def read(path, model):
     return Log(Path(path).stem, float(np.median(np.diff(column["time"]))), pose, wheels, track)
 
 
-def windows(log, every):
+def windows(log, every, horizon):
     """Rows at which the windows begin, and how many rows they last."""
-    margin, length = round(MARGIN / log.step), round(HORIZON / log.step)
+    margin, length = round(MARGIN / log.step), round(horizon / log.step)
     return np.arange(margin, len(log.pose) - margin - length, round(every / log.step)), length
 
 
-def predicted(log, velocities, every=HORIZON):
+def predicted(log, velocities, every=HORIZON, horizon=HORIZON):
     """Poses at the ends of all windows from velocities (ahead, left, yaw) of every row, and those measured."""
-    starts, length = windows(log, every)
+    starts, length = windows(log, every, horizon)
     mean = (velocities[1:] + velocities[:-1]) / 2
     pose = log.smoothed()[starts].copy()
     for k in range(length):

@@ -3,7 +3,7 @@
 Two users. Inputs are divided by their RMS, so that a threshold means the same for every term; it is chosen on the last
 fifth of every log, by predictions over 5 s that begin every half second. (At first they were predictions over 1 s; the
 sparse user then missed what shows over 5 s only, such as the scale of a gyro. It was changed in PySINDy's favour once, a
-third of the runs having been seen, and not again.)
+third of the runs having been seen, and not again. `horizon.py` shows both.)
 
     for prediction   polynomials of the third degree; the threshold that predicts best
     for sparsity     polynomials of the second degree; the fewest terms within one standard error of the best
@@ -64,19 +64,19 @@ def trained(logs, user, threshold):
     return Fitted(model, scale)
 
 
-def squares(logs, fitted):
+def squares(logs, fitted, horizon):
     """Squared position errors after the horizon, over windows that overlap."""
-    ends = [np.subtract(*predicted(log, fitted.corrected(log), every=EVERY)) for log in logs]
+    ends = [np.subtract(*predicted(log, fitted.corrected(log), every=EVERY, horizon=horizon)) for log in logs]
     return np.sum(np.vstack(ends)[:, :2] ** 2, axis=1)
 
 
-def fit(logs, user):
+def fit(logs, user, horizon=HORIZON):
     early, late = [log.part(0, 0.8) for log in logs], [log.part(0.8, 1) for log in logs]
     tried = []
     for threshold in THRESHOLDS:
         fitted = trained(early, user, threshold)
-        errors = squares(late, fitted)
-        apart = max(1.0, len(errors) * EVERY / HORIZON)  # windows that do not overlap
+        errors = squares(late, fitted, horizon)
+        apart = max(1.0, len(errors) * EVERY / horizon)  # windows that do not overlap
         tried.append((errors.mean(), errors.std() / np.sqrt(apart), len(fitted.terms()), threshold))
     best = min(tried)
     bar = best[0] + best[1]

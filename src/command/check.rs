@@ -47,6 +47,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let progress = Progress::new(quiet);
     progress.say("reading the runs");
     let (file, library) = &arguments.own.read(&arguments.model)?;
+    file.no_forces("check")?;
     Model::check_motion(file)?;
     let runs = runs::read(&arguments.runs, &arguments.truth, "--truth", file)?;
     runs::distinct(&arguments.runs, &[])?;

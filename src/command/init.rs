@@ -1,11 +1,12 @@
 //! `creepage init`
 
+use super::own::OwnVehicles;
 use super::print;
 use clap::Args;
 use creepage::files::{ModelFile, read_header, write_whole};
 use creepage::starter::{Starter, Wanted};
 use creepage::{Error, Result, effects, model};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Write a commented model file to begin with
 #[derive(Args)]
@@ -15,6 +16,7 @@ Examples:
   creepage init unicycle --from examples/runs/cornering/eights.csv --out model.toml
   creepage init unicycle --from INPUTS.csv --truth POSES.csv
   creepage init n-trailer --tractor car --trailers 2 --out truck.toml
+  creepage init articulated-bus --vehicles examples/bus/bus.toml --out bus.toml
 
 The file is valid at once: parameters are placeholders with unit and meaning, columns are those of RUN.csv that the
 roles are likely to mean. An older file is kept unless --force is given. `creepage vehicles` lists vehicles.")]
@@ -40,6 +42,8 @@ pub struct Arguments {
     /// Replace an older file
     #[arg(long)]
     force: bool,
+    #[command(flatten)]
+    own: OwnVehicles,
 }
 
 /// Carries out the command.
@@ -47,15 +51,23 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let read = |path: &PathBuf| Ok((path.display().to_string(), read_header(path)?));
     let log = arguments.from.as_ref().map(read).transpose()?;
     let truth = arguments.truth.as_ref().map(read).transpose()?;
-    let starter = Starter::new(&Wanted {
-        vehicle: arguments.vehicle.clone(),
-        tractor: arguments.tractor.clone(),
-        trailers: arguments.trailers.map(usize::from),
-        log,
-        truth,
-    })?;
+    let vehicles = arguments.own.all()?;
+    let is_own = |id: &Option<String>| vehicles.iter().any(|v| Some(&v.id) == id.as_ref() && v.origin.is_some());
+    let named = is_own(&Some(arguments.vehicle.clone())) || is_own(&arguments.tractor);
+    let own = arguments.own.file().filter(|_| named).map(|file| from_folder_of(&arguments.out, file));
+    let starter = Starter::on(
+        &vehicles,
+        &Wanted {
+            vehicle: arguments.vehicle.clone(),
+            tractor: arguments.tractor.clone(),
+            trailers: arguments.trailers.map(usize::from),
+            log,
+            truth,
+            own,
+        },
+    )?;
     // What is written must be readable, whatever the columns are called.
-    ModelFile::parse(&starter.text, &arguments.out, &model::known(effects::all()))?;
+    ModelFile::parse(&starter.text, &arguments.out, &model::known_on(&vehicles, effects::all()))?;
     if !arguments.force && arguments.out.symlink_metadata().is_ok_and(|m| m.is_file() || m.is_symlink()) {
         return Err(Error::input("is there already")
             .at_file(&arguments.out)
@@ -66,6 +78,17 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
         print(&screen(&starter, arguments))?;
     }
     Ok(())
+}
+
+/// The path of a file as a model file names it that lies elsewhere.
+fn from_folder_of(out: &Path, file: &Path) -> String {
+    let folder = |path: &Path| path.parent().map(Path::to_path_buf).unwrap_or_default();
+    let found = match (folder(out) == folder(file), file.file_name(), std::path::absolute(file)) {
+        (true, Some(name), _) => name.into(),
+        (_, _, Ok(whole)) if folder(out) != Path::new("") => whole,
+        _ => file.to_path_buf(),
+    };
+    found.display().to_string()
 }
 
 fn screen(starter: &Starter, arguments: &Arguments) -> String {

@@ -27,23 +27,17 @@ pub struct Own {
 }
 
 impl OwnVehicles {
+    /// The file, if one is given.
+    pub fn file(&self) -> Option<&Path> {
+        self.vehicles.as_deref()
+    }
+
     /// The catalogue with the user's own vehicles.
     pub fn all(&self) -> Result<Vec<Vehicle>> {
         match &self.vehicles {
             Some(path) => library::vehicles_with_own(path),
             None => Ok(vehicles::all().to_vec()),
         }
-    }
-
-    /// The same with those of the file that a model names; of two with one name, that of the command line.
-    fn with_model(&self, model: &Path) -> Result<Vec<Vehicle>> {
-        let mut all = self.all()?;
-        if let Some(path) = ModelFile::named_vehicles(model)? {
-            let named = library::vehicles_with_own(path)?;
-            let new: Vec<Vehicle> = named.into_iter().filter(|v| all.iter().all(|a| a.id != v.id)).collect();
-            all.extend(new);
-        }
-        Ok(all)
     }
 }
 
@@ -57,7 +51,7 @@ impl Own {
 
     /// A model file and the library of effects; the vehicles that the model names join the catalogue.
     pub fn read(&self, path: &Path) -> Result<(ModelFile, Vec<Effect>)> {
-        let vehicles = self.vehicles.with_model(path)?;
+        let vehicles = library::vehicles_of(path, self.vehicles.file())?;
         let library = self.library(&vehicles)?;
         let file = ModelFile::read(path, &dynamics::known_on(&vehicles, &library))?;
         Ok((file, library))

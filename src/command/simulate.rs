@@ -4,10 +4,10 @@ use super::own::Own;
 use super::print;
 use super::progress::Progress;
 use clap::Args;
-use creepage::dynamics::{Dynamics, Start, simulate_dynamics};
-use creepage::files::{DynamicsEntry, Initial, Inputs, ModelFile, write_whole};
+use creepage::dynamics::simulate_file;
+use creepage::files::{Initial, Inputs, ModelFile, write_whole};
 use creepage::model::Model;
-use creepage::motion::{Integrator, Method, Signals, Table, simulate_model};
+use creepage::motion::{Integrator, Signals, Table, simulate_model};
 use creepage::{Error, Result};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -55,7 +55,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let (file, library) = &arguments.own.read(&arguments.model)?;
     let integrator = Integrator::default().with_tolerance(arguments.rtol, arguments.atol);
     let table = match &file.dynamics {
-        Some(entry) => forced(file, entry, &arguments.inputs, integrator)?,
+        Some(_) => forced(file, &arguments.inputs, integrator)?,
         None => {
             Model::check_motion(file)?;
             let inputs = Inputs::read(&arguments.inputs, file)?;
@@ -81,20 +81,12 @@ fn begun(file: &ModelFile, inputs: &Inputs) -> (Signals, Initial) {
     (signals, start.unwrap_or_else(|| at_origin(file)))
 }
 
-/// A motion by forces; friction may be stiff.
-fn forced(file: &ModelFile, entry: &DynamicsEntry, inputs: &Path, integrator: Integrator) -> Result<Table> {
-    let dynamics = Dynamics::from_file(file)?;
+/// A motion by forces.
+fn forced(file: &ModelFile, inputs: &Path, integrator: Integrator) -> Result<Table> {
     let inputs = Inputs::read(inputs, file)?;
     let (signals, pose) = begun(file, &inputs);
-    let method = if dynamics.has_friction() { Method::Radau5 } else { integrator.method };
-    let start = Start::from_file(entry, &pose);
-    simulate_dynamics(
-        &dynamics,
-        &signals,
-        &inputs.time,
-        &start,
-        &Integrator { method, max_steps: most_steps(inputs.time.len()), ..integrator },
-    )
+    let integrator = Integrator { max_steps: most_steps(inputs.time.len()), ..integrator };
+    simulate_file(file, &signals, &inputs.time, &pose, &integrator)
 }
 
 /// Enough for rows far apart, and an end in seconds for a motion no integrator can follow.

@@ -6,6 +6,7 @@ use crate::discrepancy::identity::{Change, Measured, Relation, relation};
 use crate::discrepancy::picture::equation;
 use crate::effects::{Applied, Effect};
 use crate::error::{Error, Result};
+use crate::files::advice;
 use crate::model::{Model, WITH_TRAILERS};
 use crate::vehicles::Vehicle;
 use rayon::prelude::*;
@@ -65,7 +66,10 @@ fn open(effect: &Effect, trailer: Option<usize>) -> Applied {
 
 /// The vehicle with every parameter one and no arm to its sensor.
 fn model_of(name: &str, vehicles: &[Vehicle]) -> Result<Model> {
-    let unknown = || Error::input(format!("no vehicle is called {name:?}")).help("`creepage vehicles` lists them");
+    let unknown = || {
+        let ids: Vec<&str> = vehicles.iter().map(|v| v.id.as_str()).chain([WITH_TRAILERS]).collect();
+        Error::input(format!("no vehicle is called {name:?}")).help(advice(name, "known vehicles", &ids))
+    };
     match vehicles.iter().find(|v| v.id == name) {
         Some(vehicle) => Model::sample(vehicle),
         None if name == WITH_TRAILERS => {

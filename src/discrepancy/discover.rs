@@ -92,6 +92,7 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
     report.remaining = Some(remaining(&choice.after, &after));
     let judged = Judged::of(&data, &model, &choice, request.seed)?;
     report.gap = judged.gaps(&horizons(request));
+    report.data.warnings.extend(too_long(request, &report));
     report.steps = judged.steps(&choice, &report.gap)?;
     report.summary = found.sentence.unwrap_or_else(|| summary::verdict_sentence(&report));
     let added = match report.verdict {
@@ -220,6 +221,13 @@ fn without_name(terms: &[&Chosen], data: &Data, after: &Fit, model: &Model) -> R
         parameters: named(c, &[], model).parameters,
     };
     Ok(terms.iter().map(one).collect())
+}
+
+/// The horizons asked for that no run is long enough for.
+fn too_long(request: &Request, report: &Report) -> Vec<String> {
+    let is_missing = |h: &&f64| report.gap.iter().all(|g| g.horizon_s != **h);
+    let told = |h: &f64| format!("the runs are too short for a gap after {h} s");
+    request.horizons.iter().filter(is_missing).map(told).collect()
 }
 
 fn horizons(request: &Request) -> Vec<f64> {

@@ -3,6 +3,7 @@
 use super::report::{BeforeAfter, Estimate, Gap, Named, Report, Rival, RunClock, Verdict};
 use crate::picture::number::{decimals, plain, prefixed, significant, with_error};
 use crate::picture::svg::cut;
+use std::collections::BTreeMap;
 
 /// Columns of the terminal.
 const COLUMNS: usize = 80;
@@ -133,7 +134,7 @@ fn effect_lines(effects: &[Named]) -> Vec<String> {
 }
 
 fn row(effect: &str, parameter: &str, value: &str, unit: &str, bic: &str) -> String {
-    format!("  {:<23}{:<15}{:<22}{:<7}{bic:>9}", cut(effect, 22), cut(parameter, 14), cut(value, 21), cut(unit, 6))
+    format!("  {:<23}{:<15}{:<24}{:<7}{bic:>9}", cut(effect, 22), cut(parameter, 14), cut(value, 23), cut(unit, 6))
 }
 
 fn one_effect(effect: &Named) -> Vec<String> {
@@ -197,11 +198,21 @@ pub fn clock_line(c: &RunClock) -> String {
     format!("clock of {}: offset {offset} s, drift {drift} µs/s", c.run)
 }
 
+/// Why most of the rows that were dropped were.
+fn reason(why_dropped: &BTreeMap<String, usize>) -> String {
+    match why_dropped.iter().max_by_key(|(_, n)| **n) {
+        Some((why, n)) if why_dropped.len() == 1 && *n > 0 => format!(": {why}"),
+        Some((why, n)) if *n > 0 => format!(": {why}, and other reasons"),
+        _ => String::new(),
+    }
+}
+
 fn data_lines(report: &Report) -> Vec<String> {
     let data = &report.data;
+    let runs = if data.runs == 1 { "1 run".to_string() } else { format!("{} runs", data.runs) };
     let mut lines = vec![
         String::new(),
-        format!("  data: {} runs, {} rows used, {} dropped", data.runs, data.rows, data.rows_dropped),
+        format!("  data: {runs}, {} rows used, {} dropped{}", data.rows, data.rows_dropped, reason(&data.why_dropped)),
     ];
     lines.extend(data.clocks.iter().take(2).flat_map(|c| wrapped(&clock_line(c), 2, 2)));
     if data.clocks.len() > 2 {

@@ -2,11 +2,12 @@
 
 use super::contact::slug;
 use super::forces::roles;
-use super::{Dynamics, Masses, Start, TrailerMass, laws};
+use super::{Dynamics, Masses, Start, TrailerMass, laws, simulate_dynamics};
 use crate::effects::Effect;
 use crate::error::{Error, Result};
 use crate::files::{DynamicsEntry, Initial, Known, KnownDynamics, KnownLaw, ModelFile};
 use crate::model::{self, Model, mechanism};
+use crate::motion::{Drive, Integrator, Method, Table};
 use crate::vehicles::{self, Vehicle};
 
 /// What a model file may name, `[dynamics]` included: the vehicles of the catalogue and the effects of a library.
@@ -107,6 +108,42 @@ fn masses(entry: &DynamicsEntry, vehicle: &Vehicle) -> Masses {
         castors: super::bodies::castors(vehicle).into_iter().map(|a| (a, entry.castor_inertia)).collect(),
         trailers: entry.trailers.iter().map(trailer).collect(),
     }
+}
+
+/// Simulates what a file with `[dynamics]` describes, from a pose; friction may be stiff.
+///
+/// # Errors
+/// As [`Dynamics::from_file`] and [`simulate_dynamics`]; what the file leaves open is told at its `[dynamics]`.
+///
+/// ```
+/// use creepage::dynamics::{known, simulate_file};
+/// use creepage::files::{Initial, ModelFile};
+/// use creepage::motion::{Formulas, Integrator};
+/// let text = "vehicle = \"sleigh\"\n[parameters]\nmass = 1.0\ninertia = 0.5\nmass_offset = 0.3\n[dynamics]\n[initial]\n\
+///             x = 0.0\ny = 0.0\nheading = 0.0\nspeed = 0.5\nyaw_rate = 1.2\n";
+/// let file = ModelFile::parse(text, "sleigh.toml", &known(&[])).unwrap();
+/// let no_inputs = Formulas::new(&[], &[]).unwrap();
+/// let run = simulate_file(&file, &no_inputs, &[0.0, 4.0], &Initial::default(), &Integrator::default()).unwrap();
+/// assert!(run.column("speed").unwrap()[1] > 1.0);
+/// ```
+pub fn simulate_file(
+    file: &ModelFile,
+    inputs: &impl Drive,
+    times: &[f64],
+    pose: &Initial,
+    integrator: &Integrator,
+) -> Result<Table> {
+    let dynamics = Dynamics::from_file(file)?;
+    let entry = file.dynamics.clone().unwrap_or_default();
+    let method = if dynamics.has_friction() { Method::Radau5 } else { integrator.method };
+    let integrator = Integrator { method, ..*integrator };
+    let (line, column) = entry.place;
+    simulate_dynamics(&dynamics, inputs, times, &Start::from_file(&entry, pose), &integrator).map_err(|e| {
+        match e.exit_code() {
+            2 => e.at_file(&file.path).at(line, column),
+            _ => e,
+        }
+    })
 }
 
 impl Start {

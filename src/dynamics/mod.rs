@@ -33,7 +33,7 @@ mod system;
 pub use contact::Contact;
 pub use derive::Formulas;
 pub use description::Dynamics;
-pub use file::{known, known_on};
+pub use file::{known, known_on, simulate_file};
 pub use law::{Law, LawParameter, laws};
 pub use masses::{Masses, TrailerMass};
 pub use run::simulate_dynamics;

@@ -9,7 +9,7 @@ use super::parameters::{Machine, Parameters, one_per_trailer};
 use super::patch;
 use super::text::{BOM, hex, read_hashed};
 use super::toml_table::{Section, Source, Value};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::origin::Origin;
 use crate::vehicles::Vehicle;
 use sha2::{Digest, Sha256};
@@ -158,6 +158,19 @@ impl ModelFile {
     /// The file of a user's own that describes the vehicle, if it is none of the catalogue.
     pub fn vehicle_origin(&self) -> Option<&Origin> {
         self.description.as_ref()?.origin.as_deref()
+    }
+
+    /// That no forces stand in the file, for what knows of none.
+    ///
+    /// # Errors
+    /// At `[dynamics]`, where the file has it.
+    pub fn no_forces(&self, what: &str) -> Result<()> {
+        let Some(entry) = &self.dynamics else { return Ok(()) };
+        let (line, column) = entry.place;
+        Err(Error::input(format!("{what} knows no forces: [dynamics] has no place in its model"))
+            .at_file(&self.path)
+            .at(line, column)
+            .help("remove [dynamics] from a copy of the file; its inputs are then rates and angles again"))
     }
 
     /// A file of vehicles that a model file names by `vehicles = "…"`, if it does; the path is relative to the model's.

@@ -45,8 +45,15 @@ pub(super) fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str>
     let close = candidates.iter().filter_map(|c| slips(c).map(|d| (d, *c))).min_by_key(|(d, _)| *d);
     match close {
         Some((d, candidate)) if d <= word.len() / 3 => Some(candidate),
-        _ => candidates.iter().copied().find(|c| holds(&plain(c), &word)),
+        _ => candidates.iter().copied().find(|c| holds(&plain(c), &word) || shortens(&word, &plain(c))),
     }
+}
+
+/// The parts of one name begin those of the other, as `diff-drive` does `differential-drive`.
+fn shortens(short: &[char], long: &[char]) -> bool {
+    let parts = |name: &[char]| name.split(|c| *c == '_').map(<[char]>::to_vec).collect::<Vec<_>>();
+    let (short, long) = (parts(short), parts(long));
+    short.len() == long.len() && short.iter().zip(&long).all(|(s, l)| s.len() >= 3 && l.starts_with(s))
 }
 
 /// One name is a part of the other, and long enough for that to mean something.
@@ -95,6 +102,9 @@ mod tests {
         assert_eq!(nearest("radius", &keys), Some("wheel_radius"));
         assert_eq!(nearest("X", &keys), Some("x"));
         assert_eq!(nearest("y", &keys), None);
+        let vehicles = ["unicycle", "differential-drive", "differential-drive-castor", "n-trailer"];
+        assert_eq!(nearest("diff_drive", &vehicles), Some("differential-drive"));
+        assert_eq!(nearest("di-dr", &vehicles), None);
         assert_eq!(nearest("temperature", &keys), None);
         assert_eq!(nearest(&"w".repeat(1_000_000), &keys), None);
     }

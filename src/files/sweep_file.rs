@@ -1,6 +1,7 @@
 //! A sweep: one model, many cases.
 
 use super::formula_text::FormulaText;
+use super::near;
 use super::spot::Spot;
 use super::sweep_axis::{Axis, Sampled, read_grid, read_sampled};
 use super::text::read_hashed;
@@ -24,6 +25,8 @@ pub struct SweepFile {
     pub sha256: String,
     /// The model.
     pub model: PathBuf,
+    /// The user's own vehicles; those that the model file names are known besides.
+    pub vehicles: Option<PathBuf>,
     /// The user's own effects.
     pub effects: Option<PathBuf>,
     /// When the motion begins, s.
@@ -38,6 +41,10 @@ pub struct SweepFile {
     pub log: Option<PathBuf>,
     /// What drives the model, by role.
     pub inputs: Vec<SweepInput>,
+    /// Line and column of `[inputs]`; of the beginning without it.
+    pub inputs_at: (usize, usize),
+    /// Line and column of `every`; of the beginning without it.
+    pub every_at: (usize, usize),
     /// Times at which a formula has a kink.
     pub knots: Vec<f64>,
     /// Constants of the formulas.
@@ -74,8 +81,20 @@ pub struct SweepInput {
     pub formula: FormulaText,
 }
 
-const KEYS: [&str; 11] =
-    ["model", "effects", "start", "duration", "error", "rows", "every", "inputs", "constants", "grid", "sample"];
+const KEYS: [&str; 12] = [
+    "model",
+    "vehicles",
+    "effects",
+    "start",
+    "duration",
+    "error",
+    "rows",
+    "every",
+    "inputs",
+    "constants",
+    "grid",
+    "sample",
+];
 
 impl SweepFile {
     /// Reads a file; paths in it are relative to its folder.
@@ -92,7 +111,7 @@ impl SweepFile {
         )?;
         let top = Section::top(source, &document);
         top.only(&KEYS)?;
-        let beside = |value: &Value| Ok(path.parent().unwrap_or(Path::new("")).join(value.text()?));
+        let beside = |value: &Value| named(value, path.parent().unwrap_or(Path::new("")));
         let optional = |value: Option<Value>| value.as_ref().map(beside).transpose();
         let inputs = top.section("inputs")?;
         let input = |key: &str| inputs.as_ref().and_then(|s| s.get(key));
@@ -109,6 +128,7 @@ impl SweepFile {
             path: path.into(),
             sha256,
             model: beside(&top.need("model", "model = \"model.toml\"")?)?,
+            vehicles: optional(top.get("vehicles"))?,
             effects: optional(top.get("effects"))?,
             start: top.get("start").map(|v| v.number()).transpose()?,
             duration: top.get("duration").map(|v| v.positive()).transpose()?,
@@ -117,6 +137,8 @@ impl SweepFile {
             log: optional(input("log"))?,
             knots: input("knots").map_or(Ok(vec![]), |v| read_knots(&v))?,
             inputs: inputs.as_ref().map_or(Ok(vec![]), read_inputs)?,
+            inputs_at: inputs.as_ref().map_or((1, 1), Section::place_of),
+            every_at: top.get("every").map_or((1, 1), |v| v.source.line_and_column(v.key_at)),
             constants: top.section("constants")?.map_or(Ok(BTreeMap::new()), |s| read_constants(&s))?,
             grid,
             sampled,
@@ -124,6 +146,17 @@ impl SweepFile {
             seed,
             cases,
         })
+    }
+}
+
+/// A file that the sweep names.
+fn named(value: &Value, folder: &Path) -> Result<PathBuf> {
+    let found = folder.join(value.text()?);
+    match found.exists() {
+        true => Ok(found),
+        false => Err(value
+            .error(format!("no file is at \"{}\"", near::shown(&found.display().to_string())))
+            .help("give its path from the folder of this file")),
     }
 }
 
@@ -168,8 +201,7 @@ fn read_constants(section: &Section) -> Result<BTreeMap<String, (Spot, f64)>> {
     let mut found = BTreeMap::new();
     for value in section.entries() {
         if !Symbol::new(&value.name).is_well_formed() {
-            let error =
-                value.key_error(format!("{:?} cannot be the name of a constant", super::near::shown(&value.name)));
+            let error = value.key_error(format!("{:?} cannot be the name of a constant", near::shown(&value.name)));
             return Err(error.help("begin with a letter, go on with letters, digits and _"));
         }
         found.insert(value.name.clone(), (Spot::at(value.source, value.key_at), value.number()?));

@@ -13,7 +13,7 @@ mod sensor;
 mod units;
 mod vehicle;
 
-pub use vehicle::vehicles_with_own;
+pub use vehicle::{vehicles_of, vehicles_with_own};
 
 use crate::effects::{self, Effect};
 use crate::error::Result;

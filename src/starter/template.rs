@@ -20,6 +20,8 @@ pub struct Wanted {
     pub log: Option<(String, Vec<String>)>,
     /// Name and columns of a file of poses, where they are not in the log.
     pub truth: Option<(String, Vec<String>)>,
+    /// The file of vehicles that the model file names.
+    pub own: Option<String>,
 }
 
 /// A model file to begin with.
@@ -58,8 +60,16 @@ impl Starter {
     /// # Errors
     /// When a vehicle is unknown, or trailers are wanted of one that has none.
     pub fn new(wanted: &Wanted) -> Result<Self> {
+        Self::on(vehicles::all(), wanted)
+    }
+
+    /// As [`Self::new`], for one of these vehicles.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn on(vehicles: &[Vehicle], wanted: &Wanted) -> Result<Self> {
         let train = wanted.vehicle == WITH_TRAILERS;
-        let vehicle = if train { tractor(wanted)? } else { single(wanted)? };
+        let vehicle = if train { tractor(vehicles, wanted)? } else { single(vehicles, wanted)? };
         let trailers = if train { wanted.trailers.unwrap_or(1) } else { 0 };
         if trailers > MOST_TRAILERS {
             return Err(Error::input(format!("{trailers} trailers are too many to begin with"))
@@ -87,6 +97,9 @@ impl Starter {
         self.line("");
         let title = if trailers > 0 { "a tractor with trailers" } else { &vehicle.title };
         self.entry(&format!("vehicle = \"{}\"", wanted.vehicle), title);
+        if let Some(own) = &wanted.own {
+            self.entry(&format!("vehicles = {}", quoted(own)), "where it is described, from the folder of this file");
+        }
         if trailers > 0 {
             self.entry(&format!("tractor = \"{}\"", vehicle.id), &vehicle.title);
         }
@@ -157,8 +170,9 @@ impl Starter {
                 self.text.push_str(&line);
             }
         }
-        if trailers > 0 {
-            let names: Vec<String> = (1..=trailers).map(|i| format!("\"phi_{i}\"")).collect();
+        let behind = trailers + vehicle.trailers.len();
+        if behind > 0 {
+            let names: Vec<String> = (1..=behind).map(|i| format!("\"phi_{i}\"")).collect();
             self.entry(
                 &format!("# trailer_headings = [{}]", names.join(", ")),
                 "rad; measured absolute headings, all of them or none",
@@ -247,21 +261,21 @@ fn roles(vehicle: &Vehicle) -> Vec<Role> {
     found
 }
 
-fn single(wanted: &Wanted) -> Result<&'static Vehicle> {
-    let ids: Vec<&str> = vehicles::all().iter().map(|v| v.id.as_str()).chain([WITH_TRAILERS]).collect();
+fn single<'v>(vehicles: &'v [Vehicle], wanted: &Wanted) -> Result<&'v Vehicle> {
+    let ids: Vec<&str> = vehicles.iter().map(|v| v.id.as_str()).chain([WITH_TRAILERS]).collect();
     if wanted.tractor.is_some() || wanted.trailers.is_some() {
         return Err(Error::input(format!("only {WITH_TRAILERS} has trailers and a tractor")).help(format!(
             "write `creepage init {WITH_TRAILERS} --tractor {}`",
             wanted.tractor.as_deref().unwrap_or(&wanted.vehicle)
         )));
     }
-    vehicles::named(&wanted.vehicle).ok_or_else(|| unknown("vehicle", &wanted.vehicle, &ids))
+    vehicles.iter().find(|v| v.id == wanted.vehicle).ok_or_else(|| unknown("vehicle", &wanted.vehicle, &ids))
 }
 
-fn tractor(wanted: &Wanted) -> Result<&'static Vehicle> {
-    let ids: Vec<&str> = vehicles::all().iter().filter(|v| v.pulls()).map(|v| v.id.as_str()).collect();
+fn tractor<'v>(vehicles: &'v [Vehicle], wanted: &Wanted) -> Result<&'v Vehicle> {
+    let ids: Vec<&str> = vehicles.iter().filter(|v| v.pulls()).map(|v| v.id.as_str()).collect();
     let id = wanted.tractor.as_deref().unwrap_or("car");
-    vehicles::named(id).filter(|v| v.pulls()).ok_or_else(|| unknown("tractor", id, &ids))
+    vehicles.iter().find(|v| v.id == id && v.pulls()).ok_or_else(|| unknown("tractor", id, &ids))
 }
 
 fn unknown(noun: &str, id: &str, ids: &[&str]) -> Error {

@@ -14,12 +14,13 @@ pub use run::{Progress, Summary};
 pub use shard::Shard;
 pub use table::Format;
 
+use crate::dynamics;
 use crate::effects::{self, Effect};
 use crate::error::{Error, Result};
 use crate::files::{Initial, Inputs, ModelFile, Spot, SweepFile};
 use crate::formula::{Expr, Symbol};
 use crate::library;
-use crate::model::{self, Model};
+use crate::model::Model;
 use crate::motion::{Ensemble, EnsembleInputs, Plan, Signals, Varied};
 use cases::Cases;
 use names::Allowed;
@@ -50,11 +51,13 @@ impl Sweep {
     /// With file, line and column, where one of the files is not as it should be, or they do not fit together.
     pub fn read(path: impl AsRef<Path>) -> Result<Self> {
         let file = SweepFile::read(path)?;
+        let vehicles = library::vehicles_of(&file.model, file.vehicles.as_deref())?;
         let library = match &file.effects {
-            Some(own) => library::with_own(own)?,
+            Some(own) => library::with_own_on(own, &vehicles)?,
             None => effects::all().to_vec(),
         };
-        let model_file = ModelFile::read(&file.model, &model::known(&library))?;
+        let model_file = ModelFile::read(&file.model, &dynamics::known_on(&vehicles, &library))?;
+        model_file.no_forces("a sweep")?;
         Model::check_motion(&model_file)?;
         let log = file.log.as_ref().map(|path| Inputs::read(path, &model_file)).transpose()?;
         let roles = roles(&file, &model_file, log.as_ref())?;
@@ -87,6 +90,7 @@ impl Sweep {
 /// What decides the result: every file that is read, and the program.
 fn identity(file: &SweepFile, model: &ModelFile, library: &[Effect]) -> Result<String> {
     let mut all = vec![env!("CARGO_PKG_VERSION").to_string(), file.sha256.clone(), model.sha256.clone()];
+    all.extend(model.vehicle_origin().map(|o| o.sha256.clone()));
     all.extend(library.iter().filter_map(|e| e.origin.as_ref()).map(|o| o.sha256.clone()));
     if let Some(log) = &file.log {
         let bytes = std::fs::read(log).map_err(|e| Error::input(format!("cannot be read: {e}")).at_file(log))?;
@@ -112,6 +116,7 @@ fn roles(file: &SweepFile, model: &ModelFile, log: Option<&Inputs>) -> Result<Ve
             let shown = names.iter().map(|n| n.as_str()).collect::<Vec<_>>().join(" or ");
             Error::input(format!("the input {shown} has no formula"))
                 .at_file(&file.path)
+                .at(file.inputs_at.0, file.inputs_at.1)
                 .help(format!("write {} = \"1.0\" under [inputs], a formula of t, or give a log", column.role))
         })?;
         found.push((*given).clone());
@@ -133,9 +138,14 @@ fn times(file: &SweepFile, log: Option<&Inputs>) -> Result<(f64, Vec<f64>)> {
     let start = file.start.or(ends.map(|e| e.0)).unwrap_or(0.0);
     let duration = file.duration.or(ends.map(|e| e.1 - start).filter(|d| *d > 0.0));
     let duration = duration.ok_or_else(|| {
-        Error::input("key \"duration\" is missing").at_file(&file.path).help("write duration = 10.0, in seconds")
+        Error::input("key \"duration\" is missing")
+            .at_file(&file.path)
+            .at(1, 1)
+            .help("write duration = 10.0, in seconds")
     })?;
-    Ok((start, file.rows.times(start, start + duration).map_err(|e| e.at_file(&file.path))?))
+    let (line, column) = file.every_at;
+    let times = file.rows.times(start, start + duration);
+    Ok((start, times.map_err(|e| e.at_file(&file.path).at(line, column))?))
 }
 
 /// What varies, and the values each may take.
@@ -201,7 +211,7 @@ fn inputs(
 
 /// The measured pose every case begins with, unless it varies: the model's, the log's, or the origin.
 fn initial(model: &ModelFile, log: Option<&Inputs>) -> Vec<f64> {
-    let origin = || Initial { trailer_headings: vec![0.0; model.trailer_lengths.len()], ..Initial::default() };
+    let origin = || Initial { trailer_headings: vec![0.0; model.trailers()], ..Initial::default() };
     let pose = model.initial.clone().or(log.and_then(|l| l.pose.clone())).unwrap_or_else(origin);
     [pose.x, pose.y, pose.heading].into_iter().chain(pose.trailer_headings).collect()
 }

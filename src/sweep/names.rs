@@ -72,7 +72,7 @@ pub(super) fn quantities(file: &ModelFile, model: &Model) -> Vec<Quantity> {
         }
     }
     let pose = ["initial.x", "initial.y", "initial.heading"].map(String::from).into_iter();
-    let pose = pose.chain((1..=model.trailers.len()).map(|i| format!("initial.trailer_headings.{i}")));
+    let pose = pose.chain((1..=model.trailer_count()).map(|i| format!("initial.trailer_headings.{i}")));
     let initial = |(i, name)| Quantity { name, varied: Varied::Initial(i), allowed: Allowed::ANY };
     found.extend(pose.enumerate().map(initial));
     found

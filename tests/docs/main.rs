@@ -83,6 +83,13 @@ fn commands_of_the_guide_run() {
 }
 
 #[test]
+fn commands_of_daily_use_run() {
+    for page in ["init", "check", "clocks", "sweep"] {
+        runs(&format!("book/src/guide/{page}.md"));
+    }
+}
+
+#[test]
 fn no_document_with_commands_is_left_out() {
     let tested = [
         "README.md",
@@ -93,6 +100,10 @@ fn no_document_with_commands_is_left_out() {
         "book/src/guide/report.md",
         "book/src/guide/effects.md",
         "book/src/guide/vehicles.md",
+        "book/src/guide/init.md",
+        "book/src/guide/check.md",
+        "book/src/guide/clocks.md",
+        "book/src/guide/sweep.md",
     ];
     let left: Vec<String> = all()
         .iter()

@@ -4,17 +4,25 @@
 //! command is one more row of [`TARGETS`], one function that returns what the program said, and one file of
 //! `fuzz/fuzz_targets`.
 
+#[allow(dead_code)]
+#[path = "bad_vehicles.rs"]
+mod bad_vehicles;
+
 use creepage::claims::{self, ledger};
-use creepage::describe::{Description, effects_json, effects_text, json, latex, text};
+use creepage::describe::{
+    Description, effects_json, effects_text, json, latex, text, vehicle_effects_text, vehicles_json, vehicles_text,
+};
 use creepage::discrepancy::discover::{Request, discover};
 use creepage::discrepancy::html::{gap_svg, html};
-use creepage::files::{EffectsFile, Initial, Inputs, ModelFile, Run, read_claims};
+use creepage::dynamics::{self, Dynamics, simulate_file};
+use creepage::files::{EffectsFile, Initial, Inputs, Known, ModelFile, Run, read_claims};
 use creepage::formula::Expr;
-use creepage::model::{self, Model};
-use creepage::motion::{Integrator, Signals, simulate_model};
+use creepage::model::Model;
+use creepage::motion::{Integrator, Signals, Table, simulate_model};
+use creepage::sweep::{Shard, Sweep};
 use creepage::{Error, Result, effects, library, vehicles};
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::{LazyLock, OnceLock};
 
 /// A way into the program.
 pub struct Target {
@@ -46,6 +54,11 @@ pub const TARGETS: &[Target] = &[
     Target { name: "discover", run: discovered, files: &["run.csv", "model.toml"], longest: 4096, seeds: logged },
     Target { name: "verify", run: verify, files: &["claims.toml"], longest: 2048, seeds: claims_files },
     Target { name: "list_effects", run: list_effects, files: &["effects.toml"], longest: 4096, seeds: effects_files },
+    Target { name: "vehicles", run: own_vehicles, files: &["mine.toml"], longest: 8192, seeds: vehicles_files },
+    Target { name: "relatives", run: relatives, files: &["mine.toml"], longest: 8192, seeds: vehicles_files },
+    Target { name: "own_model", run: own_model, files: &["mine.toml", "model.toml"], longest: 8192, seeds: own_models },
+    Target { name: "dynamics", run: forced, files: &["run.csv", "model.toml"], longest: 4096, seeds: driven },
+    Target { name: "sweep", run: swept, files: &["sweep.toml", "model.toml", "run.csv"], longest: 4096, seeds: sweeps },
 ];
 
 impl Target {
@@ -75,8 +88,9 @@ impl Target {
     fn check(&self, error: &Error) {
         let said = error.to_string();
         assert!(!error.message().trim().is_empty(), "says nothing: {said}");
-        // Only a simulation can fail although every file was good.
-        assert!(error.exit_code() == 2 || self.name == "simulate", "exit code {}: {said}", error.exit_code());
+        // Only a motion can fail although every file was good.
+        let moves = ["simulate", "dynamics", "sweep"].contains(&self.name);
+        assert!(error.exit_code() == 2 || moves, "exit code {}: {said}", error.exit_code());
         let file = self.files.iter().find(|name| said.contains(*name));
         assert!(self.name == "formula" || file.is_some() || error.exit_code() == 1, "no file is named: {said}");
         let whole =
@@ -118,11 +132,16 @@ fn formula(dir: &Path) -> Result<()> {
     Ok(())
 }
 
+/// What model files may name, read once.
+fn known() -> &'static Known {
+    static KNOWN: LazyLock<Known> = LazyLock::new(|| dynamics::known(effects::all()));
+    &KNOWN
+}
+
 fn model_file(dir: &Path) -> Result<()> {
-    let known = model::known(effects::all());
-    let file = ModelFile::read(dir.join("model.toml"), &known)?;
-    let again = ModelFile::parse(&file.patched(&file.effects), "model.toml", &known).unwrap();
-    assert_eq!(again.effects, file.effects);
+    let file = ModelFile::read(dir.join("model.toml"), known())?;
+    let again = ModelFile::parse(&file.patched(&file.effects), "model.toml", known()).unwrap();
+    assert!(again.effects == file.effects && again.dynamics == file.dynamics);
     Ok(())
 }
 
@@ -136,7 +155,7 @@ fn claims_file(dir: &Path) -> Result<()> {
 }
 
 fn read_model(dir: &Path) -> Result<ModelFile> {
-    let file = ModelFile::read(dir.join("model.toml"), &model::known(effects::all()))?;
+    let file = ModelFile::read(dir.join("model.toml"), known())?;
     Model::check_motion(&file)?;
     Ok(file)
 }
@@ -157,10 +176,16 @@ fn inputs_file(dir: &Path) -> Result<()> {
 }
 
 fn describe(dir: &Path) -> Result<()> {
-    let file = ModelFile::read(dir.join("model.toml"), &model::known(effects::all()))?;
+    described(&ModelFile::read(dir.join("model.toml"), known())?)
+}
+
+fn described(file: &ModelFile) -> Result<()> {
     let roles: Vec<String> = file.columns.inputs.iter().map(|i| i.role.clone()).collect();
-    let d = Description::of(&Model::from_file(&file, effects::all(), &roles)?)?;
+    let d = Description::of(&Model::from_file(file, effects::all(), &roles)?)?;
     assert!(!text(&d).is_empty() && !latex(&d).is_empty() && json(&d).is_object());
+    if file.dynamics.is_some() {
+        Dynamics::from_file(file)?;
+    }
     Ok(())
 }
 
@@ -168,17 +193,72 @@ fn simulate(dir: &Path) -> Result<()> {
     let file = read_model(dir)?;
     let inputs = Inputs::read(dir.join("run.csv"), &file)?;
     let model = Model::from_file(&file, effects::all(), &inputs.roles)?;
-    let signals = Signals::new(&inputs.time, &inputs.columns, file.input_timing.into());
-    let start = file
-        .initial
-        .clone()
-        .or(inputs.pose)
-        .unwrap_or_else(|| Initial { trailer_headings: vec![0.0; file.trailer_lengths.len()], ..Initial::default() });
+    let (signals, start) = begun(&file, &inputs);
     let start: Vec<f64> = [start.x, start.y, start.heading].into_iter().chain(start.trailer_headings).collect();
-    // Steps are what a simulation spends; that they end it is tested with the command.
-    let brief = Integrator { max_steps: 2_000, ..Integrator::default() };
-    let table = simulate_model(&model, &signals, &inputs.time, &start, &brief)?;
+    finite(&simulate_model(&model, &signals, &inputs.time, &start, &brief())?);
+    Ok(())
+}
+
+/// The inputs as signals, and the pose to begin with.
+fn begun(file: &ModelFile, inputs: &Inputs) -> (Signals, Initial) {
+    let signals = Signals::new(&inputs.time, &inputs.columns, file.input_timing.into());
+    let start = file.initial.clone().or(inputs.pose.clone());
+    let origin = || Initial { trailer_headings: vec![0.0; file.trailers()], ..Initial::default() };
+    (signals, start.unwrap_or_else(origin))
+}
+
+/// Steps are what a simulation spends; that they end it is tested with the command.
+fn brief() -> Integrator {
+    Integrator { max_steps: 2_000, ..Integrator::default() }
+}
+
+fn finite(table: &Table) {
     assert!(table.columns.iter().flatten().all(|v| v.is_finite()));
+}
+
+fn forced(dir: &Path) -> Result<()> {
+    let file = ModelFile::read(dir.join("model.toml"), known())?;
+    if file.dynamics.is_none() {
+        return Ok(());
+    }
+    Dynamics::from_file(&file)?;
+    let inputs = Inputs::read(dir.join("run.csv"), &file)?;
+    let (signals, pose) = begun(&file, &inputs);
+    finite(&simulate_file(&file, &signals, &inputs.time, &pose, &brief())?);
+    Ok(())
+}
+
+/// A small part of the table.
+fn swept(dir: &Path) -> Result<()> {
+    let sweep = Sweep::read(dir.join("sweep.toml"))?;
+    let out = dir.join("sweep.csv");
+    let part: Shard = format!("1/{}", sweep.cases().div_ceil(40)).parse().unwrap();
+    let written = sweep.write(part, &out, &|_| {});
+    let rows = std::fs::read_to_string(&out);
+    drop(std::fs::remove_file(&out));
+    let (cases, rows) = (written?.cases, rows.unwrap());
+    assert!(rows.lines().count() > cases && !rows.contains("NaN") && !rows.contains("inf"));
+    Ok(())
+}
+
+fn own_vehicles(dir: &Path) -> Result<()> {
+    let mut own = library::vehicles_with_own(dir.join("mine.toml"))?;
+    own.retain(|v| v.origin.is_some());
+    assert!(!vehicles_text(&own)?.is_empty() && vehicles_json(&own)?.is_object());
+    Ok(())
+}
+
+fn own_model(dir: &Path) -> Result<()> {
+    let all = library::vehicles_with_own(dir.join("mine.toml"))?;
+    described(&ModelFile::read(dir.join("model.toml"), &dynamics::known_on(&all, effects::all()))?)
+}
+
+/// The effects of a vehicle, and which of them are one.
+fn relatives(dir: &Path) -> Result<()> {
+    let mut own = library::vehicles_with_own(dir.join("mine.toml"))?;
+    own.retain(|v| v.origin.is_some());
+    let tell = |id: &str| vehicle_effects_text(id, &own, effects::all());
+    assert!(!tell(&own[0].id)?.is_empty());
     Ok(())
 }
 
@@ -191,7 +271,7 @@ fn discovered(dir: &Path) -> Result<()> {
     let page = html(&found.report, &found.pictures);
     assert!(page.ends_with("</html>\n") && gap_svg(&found.report, &found.pictures).ends_with("</svg>\n"));
     assert!(serde_json::to_string(&found.report).is_ok_and(|t| !t.contains("NaN")));
-    ModelFile::parse(&found.patched(&file), "model.toml", &model::known(effects::all())).unwrap();
+    ModelFile::parse(&found.patched(&file), "model.toml", known()).unwrap();
     Ok(())
 }
 
@@ -226,9 +306,22 @@ const RUNS: [(&str, &str); 3] = [("cornering", "eights"), ("steering", "meander"
 
 fn models() -> Vec<Vec<u8>> {
     let mut seeds: Vec<_> = RUNS.iter().map(|(d, _)| file(&format!("examples/runs/{d}/model.toml"))).collect();
-    seeds.extend([TRAILERS, MANY].map(|t| t.as_bytes().to_vec()));
+    seeds.extend([TRAILERS, MANY, HOPPER].map(|t| t.as_bytes().to_vec()));
+    seeds.extend(["car", "sleigh"].map(|m| file(&format!("examples/dynamics/{m}.toml"))));
     seeds
 }
+
+/// A momentum instead of wheels.
+const HOPPER: &str = "vehicle = \"hopper\"\n[parameters]\nbody_inertia = 1\nleg_mass = 1.0\nleg_offset = 0.5\n\
+[columns]\nleg_length = \"l\"\n[initial]\npsi = 0.3\n";
+
+/// Forces on everything that `[dynamics]` may speak of.
+const TRAIN: &str = "vehicle = \"n-trailer\"\ntractor = \"differential-drive-castor\"\n[parameters]\nwheel_radius = 0.2\n\
+track_width = 0.6\ncastor_offset = -0.4\ncastor_trail = 0.05\ncastor_wheel_radius = 0.05\ntrailer_lengths = [1.0]\n[dynamics]\nmass = 30.0\n\
+inertia = 3.0\nwheel_inertia = { right-wheel = 0.02, left-wheel = 0.03 }\ncastor_inertia = 0.01\ntrailer_masses = [9.0]\n\
+trailer_inertias = [1.0]\ntrailer_mass_offsets = [0.2]\ninputs = [\"force\", \"yaw_torque\"]\n[dynamics.friction]\n\
+direction = { law = \"elastic\", stiffness = 2e3, relaxation_length = 0.1 }\n[initial]\nx = 0\ny = 0\nheading = 0\n\
+speed = 1.0\nyaw_rate = 0.1\ntrailer_headings = [0.1]\n";
 
 const TRAILERS: &str = "vehicle = \"n-trailer\"\ntractor = \"car\"\n[parameters]\nwheel_radius = 0.3\nwheelbase = 2.5\n\
 trailer_lengths = [3.0, 2]\nhitch_offsets = [0.5, 0]\n[columns]\ntrailer_headings = [\"a\", \"b\"]\n[initial]\nx = 0\n\
@@ -282,4 +375,63 @@ fn formulas() -> Vec<Vec<u8>> {
         "2^64/3 - 7/0.25*atan(-x)",
     ];
     texts.map(|t| t.as_bytes().to_vec()).to_vec()
+}
+
+/// Logs of forces, each with its model.
+fn driven() -> Vec<Vec<u8>> {
+    let first = |name: &str, rows: usize| -> Vec<u8> {
+        let log = file(&format!("examples/dynamics/{name}.csv"));
+        log.split_inclusive(|b| *b == b'\n').take(rows).flatten().copied().collect()
+    };
+    let forces = b"time,force,yaw_torque\n0,1,0.1\n0.1,2,0.1\n0.3,1,-0.2\n".to_vec();
+    let pairs = [
+        (first("drive", 8), file("examples/dynamics/car.toml")),
+        (first("times", 8), file("examples/dynamics/sleigh.toml")),
+        (forces, TRAIN.as_bytes().to_vec()),
+    ];
+    pairs.map(|(log, model)| [&log, CUT, &model].concat()).to_vec()
+}
+
+fn vehicles_files() -> Vec<Vec<u8>> {
+    let texts = [bad_vehicles::GOOD, bad_vehicles::ROPE, FLIER].map(|t| t.as_bytes().to_vec());
+    texts.into_iter().chain([file("examples/bus/bus.toml")]).collect()
+}
+
+/// A momentum that is derived from an energy, and a wheel that is logged under another name.
+const FLIER: &str = "[[vehicle]]\nid = \"flier\"\ntitle = \"two bodies in flight\"\nheading = \"psi\"\n\
+parameters.ratio = { unit = \"1\", meaning = \"of the moments of inertia\" }\n\
+inputs.turn = { unit = \"rad/s\", meaning = \"rate of the joint\" }\n[vehicle.define]\n\
+k = { formula = \"ratio\", unit = \"1\", meaning = \"ratio\" }\n\
+\"theta'\" = { formula = \"turn\", unit = \"rad/s\", meaning = \"rate of the joint\" }\n\
+[[vehicle.coordinates]]\nname = \"psi\"\nunit = \"rad\"\nmeaning = \"of the first\"\n\
+[[vehicle.coordinates]]\nname = \"theta\"\nunit = \"rad\"\nmeaning = \"of the joint\"\n\
+[[vehicle.constraints]]\nname = \"angular momentum\"\ntype = \"momentum\"\n\
+energy = \"psi'^2/2 + k*(psi' + theta')^2/2\"\ngenerator = { psi = \"1\" }\ncreep = \"e_sc\"\n";
+
+/// Vehicles of a file, each with a model of it.
+fn own_models() -> Vec<Vec<u8>> {
+    let cart = "vehicle = \"my-cart\"\n[parameters]\nwheel_radius = 0.1\nwheelbase = 0.5\n[[effects]]\n\
+                id = \"rotation-creep\"\ne_rc = 0.02\n";
+    let flier = "vehicle = \"flier\"\n[parameters]\nratio = 0.5\n";
+    let pairs = [
+        (bad_vehicles::GOOD.as_bytes().to_vec(), cart.as_bytes().to_vec()),
+        (FLIER.as_bytes().to_vec(), flier.as_bytes().to_vec()),
+        (file("examples/bus/bus.toml"), file("examples/bus/model.toml")),
+    ];
+    pairs.map(|(own, model)| [&own, CUT, &model].concat()).to_vec()
+}
+
+/// Sweeps with a model, and with a log.
+fn sweeps() -> Vec<Vec<u8>> {
+    let wheels = String::from_utf8(file("examples/sweeps/wheels.toml")).unwrap();
+    let wheels = wheels.replace("wheel.toml", "model.toml");
+    let logged = "model = \"model.toml\"\nstart = 0\nduration = 2\nerror = 1e-6\nrows = \"end\"\n[inputs]\n\
+                  log = \"run.csv\"\nknots = [0.5, 1.0]\nwheel_rate = \"(1 + k)*log.wheel_rate\"\n[constants]\nk = 0.0\n\
+                  [grid]\nk = [0.0, 0.01]\nwheel_radius = { from = 0.09, to = 0.11, count = 3 }\n[sample]\ncount = 3\n\
+                  [sample.of]\ninitial.x = { log_uniform = [0.1, 2.0] }\ninitial.heading = { normal = [0, 0.1] }\n";
+    let model = "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 0.1\n";
+    let log = "time,wheel_rate,yaw_rate\n0,1,0.1\n1,2,0.1\n2,1,0.2\n3,1,0\n";
+    let first = [wheels.as_bytes(), CUT, &file("examples/sweeps/wheel.toml")].concat();
+    let second = [logged.as_bytes(), CUT, model.as_bytes(), CUT, log.as_bytes()].concat();
+    vec![first, second]
 }

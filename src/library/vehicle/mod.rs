@@ -12,7 +12,7 @@ mod units;
 
 use super::machine::Machine;
 use crate::error::Result;
-use crate::files::{OwnVehicle, VehiclesFile, advice};
+use crate::files::{ModelFile, OwnVehicle, VehiclesFile, advice};
 use crate::formula::Symbol;
 use crate::model::WITH_TRAILERS;
 use crate::vehicles::{self, Vehicle};
@@ -72,6 +72,26 @@ pub fn vehicles_with_own(path: impl AsRef<Path>) -> Result<Vec<Vehicle>> {
         found.push(own.vehicle);
     }
     Ok(found)
+}
+
+/// The vehicles that a model file may speak of: those of the catalogue, of a file given beside it, and of the file it names
+/// by `vehicles = "…"`. Of two with one name, the given one counts.
+///
+/// # Errors
+/// As [`vehicles_with_own`], and where the model file cannot be read.
+///
+/// ```
+/// let vehicles = creepage::library::vehicles_of("examples/bus/model.toml", None).unwrap();
+/// assert!(vehicles.iter().any(|v| v.id == "articulated-bus"));
+/// ```
+pub fn vehicles_of(model: impl AsRef<Path>, given: Option<&Path>) -> Result<Vec<Vehicle>> {
+    let mut all = given.map_or_else(|| Ok(vehicles::all().to_vec()), vehicles_with_own)?;
+    if let Some(path) = ModelFile::named_vehicles(model)? {
+        let named = vehicles_with_own(path)?;
+        let new: Vec<Vehicle> = named.into_iter().filter(|v| all.iter().all(|a| a.id != v.id)).collect();
+        all.extend(new);
+    }
+    Ok(all)
 }
 
 fn check(own: &OwnVehicle) -> Result<()> {

@@ -114,7 +114,7 @@ impl LaneEquations {
             driven.push(node);
         }
         definitions.insert_into(&mut graph)?;
-        let (states, visible) = (model.states(), 3 + model.trailers.len());
+        let (states, visible) = (model.states(), 3 + model.trailer_count());
         let mut rates: Vec<NodeId> = states[..visible].iter().map(|s| graph.insert(&Expr::sym(s.rate()))).collect();
         for (_, rate) in model.effects.iter().flat_map(|e| e.states()) {
             rates.push(graph.insert(&rate));

@@ -122,7 +122,7 @@ impl Ensemble {
         times: &[f64],
         tolerance: f64,
     ) -> Result<Self> {
-        let wanted = 3 + model.trailers.len();
+        let wanted = 3 + model.trailer_count();
         if initial.len() != wanted || inputs.formulas.len() != model.inputs.len() {
             return Err(Error::input("the initial pose or the inputs do not fit the model"));
         }

@@ -95,6 +95,7 @@ fn init_writes_once_and_reads_its_log() {
     assert!(std::fs::read_to_string(&path).unwrap().contains("vehicle = \"car\""));
     for (arguments, says) in [
         (&["init", "unicyle", "--out", "a.toml"][..], "did you mean \"unicycle\"?"),
+        (&["init", "diff-drive", "--out", "a.toml"], "did you mean \"differential-drive\"?"),
         (&["init", "car", "--trailers", "2", "--out", "a.toml"], "creepage init n-trailer --tractor car"),
         (&["init", "n-trailer", "--tractor", "disk", "--out", "a.toml"], "unknown tractor \"disk\""),
         (&["init", "car", "--from", "nowhere.csv", "--out", "a.toml"], "no such file"),
@@ -104,6 +105,52 @@ fn init_writes_once_and_reads_its_log() {
         assert!(output.status.code() == Some(2) && errors.contains(says), "{arguments:?}: {errors}");
         assert!(!folder.path().join("a.toml").exists());
     }
+}
+
+#[test]
+fn init_begins_a_file_for_a_vehicle_of_ones_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let bus = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/bus/bus.toml");
+    std::fs::copy(bus, folder.path().join("mine.toml")).unwrap();
+    std::fs::create_dir(folder.path().join("deep")).unwrap();
+    for (out, named) in [("bus.toml", "vehicles = \"mine.toml\""), ("deep/bus.toml", "/mine.toml\"")] {
+        let output =
+            creepage(folder.path(), &["init", "articulated-bus", "--vehicles", "mine.toml", "--out", out, "--quiet"]);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        let written = std::fs::read_to_string(folder.path().join(out)).unwrap();
+        assert!(written.contains(named) && written.contains("rear_length = 1.0"), "{written}");
+        assert!(written.contains("# trailer_headings = [\"phi_1\"]"), "{written}");
+        // It is found again without --vehicles.
+        let output = creepage(folder.path(), &["describe", out]);
+        assert!(text(&output.stdout).starts_with("# articulated-bus"), "{}", text(&output.stderr));
+    }
+    let output = creepage(folder.path(), &["init", "car", "--vehicles", "mine.toml", "--out", "car.toml", "--quiet"]);
+    assert!(
+        output.status.success() && !std::fs::read_to_string(folder.path().join("car.toml")).unwrap().contains("mine")
+    );
+}
+
+#[test]
+fn what_knows_no_forces_refuses_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/dynamics/car.toml");
+    for command in ["discover", "check"] {
+        let output = creepage(folder.path(), &[command, &example("steering/eights.csv"), "--model", model]);
+        let said = text(&output.stderr);
+        assert!(output.status.code() == Some(2) && said.contains(":6:1: "), "{said}");
+        assert!(said.contains(&format!("{command} knows no forces: [dynamics]")), "{said}");
+    }
+}
+
+#[test]
+fn a_horizon_that_no_run_is_long_enough_for_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let runs = example("nothing/eights.csv");
+    let model = example("nothing/model.toml");
+    let output = creepage(folder.path(), &["discover", &runs, "--model", &model, "--horizon", "1", "--horizon", "500"]);
+    let said = text(&output.stdout);
+    assert!(said.contains("data: 1 run, ") && said.contains("the runs are too short for a gap after 500 s"), "{said}");
+    assert!(!said.contains("gap after 1 s"), "{said}");
 }
 
 #[test]

@@ -11,7 +11,7 @@ const LONGEST: usize = 64;
 pub(crate) fn advice(word: &str, noun: &str, candidates: &[&str]) -> String {
     let there = format!("{noun}: {}", list(candidates));
     match nearest(word, candidates) {
-        Some(near) => format!("did you mean \"{near}\"? {there}"),
+        Some(near) => format!("did you mean \"{}\"? {there}", shown(near)),
         None => there,
     }
 }
@@ -107,5 +107,11 @@ mod tests {
         assert_eq!(nearest("di-dr", &vehicles), None);
         assert_eq!(nearest("temperature", &keys), None);
         assert_eq!(nearest(&"w".repeat(1_000_000), &keys), None);
+    }
+
+    #[test]
+    fn advice_sends_nothing_to_the_terminal() {
+        let said = advice("yaw_rate", "columns", &["yaw_rate\u{1b}[2J", "x"]);
+        assert!(said.starts_with("did you mean \"yaw_rate [2J\"?") && !said.contains('\u{1b}'), "{said:?}");
     }
 }

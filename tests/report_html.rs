@@ -231,6 +231,10 @@ fn the_summary_fits_a_screen() {
         assert!(text.lines().all(|l| l.chars().count() <= 80), "{text}");
     }
     assert!(summary_text(&report()).contains("0.1094 ± 0.0021"));
+    let mut sharp = report();
+    let estimate = sharp.effects[0].parameters.get_mut("mass_over_bT").unwrap();
+    (estimate.value, estimate.std) = (-0.009900918, Some(7.4e-7));
+    assert!(summary_text(&sharp).contains(" −0.00990092 ± 7.4e−7 "), "{}", summary_text(&sharp));
 }
 
 #[test]

@@ -7,6 +7,8 @@ use std::collections::BTreeMap;
 
 /// Columns of the terminal.
 const COLUMNS: usize = 80;
+/// Columns of a value with its deviation.
+const VALUE: usize = 23;
 /// Lines that still fit with the prompt and the list of files written.
 const LINES: usize = 24;
 
@@ -134,7 +136,7 @@ fn effect_lines(effects: &[Named]) -> Vec<String> {
 }
 
 fn row(effect: &str, parameter: &str, value: &str, unit: &str, bic: &str) -> String {
-    format!("  {:<23}{:<15}{:<24}{:<7}{bic:>9}", cut(effect, 22), cut(parameter, 14), cut(value, 23), cut(unit, 6))
+    format!("  {:<23}{:<15}{:<24}{:<7}{bic:>9}", cut(effect, 22), cut(parameter, 14), cut(value, VALUE), cut(unit, 6))
 }
 
 fn one_effect(effect: &Named) -> Vec<String> {
@@ -142,7 +144,7 @@ fn one_effect(effect: &Named) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for (name, estimate) in effect.parameters.iter().take(3) {
         let (id, bic) = if lines.is_empty() { (effect.id.as_str(), bic.as_str()) } else { ("", "") };
-        lines.push(row(id, name, &with_error(estimate.value, estimate.std), &estimate.unit, bic));
+        lines.push(row(id, name, &brief(estimate), &estimate.unit, bic));
     }
     if lines.is_empty() {
         lines.push(row(&effect.id, "", "", "", &bic));
@@ -152,6 +154,17 @@ fn one_effect(effect: &Named) -> Vec<String> {
         lines.extend(wrapped(&format!("not told from {}", rivals.join(", ")), 4, 2));
     }
     lines
+}
+
+/// A value and its deviation, that one as a power of ten where both are too long for their column.
+fn brief(e: &Estimate) -> String {
+    let text = with_error(e.value, e.std);
+    match (text.split_once(" ± "), e.std) {
+        (Some((value, _)), Some(std)) if text.chars().count() > VALUE && !value.starts_with('(') => {
+            format!("{value} ± {std:.1e}").replace("e-", "e−")
+        }
+        _ => text,
+    }
 }
 
 fn gap_lines(gaps: &[Gap]) -> Vec<String> {

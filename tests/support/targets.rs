@@ -93,8 +93,15 @@ impl Target {
         assert!(error.exit_code() == 2 || moves, "exit code {}: {said}", error.exit_code());
         let file = self.files.iter().find(|name| said.contains(*name));
         assert!(self.name == "formula" || file.is_some() || error.exit_code() == 1, "no file is named: {said}");
-        let whole =
-            ["is empty", "is a binary file", "is UTF-16", "is larger than", "usable rows", "the constraints of"];
+        let whole = [
+            "is empty",
+            "is a binary file",
+            "which this build",
+            "is UTF-16",
+            "is larger than",
+            "usable rows",
+            "the constraints of",
+        ];
         let placed = error.place().is_some() || whole.iter().any(|w| error.message().contains(w));
         assert!(placed || error.exit_code() == 1, "no line is named: {said}");
         let controls = said.chars().filter(|c| c.is_control() && *c != '\n').count();

@@ -3,8 +3,9 @@
 use super::angle::wrapped;
 use super::record::{Channel, Record};
 use super::whiteness::{Blocks, Run};
+use crate::formula::Kernel;
 use crate::model::Equations;
-use crate::motion::{Arc, Stepper};
+use crate::motion::{Arc, Arcs, LaneStepper};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -103,6 +104,11 @@ pub fn linearise(
     plan.par_iter().zip(starts).map(along).collect()
 }
 
+/// Windows that are integrated side by side: a vector of AVX-512.
+const LANES: usize = 8;
+/// With more parameters than these the sums over rows no longer fit near the processor, and columns fill its vectors.
+const WIDE: usize = 48;
+
 /// The model along the windows of a segment, one after another; `None` where it is undefined, or where `take` ends it.
 pub fn each_window(
     equations: &Equations,
@@ -110,70 +116,225 @@ pub fn each_window(
     record: &Record,
     segment: &Segment,
     starts: &[Vec<f64>],
+    take: impl FnMut(Linear) -> Option<()>,
+) -> Option<()> {
+    // States that no sensor sees go from window to window; without them windows stand side by side.
+    let alone = equations.n() > equations.visible || p.len() > WIDE || segment.windows.len() == 1;
+    match alone {
+        true => side_by_side::<1>(equations, p, record, segment, starts, take),
+        false => side_by_side::<LANES>(equations, p, record, segment, starts, take),
+    }
+}
+
+/// L windows at a time.
+fn side_by_side<const L: usize>(
+    equations: &Equations,
+    p: &[f64],
+    record: &Record,
+    segment: &Segment,
+    starts: &[Vec<f64>],
     mut take: impl FnMut(Linear) -> Option<()>,
 ) -> Option<()> {
-    let mut stepper = Stepper::new(equations, &record.signals, p);
-    let mut hidden = super::carry::before(equations, p, &mut stepper, record, segment.windows[0].start, &starts[0]);
-    for (k, rows) in segment.windows.iter().enumerate() {
-        let z = [&starts[k][..], &hidden.z].concat();
-        let mut arc = stepper.start(&z, Some(&hidden.s));
-        let linear = window_along(&mut stepper, record, rows, &mut arc, starts.get(k + 1))?;
-        hidden.z = arc.z[equations.visible..].to_vec();
-        hidden.s = arc.s;
-        take(linear)?;
+    let mut stepper = LaneStepper::new(equations, &record.signals, [p; L]);
+    let mut hidden = super::carry::before(equations, p, record, segment.windows[0].start, &starts[0]);
+    let visible = visible_of(record);
+    let mut sums = Sums::new(stepper.columns(), record);
+    for (k, windows) in segment.windows.chunks(L).enumerate() {
+        let next = |l: usize| starts.get(k * L + l + 1).filter(|_| l < windows.len());
+        let begin = |l: usize| &starts[k * L + l.min(windows.len() - 1)];
+        let mut arcs = started(visible, stepper.columns(), begin, &hidden);
+        let rows = std::array::from_fn(|l| windows.get(l).cloned().unwrap_or(0..0));
+        let goes_on = std::array::from_fn(|l| next(l).is_some());
+        sums.clear();
+        let isa = stepper.isa();
+        isa.dispatch(Walk {
+            stepper: &mut stepper,
+            record,
+            rows: &rows,
+            goes_on: &goes_on,
+            arcs: &mut arcs,
+            sums: &mut sums,
+        });
+        for (l, rows) in rows.iter().enumerate().take(windows.len()) {
+            let arc = arcs.one(l);
+            take(sums.linear(l, record, rows, &arc, next(l))?)?;
+            if L == 1 {
+                hidden = Arc { z: arc.z[visible..].to_vec(), s: arc.s };
+            }
+        }
     }
     Some(())
 }
 
-fn window_along(
-    stepper: &mut Stepper,
-    record: &Record,
-    rows: &Range<usize>,
-    arc: &mut Arc,
-    next: Option<&Vec<f64>>,
-) -> Option<Linear> {
-    let k = stepper.columns();
-    let visible = visible_of(record);
-    let mut gram = [0, 1, 2].map(|_| DMatrix::zeros(k + 1, k + 1));
-    let mut count = [0; 3];
-    let mut blocks = [Blocks::default(); 3];
-    let channels = record.channels();
-    let mut runs = vec![Run::default(); channels.len()];
-    let mut line = vec![0.0; k + 1];
-    for i in rows.clone() {
-        let y = stepper.outputs(&arc.z);
-        for (c, channel) in channels.iter().enumerate() {
-            let output = record.output_of(c);
-            output_line(y, output, visible, k, &arc.s, &mut line);
-            line[k] = y[output] - record.columns[c][i];
-            if *channel != Channel::Position {
-                line[k] = wrapped(line[k]);
+/// Arcs that begin at poses, with the hidden states as they were carried there.
+fn started<'z, const L: usize>(
+    visible: usize,
+    k: usize,
+    begin: impl Fn(usize) -> &'z Vec<f64>,
+    hidden: &Arc,
+) -> Arcs<L> {
+    let mut z: Vec<[f64; L]> = (0..visible).map(|i| std::array::from_fn(|l| begin(l)[i])).collect();
+    z.extend(hidden.z.iter().map(|h| [*h; L]));
+    let mut s = vec![[0.0; L]; z.len() * k];
+    (0..visible).for_each(|i| s[i * k + i] = [1.0; L]);
+    for i in visible..z.len() {
+        (visible..k).for_each(|c| s[i * k + c] = [hidden.s[i * k + c]; L]);
+    }
+    Arcs { z, s }
+}
+
+/// What is summed over the rows of L windows.
+struct Sums<const L: usize> {
+    /// Columns (z, p, 1).
+    width: usize,
+    channels: Vec<Channel>,
+    /// The output that each column of the record is compared with.
+    outputs: Vec<usize>,
+    /// Upper halves of Σ (J, r)ᵀ(J, r), column by column; empty for a channel that nothing measures.
+    gram: [Vec<[f64; L]>; 3],
+    blocks: [[Blocks; L]; 3],
+    runs: Vec<[Run; L]>,
+    line: Vec<[f64; L]>,
+}
+
+impl<const L: usize> Sums<L> {
+    fn new(columns: usize, record: &Record) -> Self {
+        let channels = record.channels();
+        let width = columns + 1;
+        let entries =
+            |kind: usize| if channels.iter().any(|c| *c as usize == kind) { width * (width + 1) / 2 } else { 0 };
+        Self {
+            width,
+            outputs: (0..channels.len()).map(|c| record.output_of(c)).collect(),
+            gram: [0, 1, 2].map(|kind| vec![[0.0; L]; entries(kind)]),
+            blocks: [[Blocks::default(); L]; 3],
+            runs: vec![[Run::default(); L]; channels.len()],
+            line: vec![[0.0; L]; width],
+            channels,
+        }
+    }
+
+    fn clear(&mut self) {
+        self.gram.iter_mut().for_each(|g| g.fill([0.0; L]));
+        self.blocks = [[Blocks::default(); L]; 3];
+        self.runs.fill([Run::default(); L]);
+    }
+
+    /// The sums of one window; `None` where they, or its end, are undefined.
+    fn linear(
+        &self,
+        l: usize,
+        record: &Record,
+        rows: &Range<usize>,
+        arc: &Arc,
+        next: Option<&Vec<f64>>,
+    ) -> Option<Linear> {
+        let visible = visible_of(record);
+        let gram = [0, 1, 2].map(|kind| self.gram_of(kind, l));
+        if !arc.z.iter().chain(&arc.s).all(|x| x.is_finite()) || !gram.iter().all(|g| g.iter().all(|x| x.is_finite())) {
+            return None;
+        }
+        let count = [0, 1, 2].map(|kind| self.channels.iter().filter(|c| **c as usize == kind).count() * rows.len());
+        let axes = body_axes(arc.z[2], visible);
+        let last = if next.is_some() { rows.end } else { rows.end - 1 };
+        let duration = record.time[last] - record.time[rows.start];
+        let (back, mismatch) = match next {
+            Some(next) => {
+                let c: Vec<f64> = (0..visible).map(|i| difference_of(i, arc.z[i] - next[i])).collect();
+                let mismatch = axes.tr_mul(&nalgebra::DVector::from_column_slice(&c));
+                (Some(backwards(&arc.s, &c, visible, self.width - 1)?), mismatch.as_slice().to_vec())
             }
-            let kind = *channel as usize;
-            runs[c].push(line[k], &mut blocks[kind]);
-            add_square(&mut gram[kind], &line);
-            count[kind] += 1;
+            None => (None, vec![]),
+        };
+        Some(Linear { gram, count, blocks: self.blocks.map(|b| b[l]), back, axes, duration, mismatch })
+    }
+
+    fn gram_of(&self, kind: usize, l: usize) -> DMatrix<f64> {
+        let mut gram = DMatrix::zeros(self.width, self.width);
+        let mut sums = self.gram[kind].iter();
+        for column in 0..self.width {
+            for (row, sum) in (0..=column).zip(&mut sums) {
+                gram[(row, column)] = sum[l];
+                gram[(column, row)] = sum[l];
+            }
         }
-        if i + 1 < rows.end || next.is_some() {
-            stepper.advance(arc, record.time[i], record.time[i + 1]);
+        gram
+    }
+}
+
+/// L windows from their first row to their last, sums and all.
+struct Walk<'s, 'a, const L: usize> {
+    stepper: &'s mut LaneStepper<'a, L>,
+    record: &'s Record,
+    /// Empty for a lane that has nothing to do.
+    rows: &'s [Range<usize>; L],
+    /// Whether the next window's start is asked for.
+    goes_on: &'s [bool; L],
+    arcs: &'s mut Arcs<L>,
+    sums: &'s mut Sums<L>,
+}
+
+impl<const L: usize> Kernel for Walk<'_, '_, L> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { stepper, record, rows, goes_on, arcs, sums } = self;
+        let time = &record.time;
+        let mut longest = 0;
+        for rows in rows {
+            longest = longest.max(rows.len());
+        }
+        for r in 0..longest {
+            let y = stepper.outputs_here(&arcs.z);
+            let (mut from, mut to, mut active, mut at) = ([0.0; L], [0.0; L], [false; L], [0; L]);
+            for l in 0..L {
+                active[l] = r < rows[l].len();
+                at[l] = if active[l] { rows[l].start + r } else { 0 };
+                from[l] = time[at[l]];
+                let moves = active[l] && (r + 1 < rows[l].len() || goes_on[l]);
+                to[l] = time[at[l] + usize::from(moves)];
+            }
+            sums.add(y, &arcs.s, record, &at, &active);
+            stepper.advance_here(&mut arcs.z, &mut arcs.s, &from, &to);
         }
     }
-    gram.iter_mut().for_each(|g| g.fill_lower_triangle_with_upper_triangle());
-    if !arc.z.iter().chain(&arc.s).all(|x| x.is_finite()) || !gram.iter().all(|g| g.iter().all(|x| x.is_finite())) {
-        return None;
-    }
-    let axes = body_axes(arc.z[2], visible);
-    let last = if next.is_some() { rows.end } else { rows.end - 1 };
-    let duration = record.time[last] - record.time[rows.start];
-    let (back, mismatch) = match next {
-        Some(next) => {
-            let c: Vec<f64> = (0..visible).map(|i| difference_of(i, arc.z[i] - next[i])).collect();
-            let mismatch = axes.tr_mul(&nalgebra::DVector::from_column_slice(&c));
-            (Some(backwards(&arc.s, &c, visible, k)?), mismatch.as_slice().to_vec())
+}
+
+impl<const L: usize> Sums<L> {
+    /// Adds a row of each window: outputs y, sensitivities s.
+    #[inline(always)]
+    fn add(&mut self, y: &[[f64; L]], s: &[[f64; L]], record: &Record, at: &[usize; L], active: &[bool; L]) {
+        let k = self.width - 1;
+        let visible = visible_of(record);
+        for (c, channel) in self.channels.iter().enumerate() {
+            let output = self.outputs[c];
+            output_line(y, output, visible, k, s, &mut self.line);
+            let measured = &record.columns[c];
+            let (kind, rest) = (*channel as usize, &mut self.line[k]);
+            for l in 0..L {
+                rest[l] = y[output][l] - measured[at[l]];
+            }
+            if *channel != Channel::Position {
+                for l in 0..L {
+                    rest[l] = wrapped(rest[l]);
+                }
+            }
+            let mut all = true;
+            for l in 0..L {
+                all &= active[l];
+                if active[l] {
+                    self.runs[c][l].push(rest[l], &mut self.blocks[kind][l]);
+                }
+            }
+            if !all {
+                for line in &mut self.line {
+                    for l in 0..L {
+                        line[l] = if active[l] { line[l] } else { 0.0 };
+                    }
+                }
+            }
+            add_square(&mut self.gram[kind], &self.line);
         }
-        None => (None, vec![]),
-    };
-    Some(Linear { gram, count, blocks, back, axes, duration, mismatch })
+    }
 }
 
 /// How many states the pose and the trailers make.
@@ -186,27 +347,52 @@ fn difference_of(i: usize, difference: f64) -> f64 {
 }
 
 /// One row of J: ∂y/∂z·S plus the direct dependence of the sensor on p.
-fn output_line(y: &[f64], output: usize, visible: usize, k: usize, s: &[f64], line: &mut [f64]) {
+#[inline(always)]
+fn output_line<const L: usize>(
+    y: &[[f64; L]],
+    output: usize,
+    visible: usize,
+    k: usize,
+    s: &[[f64; L]],
+    line: &mut [[f64; L]],
+) {
     let outputs = visible;
     let row = &y[outputs + output * k..outputs + (output + 1) * k];
-    line[..k].fill(0.0);
-    for (j, slope) in row[..visible].iter().enumerate().filter(|(_, slope)| **slope != 0.0) {
-        for c in 0..k {
-            line[c] += slope * s[j * k + c];
+    let line = &mut line[..k];
+    line.fill([0.0; L]);
+    for (j, slope) in row[..visible].iter().enumerate() {
+        let mut none = true;
+        for l in 0..L {
+            none &= slope[l] == 0.0;
+        }
+        if none {
+            continue;
+        }
+        for (line, s) in line.iter_mut().zip(&s[j * k..(j + 1) * k]) {
+            for l in 0..L {
+                line[l] += slope[l] * s[l];
+            }
         }
     }
-    for c in visible..k {
-        line[c] += row[c];
+    for (line, direct) in line[visible..].iter_mut().zip(&row[visible..]) {
+        for l in 0..L {
+            line[l] += direct[l];
+        }
     }
 }
 
 /// Adds the upper half of line·lineᵀ.
-fn add_square(gram: &mut DMatrix<f64>, line: &[f64]) {
-    let n = line.len();
-    for (column, right) in
-        gram.as_mut_slice().chunks_exact_mut(n).zip(line).enumerate().map(|(c, (g, r))| (&mut g[..=c], r))
-    {
-        column.iter_mut().zip(line).for_each(|(g, left)| *g += left * right);
+#[inline(always)]
+fn add_square<const L: usize>(gram: &mut [[f64; L]], line: &[[f64; L]]) {
+    let mut rest = gram;
+    for (column, right) in line.iter().enumerate() {
+        let (own, others) = rest.split_at_mut(column + 1);
+        for (sum, left) in own.iter_mut().zip(line) {
+            for l in 0..L {
+                sum[l] += left[l] * right[l];
+            }
+        }
+        rest = others;
     }
 }
 

@@ -94,13 +94,27 @@ impl Signals {
         self.in_interval(self.interval(t), t, value, slope);
     }
 
-    /// As [`Signals::at`], looked for first in the interval of the last call, which is updated.
-    pub(super) fn at_near(&self, near: &mut usize, t: f64, value: &mut [f64], slope: &mut [f64]) {
-        let inside = |i: usize| i + 1 < self.knots.len() && self.knots[i] <= t && t < self.knots[i + 1];
-        if !inside(*near) {
-            *near = if inside(*near + 1) { *near + 1 } else { self.interval(t) };
-        }
-        self.in_interval(*near, t, value, slope);
+    /// The times of the first and the last row.
+    #[inline(always)]
+    pub(super) fn ends(&self) -> (f64, f64) {
+        (self.knots[0], self.knots[self.knots.len() - 1])
+    }
+
+    /// The interval that holds a time, if it is not the one guessed.
+    pub(super) fn interval_from(&self, guess: usize, t: f64) -> usize {
+        let inside = guess + 1 < self.knots.len() && self.knots[guess] <= t && t < self.knots[guess + 1];
+        if inside { guess } else { self.interval(t) }
+    }
+
+    /// From where to where an interval is the one that counts.
+    pub(super) fn reach(&self, i: usize) -> [f64; 2] {
+        let from = if i == 0 { f64::NEG_INFINITY } else { self.knots[i] };
+        [from, if i + 2 >= self.knots.len() { f64::INFINITY } else { self.knots[i + 1] }]
+    }
+
+    /// The coefficients of all channels in an interval.
+    pub(super) fn pieces(&self, i: usize) -> &[[f64; 4]] {
+        self.pieces.get(i * self.channels..(i + 1) * self.channels).unwrap_or(&[])
     }
 
     /// The interval that holds a time; beyond the ends the outermost.

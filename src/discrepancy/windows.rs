@@ -104,10 +104,13 @@ pub fn linearise(
     plan.par_iter().zip(starts).map(along).collect()
 }
 
-/// Windows that are integrated side by side: a vector of AVX-512.
-const LANES: usize = 8;
-/// With more parameters than these the sums over rows no longer fit near the processor, and columns fill its vectors.
-const WIDE: usize = 48;
+/// Windows that are integrated side by side: two vectors of AVX-512, so that one waits while the other works.
+const LANES: usize = 16;
+/// With many parameters, so many that the sums over rows would not fit near the processor.
+const FEW_LANES: usize = 8;
+const MANY: usize = 32;
+/// With more parameters than these columns fill the vectors.
+const WIDE: usize = 256;
 
 /// The model along the windows of a segment, one after another; `None` where it is undefined, or where `take` ends it.
 pub fn each_window(
@@ -116,54 +119,142 @@ pub fn each_window(
     record: &Record,
     segment: &Segment,
     starts: &[Vec<f64>],
-    take: impl FnMut(Linear) -> Option<()>,
-) -> Option<()> {
-    // States that no sensor sees go from window to window; without them windows stand side by side.
-    let alone = equations.n() > equations.visible || p.len() > WIDE || segment.windows.len() == 1;
-    match alone {
-        true => side_by_side::<1>(equations, p, record, segment, starts, take),
-        false => side_by_side::<LANES>(equations, p, record, segment, starts, take),
-    }
-}
-
-/// L windows at a time.
-fn side_by_side<const L: usize>(
-    equations: &Equations,
-    p: &[f64],
-    record: &Record,
-    segment: &Segment,
-    starts: &[Vec<f64>],
     mut take: impl FnMut(Linear) -> Option<()>,
 ) -> Option<()> {
-    let mut stepper = LaneStepper::new(equations, &record.signals, [p; L]);
-    let mut hidden = super::carry::before(equations, p, record, segment.windows[0].start, &starts[0]);
-    let visible = visible_of(record);
-    let mut sums = Sums::new(stepper.columns(), record);
-    for (k, windows) in segment.windows.chunks(L).enumerate() {
-        let next = |l: usize| starts.get(k * L + l + 1).filter(|_| l < windows.len());
-        let begin = |l: usize| &starts[k * L + l.min(windows.len() - 1)];
-        let mut arcs = started(visible, stepper.columns(), begin, &hidden);
-        let rows = std::array::from_fn(|l| windows.get(l).cloned().unwrap_or(0..0));
-        let goes_on = std::array::from_fn(|l| next(l).is_some());
-        sums.clear();
-        let isa = stepper.isa();
-        isa.dispatch(Walk {
-            stepper: &mut stepper,
-            record,
-            rows: &rows,
-            goes_on: &goes_on,
-            arcs: &mut arcs,
-            sums: &mut sums,
-        });
-        for (l, rows) in rows.iter().enumerate().take(windows.len()) {
-            let arc = arcs.one(l);
-            take(sums.linear(l, record, rows, &arc, next(l))?)?;
-            if L == 1 {
-                hidden = Arc { z: arc.z[visible..].to_vec(), s: arc.s };
-            }
-        }
+    let along = Along { equations, p, record, windows: &segment.windows, starts };
+    let first = super::carry::before(equations, p, record, segment.windows[0].start, &starts[0]);
+    if p.len() > WIDE || segment.windows.len() == 1 {
+        return along.side_by_side::<1>(0, &[first], &mut take).map(|_| ());
     }
-    Some(())
+    if equations.n() == equations.visible {
+        return match p.len() > MANY {
+            true => along.side_by_side::<FEW_LANES>(0, &[], &mut take).map(|_| ()),
+            false => along.side_by_side::<LANES>(0, &[], &mut take).map(|_| ()),
+        };
+    }
+    // States that no sensor sees go from window to window. Where their motion does not ask for the pose they are
+    // carried ahead by themselves; windows that find them elsewhere at their end than they were taken to be go alone.
+    let ahead = along.ahead(&first).unwrap_or_default();
+    let (done, hidden) = along.side_by_side::<LANES>(0, &ahead, &mut take)?;
+    along.side_by_side::<1>(done, &[hidden.unwrap_or(first)], &mut take).map(|_| ())
+}
+
+/// Equations along the windows of a segment.
+struct Along<'a> {
+    equations: &'a Equations,
+    p: &'a [f64],
+    record: &'a Record,
+    windows: &'a [Range<usize>],
+    starts: &'a [Vec<f64>],
+}
+
+impl Along<'_> {
+    /// The hidden states at the start of every window, without what the pose does meanwhile.
+    ///
+    /// States that forget within a window where they began, bit for bit, come to the same end from any start: all
+    /// windows are tried side by side, and once more from the ends found. What is the same twice is what one window
+    /// after another would give; the rest goes one after another.
+    fn ahead(&self, first: &Arc) -> Option<Vec<Arc>> {
+        let carried = self.equations.carried()?;
+        let mut found = vec![first.clone()];
+        if self.forgets(carried, first) {
+            let once = self.ends(carried, &vec![first.clone(); self.windows.len()]);
+            found = self.ends(carried, &once);
+            let same = |k: &usize| once[*k].is_same(&found[*k], carried.visible);
+            let known = (0..found.len()).find(|k| !same(k)).unwrap_or(found.len() - 1);
+            found.truncate(known + 1);
+        }
+        let mut stepper = LaneStepper::new(carried, &self.record.signals, [self.p]);
+        for k in found.len() - 1..self.windows.len() - 1 {
+            let [end] = self.end_of(carried, &mut stepper, [k], [&found[k]]);
+            found.push(end);
+        }
+        Some(found)
+    }
+
+    /// Whether the hidden states end the first window the same wherever they begin it.
+    fn forgets(&self, carried: &Equations, first: &Arc) -> bool {
+        let elsewhere =
+            Arc { z: first.z.iter().map(|z| z + 1.0).collect(), s: first.s.iter().map(|s| s + 1.0).collect() };
+        let mut stepper = LaneStepper::new(carried, &self.record.signals, [self.p; 2]);
+        let [a, b] = self.end_of(carried, &mut stepper, [0; 2], [first, &elsewhere]);
+        a.is_same(&b, carried.visible)
+    }
+
+    /// The first start, and where every window but the last ends, side by side.
+    fn ends(&self, carried: &Equations, starts: &[Arc]) -> Vec<Arc> {
+        let mut stepper = LaneStepper::new(carried, &self.record.signals, [self.p; LANES]);
+        let mut found = vec![starts[0].clone()];
+        let last = self.windows.len() - 2;
+        while found.len() < starts.len() {
+            let k: [usize; LANES] = std::array::from_fn(|l| (found.len() - 1 + l).min(last));
+            let ends = self.end_of(carried, &mut stepper, k, k.map(|k| &starts[k]));
+            let more = starts.len() - found.len();
+            found.extend(ends.into_iter().take(more));
+        }
+        found
+    }
+
+    /// The hidden states at the ends of some windows.
+    fn end_of<const L: usize>(
+        &self,
+        carried: &Equations,
+        stepper: &mut LaneStepper<L>,
+        windows: [usize; L],
+        starts: [&Arc; L],
+    ) -> [Arc; L] {
+        let time = &self.record.time;
+        let mut arcs = started(carried.visible, stepper.columns(), |l| &self.starts[windows[l]], |l| starts[l]);
+        let rows = windows.map(|k| self.windows[k].clone());
+        for r in 0..rows.iter().map(Range::len).max().unwrap_or(0) {
+            let from = rows.each_ref().map(|rows| time[(rows.start + r).min(rows.end)]);
+            let to = rows.each_ref().map(|rows| time[(rows.start + r + 1).min(rows.end)]);
+            stepper.advance(&mut arcs.z, &mut arcs.s, &from, &to);
+        }
+        std::array::from_fn(|l| arcs.one(l).hidden(carried.visible))
+    }
+
+    /// Windows from one on, L at a time, with their hidden states: one for each window, or the first to be carried on.
+    /// Ends before a window that does not begin where the one before it ended; says which, and what was found there.
+    fn side_by_side<const L: usize>(
+        &self,
+        from: usize,
+        hidden: &[Arc],
+        take: &mut impl FnMut(Linear) -> Option<()>,
+    ) -> Option<(usize, Option<Arc>)> {
+        let (record, visible) = (self.record, self.equations.visible);
+        let mut k = from;
+        if k == self.windows.len() || L > 1 && hidden.is_empty() && self.equations.n() > visible {
+            return Some((k, None));
+        }
+        let none = Arc::default();
+        let mut last = hidden.first().cloned();
+        let mut stepper = LaneStepper::new(self.equations, &record.signals, [self.p; L]);
+        let mut sums = Sums::new(stepper.columns(), record);
+        for windows in self.windows[from..].chunks(L) {
+            let next = |l: usize| self.starts.get(k + l + 1).filter(|_| l < windows.len());
+            let at = |l: usize| k + l.min(windows.len() - 1);
+            let carried = |l: usize| if L == 1 { last.as_ref() } else { hidden.get(at(l)) }.unwrap_or(&none);
+            let mut arcs = started(visible, stepper.columns(), |l| &self.starts[at(l)], carried);
+            let rows = std::array::from_fn(|l| windows.get(l).cloned().unwrap_or(0..0));
+            let goes_on = std::array::from_fn(|l| next(l).is_some());
+            sums.clear();
+            let isa = stepper.isa();
+            let (stepper, arcs, sums) = (&mut stepper, &mut arcs, &mut sums);
+            isa.dispatch(Walk { stepper, record, rows: &rows, goes_on: &goes_on, arcs, sums });
+            for (l, rows) in rows.iter().enumerate().take(windows.len()) {
+                let arc = arcs.one(l);
+                take(sums.linear(l, record, rows, &arc, next(l))?)?;
+                let end = arc.hidden(visible);
+                if L > 1 && hidden.get(k + l + 1).is_some_and(|taken| !taken.is_same(&end, visible)) {
+                    return Some((k + l + 1, Some(end)));
+                }
+                last = Some(end);
+            }
+            k += windows.len();
+        }
+        Some((k, None))
+    }
 }
 
 /// Arcs that begin at poses, with the hidden states as they were carried there.
@@ -171,14 +262,14 @@ fn started<'z, const L: usize>(
     visible: usize,
     k: usize,
     begin: impl Fn(usize) -> &'z Vec<f64>,
-    hidden: &Arc,
+    hidden: impl Fn(usize) -> &'z Arc,
 ) -> Arcs<L> {
     let mut z: Vec<[f64; L]> = (0..visible).map(|i| std::array::from_fn(|l| begin(l)[i])).collect();
-    z.extend(hidden.z.iter().map(|h| [*h; L]));
+    z.extend((0..hidden(0).z.len()).map(|i| std::array::from_fn(|l| hidden(l).z[i])));
     let mut s = vec![[0.0; L]; z.len() * k];
     (0..visible).for_each(|i| s[i * k + i] = [1.0; L]);
     for i in visible..z.len() {
-        (visible..k).for_each(|c| s[i * k + c] = [hidden.s[i * k + c]; L]);
+        (visible..k).for_each(|c| s[i * k + c] = std::array::from_fn(|l| hidden(l).s[i * k + c]));
     }
     Arcs { z, s }
 }

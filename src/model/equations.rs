@@ -30,6 +30,8 @@ pub struct Equations {
     live: Vec<usize>,
     outputs: Lanes,
     delay: Lanes,
+    /// The motion of the hidden states alone, where it does not ask for the pose.
+    carried: Option<Box<Equations>>,
 }
 
 /// How far beside a kink derivatives are taken, as a share of one.
@@ -106,7 +108,14 @@ impl Model {
         };
         let plain = compile(&graph, &rates)?;
         let jacobian = with_derivatives(&mut graph, &rates, by);
-        let live = (rates.len()..jacobian.len()).filter(|k| !graph.is_zero(jacobian[*k])).collect();
+        let read = live(&graph, &jacobian, rates.len());
+        let carried = match visible < states.len() {
+            true => carried(&mut graph, &jacobian, &read, [visible, states.len(), by.len()]),
+            false => None,
+        };
+        let carried =
+            carried.map(|nodes| Ok::<_, Error>((live(&graph, &nodes, rates.len()), compile(&graph, &nodes)?)));
+        let carried = carried.transpose()?;
         let jacobian = compile(&graph, &jacobian)?;
         let mut measured: Vec<NodeId> = ["x_m", "y_m", "heading_m"].map(|s| graph.insert(&Expr::sym(s))).to_vec();
         measured.extend((1..=self.trailer_count()).map(|i| graph.insert(&Expr::sym(trailer_heading(i)))));
@@ -116,7 +125,7 @@ impl Model {
         let delay = with_derivatives(&mut graph, &[delay], free);
         let delay = compile(&graph, &delay)?;
         let constants = values.into_iter().map(|(_, v)| v).collect();
-        Ok(Equations {
+        let whole = Equations {
             states,
             visible,
             inputs,
@@ -124,10 +133,13 @@ impl Model {
             constants,
             rates: plain,
             jacobian,
-            live,
+            live: read,
             outputs,
             delay,
-        })
+            carried: None,
+        };
+        let carried = carried.map(|(live, jacobian)| Box::new(Equations { live, jacobian, ..whole.clone() }));
+        Ok(Equations { carried, ..whole })
     }
 }
 
@@ -136,6 +148,30 @@ fn with_derivatives(graph: &mut Graph, nodes: &[NodeId], by: &[Symbol]) -> Vec<N
     let columns: Vec<Vec<NodeId>> = by.iter().map(|s| graph.derivatives(nodes, s)).collect();
     let row = |i: usize| columns.iter().map(move |c| c[i]);
     nodes.iter().copied().chain((0..nodes.len()).flat_map(row)).collect()
+}
+
+/// Which of the derivatives that follow so many rates are not zero by their formula.
+fn live(graph: &Graph, nodes: &[NodeId], rates: usize) -> Vec<usize> {
+    (rates..nodes.len()).filter(|k| !graph.is_zero(nodes[*k])).collect()
+}
+
+/// Rates and derivatives without what only the pose is moved by; `None` where hidden states, or the steps that they
+/// are integrated in, ask for the pose.
+fn carried(
+    graph: &mut Graph,
+    nodes: &[NodeId],
+    live: &[usize],
+    [visible, n, width]: [usize; 3],
+) -> Option<Vec<NodeId>> {
+    let is_live = |i: usize, j: usize| live.binary_search(&(n + i * width + j)).is_ok();
+    let mut asked = (2..n).filter(|i| *i == 2 || *i >= visible).flat_map(|i| (0..visible).map(move |j| (i, j)));
+    let steps = (0..visible).any(|i| is_live(i, i));
+    if width < n || steps || asked.any(|(i, j)| is_live(i, j)) {
+        return None;
+    }
+    let zero = graph.insert(&Expr::int(0));
+    let kept = |k: usize| k == 2 || (visible..n).contains(&k) || k >= n + visible * width;
+    Some(nodes.iter().enumerate().map(|(k, node)| if kept(k) { *node } else { zero }).collect())
 }
 
 /// Working memory for one thread that evaluates [`Equations`] at L states side by side.
@@ -170,6 +206,11 @@ impl Equations {
         let width = self.jacobian.outputs() / n - 1;
         let read = |i: usize, j: &usize| self.live.binary_search(&(n + i * width + j)).is_ok();
         (0..n).map(|i| (0..n).filter(|j| read(i, j)).collect()).collect()
+    }
+
+    /// The same equations with the pose at rest, where the motion of the hidden states does not ask for it.
+    pub(crate) fn carried(&self) -> Option<&Equations> {
+        self.carried.as_deref()
     }
 
     /// Memory for evaluating these equations at given parameters.

@@ -2,6 +2,7 @@
 
 use super::spline::curvatures;
 use crate::files::InputTiming;
+use std::sync::Arc;
 
 /// What a row of the log says about its inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,10 +38,10 @@ impl From<InputTiming> for Timing {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Signals {
-    knots: Vec<f64>,
+    knots: Arc<[f64]>,
     channels: usize,
-    /// Polynomial coefficients, interval by interval, channel by channel.
-    pieces: Vec<[f64; 4]>,
+    /// Polynomial coefficients, interval by interval, channel by channel; copies share them.
+    pieces: Arc<[[f64; 4]]>,
 }
 
 impl Signals {
@@ -55,7 +56,7 @@ impl Signals {
             };
             of_channel.into_iter().enumerate().for_each(|(i, p)| pieces[i * columns.len() + c] = p);
         }
-        Self { knots: time.to_vec(), channels: columns.len(), pieces }
+        Self { knots: time.into(), channels: columns.len(), pieces: pieces.into() }
     }
 
     /// The signals as a clock would give them that runs faster by a rate, about the middle of the log.

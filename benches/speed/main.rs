@@ -7,6 +7,7 @@
 #![allow(clippy::needless_range_loop)] // loops over lanes are written out, so that they become vectors
 
 mod adaptive;
+mod growth;
 mod jacobian;
 mod pair;
 mod serve;
@@ -49,6 +50,9 @@ fn main() {
     ];
     for (_, compare) in all.iter().filter(|(name, _)| only.as_ref().is_none_or(|o| o == name)) {
         println!("{}", compare().row());
+    }
+    if only.is_none_or(|o| o == "growth") {
+        growth::table();
     }
 }
 

@@ -64,6 +64,7 @@ pub struct Model {
     pub inputs: Vec<String>,
     /// The effects the model includes.
     pub effects: Vec<Applied>,
+    pub(crate) solution: build::Solution,
 }
 
 impl Model {
@@ -108,6 +109,7 @@ impl Model {
             sensor: Sensor::default(),
             inputs: found.inputs.keys().cloned().collect(),
             effects: vec![],
+            solution: build::Solution::default(),
         })
     }
 

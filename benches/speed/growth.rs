@@ -33,7 +33,7 @@ fn row(trailers: usize) -> [f64; 4] {
     let mut graph = jacobian::defined(&mechanism, trailers);
     let length = Symbol::from("d_1");
     let rows: Vec<NodeId> = mechanism.constraints.iter().map(|c| graph.insert(&c.generic())).collect();
-    let q: Vec<Symbol> = mechanism.coordinates.iter().cloned().collect();
+    let q: Vec<Symbol> = mechanism.coordinates.to_vec();
     let all: Vec<Symbol> = q.iter().cloned().chain(q.iter().map(Symbol::rate)).chain([length.clone()]).collect();
     let value = time(&compiled(&graph, &all, &rows), all.len());
     let by_length = graph.derivatives(&rows, &length);

@@ -140,8 +140,8 @@ impl<const L: usize> Sums<L> {
                 rest[l] = y[output][l] - measured[at[l]];
             }
             if *channel != Channel::Position {
-                for l in 0..L {
-                    rest[l] = wrapped(rest[l]);
+                for rest in rest.iter_mut() {
+                    *rest = wrapped(*rest);
                 }
             }
             let mut all = true;
@@ -188,8 +188,8 @@ fn output_line<const L: usize>(
     line.fill([0.0; L]);
     for (j, slope) in row[..visible].iter().enumerate() {
         let mut none = true;
-        for l in 0..L {
-            none &= slope[l] == 0.0;
+        for slope in slope {
+            none &= *slope == 0.0;
         }
         if none {
             continue;

@@ -296,14 +296,14 @@ impl Equations {
         let (mut rates, mut slopes) = ([0.0; L], [0.0; L]);
         for k in 0..self.n() {
             w.slopes[k] = defined(self.jacobian.output(&w.jacobian, k));
-            for l in 0..L {
-                rates[l] += 0.0 * w.slopes[k][l];
+            for (sum, rate) in rates.iter_mut().zip(&w.slopes[k]) {
+                *sum += 0.0 * rate;
             }
         }
         for k in &self.live {
             w.slopes[*k] = defined(self.jacobian.output(&w.jacobian, *k));
-            for l in 0..L {
-                slopes[l] += 0.0 * w.slopes[*k][l];
+            for (sum, slope) in slopes.iter_mut().zip(&w.slopes[*k]) {
+                *sum += 0.0 * slope;
             }
         }
         let mut beside = false;

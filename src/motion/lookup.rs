@@ -35,9 +35,9 @@ impl<const L: usize> Lookup<L> {
     #[inline(always)]
     pub fn find(&mut self, signals: &Signals, t: &[f64; L]) {
         let (mut known, mut inside) = (true, true);
-        for l in 0..L {
-            known &= t[l] == self.at[l];
-            inside &= self.low[l] <= t[l] && t[l] < self.high[l];
+        for (l, t) in t.iter().enumerate() {
+            known &= *t == self.at[l];
+            inside &= self.low[l] <= *t && *t < self.high[l];
         }
         if known {
             return;

@@ -60,7 +60,7 @@ pub type Starts = Vec<Vec<Vec<f64>>>;
 /// residuals r + J·(δz, δp) and end e + F·δz + B·δp.
 #[derive(Clone, Debug)]
 pub struct Linear {
-    /// Σ (J, r)ᵀ(J, r) for each [`Channel`], columns (z, p, 1).
+    /// Σ (J, r)ᵀ(J, r) for each [`Channel`](super::record::Channel), columns (z, p, 1).
     pub gram: [DMatrix<f64>; 3],
     /// Number of values of each channel.
     pub count: [usize; 3],

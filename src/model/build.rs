@@ -17,7 +17,7 @@ fn formula(text: &str) -> Expr {
 
 /// The constraints of a vehicle solved once, for all models that differ in their effects, values and sensor alone.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Solution(Arc<Mutex<Known>>);
+pub struct Solution(Arc<Mutex<Known>>);
 
 type Known = Option<Box<(Key, Definitions)>>;
 

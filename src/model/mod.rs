@@ -64,7 +64,8 @@ pub struct Model {
     pub inputs: Vec<String>,
     /// The effects the model includes.
     pub effects: Vec<Applied>,
-    pub(crate) solution: build::Solution,
+    /// What has been found out about its constraints; `Default::default()` where there is nothing yet.
+    pub solution: build::Solution,
 }
 
 impl Model {

@@ -271,3 +271,25 @@ pub(super) fn moving(i: usize) -> Velocity {
     };
     Velocity::in_body(Symbol::new(&forward), Symbol::new(&sideways), &section_heading(i))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Trailer;
+
+    /// Copies share a solution, but not one of other constraints or inputs.
+    #[test]
+    fn a_solution_is_of_its_own_constraints() {
+        let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+        let alone = model.definitions().unwrap();
+        let rate = trailer_heading(1).rate();
+        let train = model.clone().with_trailers(&[Trailer { length: 1.0, hitch: 0.0 }]);
+        assert!(train.definitions().unwrap().get(&rate).is_some());
+        assert!(model.definitions().unwrap().get(&rate).is_none());
+        let car = crate::vehicles::named("car").unwrap().clone();
+        let other = Model { inputs: car.inputs.keys().cloned().collect(), vehicle: car, ..model.clone() };
+        let formula = |d: &Definitions| d.get(&"phi'".into()).map(ToString::to_string);
+        assert_ne!(formula(&other.definitions().unwrap()), formula(&alone));
+        assert_eq!(formula(&model.definitions().unwrap()), formula(&alone));
+    }
+}

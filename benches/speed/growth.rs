@@ -58,6 +58,7 @@ fn row(trailers: usize) -> [f64; 4] {
 
 /// Prints the costs a trailer, which stay the same where a cost is linear; that of the Jacobian an entry.
 pub fn table() {
+    println!("\nHow costs grow: a lane, a trailer; of the Jacobian, an entry that is not zero.");
     println!("\n| trailers | rows | J·v | by one length | Jacobian, an entry |\n|---|---|---|---|---|");
     for trailers in [5, 10, 20, 50, 100] {
         let [value, product, sensitivity, entry] = row(trailers);

@@ -20,13 +20,12 @@ pub struct Compiled {
     pub memory: Memory<LANES>,
 }
 
-fn mechanism(trailers: usize) -> Mechanism {
+pub fn mechanism(trailers: usize) -> Mechanism {
     model::mechanism(vehicles::named("unicycle").unwrap(), trailers)
 }
 
-pub fn compiled(trailers: usize) -> Compiled {
-    let mechanism = mechanism(trailers);
-    let q = &mechanism.coordinates;
+/// A graph with radius, hitches and all lengths but the first; without creep.
+pub fn defined(mechanism: &Mechanism, trailers: usize) -> Graph {
     let mut graph = Graph::default();
     for c in &mechanism.constraints {
         let zero = graph.insert(&Expr::int(0));
@@ -37,9 +36,20 @@ pub fn compiled(trailers: usize) -> Compiled {
     graph.define("r", radius);
     for i in 1..=trailers {
         let (length, hitch) = (graph.insert(&number("1")), graph.insert(&number("0")));
-        graph.define(Symbol::new(&format!("d_{i}")), length);
+        if i > 1 {
+            graph.define(Symbol::new(&format!("d_{i}")), length);
+        }
         graph.define(Symbol::new(&format!("c_{i}")), hitch);
     }
+    graph
+}
+
+pub fn compiled(trailers: usize) -> Compiled {
+    let mechanism = mechanism(trailers);
+    let q = &mechanism.coordinates;
+    let mut graph = defined(&mechanism, trailers);
+    let length = graph.insert(&Expr::int(1));
+    graph.define("d_1", length);
     let rows: Vec<NodeId> = mechanism.constraints.iter().map(|c| graph.insert(&c.generic())).collect();
     let slots: Vec<Symbol> = q.iter().cloned().chain(q.iter().map(Symbol::rate)).collect();
     let (mut places, mut nodes) = (vec![], vec![]);

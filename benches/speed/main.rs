@@ -7,6 +7,7 @@
 #![allow(clippy::needless_range_loop)] // loops over lanes are written out, so that they become vectors
 
 mod adaptive;
+mod growth;
 mod jacobian;
 mod pair;
 mod serve;
@@ -30,6 +31,9 @@ type Named = (&'static str, fn() -> Pair);
 const MANY: usize = 4096;
 const CREEPS: [f64; 2] = [0.1, 0.2];
 
+/// A comparison by name.
+type Work = (&'static str, fn() -> Pair);
+
 fn main() {
     check();
     if std::env::args().any(|a| a == "check") {
@@ -49,6 +53,9 @@ fn main() {
     ];
     for (_, compare) in all.iter().filter(|(name, _)| only.as_ref().is_none_or(|o| o == name)) {
         println!("{}", compare().row());
+    }
+    if only.is_none_or(|o| o == "growth") {
+        growth::table();
     }
 }
 

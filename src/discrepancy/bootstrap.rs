@@ -108,7 +108,7 @@ impl Problem {
             let signals = record.signals.clone();
             let mut stepper = Stepper::new(equations, &signals, &[]);
             let first = segment.windows[0].start;
-            let hidden = carry::before(equations, &[], &mut stepper, record, first, &poses[0]);
+            let hidden = carry::before(equations, &[], record, first, &poses[0]);
             let mut arc = Arc { z: [&poses[0][..], &hidden.z].concat(), s: vec![] };
             let mut of_segment = Vec::with_capacity(poses.len());
             for (k, rows) in segment.windows.iter().enumerate() {

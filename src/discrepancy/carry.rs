@@ -9,22 +9,16 @@ use nalgebra::DMatrix;
 const LEAD: f64 = 3.0;
 
 /// Hidden states and all sensitivities at a row, carried there from rest through what the log says before it.
-pub fn before(
-    equations: &Equations,
-    p: &[f64],
-    stepper: &mut Stepper,
-    record: &Record,
-    row: usize,
-    visible: &[f64],
-) -> Arc {
+pub fn before(equations: &Equations, p: &[f64], record: &Record, row: usize, visible: &[f64]) -> Arc {
+    if equations.n() == equations.visible {
+        return Arc::default();
+    }
+    let mut stepper = Stepper::new(equations, &record.signals, p);
     let time = &record.time;
     let gap = record.gap();
     let joined = |i: &usize| time[i + 1] - time[*i] <= gap && time[row] - time[*i] <= LEAD;
     let first = (0..row).rev().take_while(joined).last().unwrap_or(row);
-    let mut hidden = at_rest(equations, p, stepper, time[first], visible);
-    if hidden.z.is_empty() {
-        return hidden;
-    }
+    let mut hidden = at_rest(equations, p, &mut stepper, time[first], visible);
     for i in first..row {
         // The pose a hidden state sees is the measured one; only the hidden states are carried.
         let mut arc = stepper.start(&[visible, &hidden.z].concat(), Some(&hidden.s));

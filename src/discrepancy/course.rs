@@ -91,7 +91,7 @@ fn path(equations: &Equations, record: &Record, rows: Range<usize>, heading: f64
     let mut start = record.smoothed(rows.start);
     start[2] = heading;
     let start = pose_of(equations, &start);
-    let hidden = carry::before(equations, &[], &mut stepper, record, rows.start, &start);
+    let hidden = carry::before(equations, &[], record, rows.start, &start);
     let mut arc = Arc { z: [start, hidden.z].concat(), s: vec![] };
     let mut found = Vec::with_capacity(rows.len());
     for i in rows.clone() {

@@ -13,6 +13,7 @@
 //! alone. q and σ are estimated with the parameters, so noise, unexplained motion and effects are told apart.
 
 pub mod align;
+mod along;
 pub mod angle;
 pub mod bootstrap;
 mod bounds;
@@ -51,5 +52,6 @@ pub mod summary;
 pub mod unnamed;
 pub mod variances;
 pub mod verdict;
+mod walk;
 pub mod whiteness;
 pub mod windows;

@@ -106,14 +106,17 @@ fn mark(time: &[f64], column: &[f64], windows: &[(usize, usize)], gross: &mut [b
 
 /// Takes back what fits the rows that were left: beside two gross errors a good row looks worst.
 fn readmit(time: &[f64], column: &[f64], window: &[usize], before: &[bool], own: &mut [bool]) {
-    let good = |own: &[bool]| (0..column.len()).filter(|i| !own[*i] && column[*i].is_finite()).collect::<Vec<usize>>();
-    let left = good(own);
+    let is_good = |own: &[bool], i: usize| !own[i] && column[i].is_finite();
+    let left: Vec<usize> = (0..column.len()).filter(|i| is_good(own, *i)).collect();
     let errors: Vec<f64> = (0..left.len()).map(|k| error(time, column, window, &left, k)).collect();
     let Some(usual) = usual(&errors) else { return };
     for i in (0..column.len()).filter(|i| own[*i] && !before[*i]).collect::<Vec<usize>>() {
-        let mut rows = good(own);
-        let k = rows.partition_point(|j| *j < i);
-        rows.insert(k, i);
+        // Only the nearest good rows are asked.
+        let mut rows: Vec<usize> = (0..i).rev().filter(|j| is_good(own, *j)).take(EDGE).collect();
+        rows.reverse();
+        let k = rows.len();
+        rows.push(i);
+        rows.extend((i + 1..column.len()).filter(|j| is_good(own, *j)).take(EDGE));
         if error(time, column, window, &rows, k) <= GROSS * usual {
             own[i] = false;
         }

@@ -4,6 +4,7 @@ use super::smooth;
 use crate::files::{InputTiming, Run};
 use crate::motion::{Signals, Timing};
 use std::ops::Range;
+use std::sync::OnceLock;
 
 /// Rows of a run: measured pose, inputs as signals.
 #[derive(Clone, Debug)]
@@ -22,6 +23,20 @@ pub struct Record {
     pub trailers: usize,
     /// Rows that take part.
     pub rows: Range<usize>,
+    pub(super) known: Known,
+}
+
+/// What has been found out about all rows once; a copy, which may be of other rows, finds out for itself.
+#[derive(Debug, Default)]
+pub(super) struct Known {
+    step: OnceLock<f64>,
+    noise: OnceLock<f64>,
+}
+
+impl Clone for Known {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
 }
 
 /// What kind of thing a measured column is; columns of one kind share a noise.
@@ -48,7 +63,7 @@ impl Record {
         let signals = Signals::new(&time, inputs, timing);
         let rows = 0..time.len();
         let trailers = columns.len() - 2 - usize::from(has_heading);
-        Self { name: name.to_string(), time, columns, has_heading, signals, trailers, rows }
+        Self { name: name.to_string(), time, columns, has_heading, signals, trailers, rows, known: Known::default() }
     }
 
     /// A run as it was read, of a vehicle with some trailers.
@@ -59,7 +74,8 @@ impl Record {
         let input_time = run.apart.as_ref().map_or(&run.time, |a| &a.time);
         let signals = Signals::new(input_time, &run.inputs, timing.into());
         let (rows, has_heading) = (0..run.time.len(), run.heading.is_some());
-        Self { name: run.name.clone(), time: run.time.clone(), columns, has_heading, signals, trailers, rows }
+        let (name, time) = (run.name.clone(), run.time.clone());
+        Self { name, time, columns, has_heading, signals, trailers, rows, known: Known::default() }
     }
 
     /// The kind of each measured column.
@@ -89,11 +105,15 @@ impl Record {
     /// Standard deviation of the measured positions, m.
     pub fn position_noise(&self) -> f64 {
         let of = |c: usize| smooth::noise(&self.time[self.rows.clone()], &self.columns[c][self.rows.clone()]);
-        [0, 1].into_iter().filter_map(of).fold(1e-9, f64::max)
+        *self.known.noise.get_or_init(|| [0, 1].into_iter().filter_map(of).fold(1e-9, f64::max))
     }
 
     /// The usual time between rows, s.
     pub fn step(&self) -> f64 {
+        *self.known.step.get_or_init(|| self.median_step())
+    }
+
+    fn median_step(&self) -> f64 {
         let mut steps: Vec<f64> = self.time[self.rows.clone()].windows(2).map(|w| w[1] - w[0]).collect();
         let middle = steps.len() / 2;
         if steps.is_empty() {

@@ -152,7 +152,7 @@ impl Graph {
         }
     }
 
-    pub(super) fn is_zero(&self, id: NodeId) -> bool {
+    pub(crate) fn is_zero(&self, id: NodeId) -> bool {
         self.value(id).is_some_and(Zero::is_zero)
     }
 

@@ -6,11 +6,37 @@ use crate::effects::{Applied, Effect};
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Definitions, Velocity, solve};
+use crate::vehicles::Vehicle;
 use std::collections::BTreeSet;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// A formula of this file; a malformed one would be a fault of the program, seen by every test.
 fn formula(text: &str) -> Expr {
     Expr::parse(text).unwrap_or_else(|e| unreachable!("{e}"))
+}
+
+/// The constraints of a vehicle solved once, for all models that differ in their effects, values and sensor alone.
+#[derive(Clone, Debug, Default)]
+pub struct Solution(Arc<Mutex<Known>>);
+
+type Known = Option<Box<(Key, Definitions)>>;
+
+/// What a solution depends on.
+#[derive(Debug)]
+struct Key {
+    vehicle: Vehicle,
+    trailers: usize,
+    inputs: Vec<String>,
+}
+
+impl Key {
+    fn of(model: &Model) -> Self {
+        Self { vehicle: model.vehicle.clone(), trailers: model.trailers.len(), inputs: model.inputs.clone() }
+    }
+
+    fn is_of(&self, model: &Model) -> bool {
+        self.trailers == model.trailers.len() && self.inputs == model.inputs && self.vehicle == model.vehicle
+    }
 }
 
 impl Model {
@@ -125,6 +151,23 @@ impl Model {
     }
 
     fn ideal_definitions(&self) -> Result<Definitions> {
+        // Which coordinates of its own a vehicle has is for its effects to say as well.
+        if !self.vehicle.coordinates.is_empty() {
+            return self.solved();
+        }
+        let mut kept = self.solution.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((of, known)) = kept.as_deref()
+            && of.is_of(self)
+        {
+            return Ok(known.clone());
+        }
+        let solved = self.solved()?;
+        *kept = Some(Box::new((Key::of(self), solved.clone())));
+        Ok(solved)
+    }
+
+    /// The constraints solved, whatever is known of them.
+    fn solved(&self) -> Result<Definitions> {
         let mut d = Definitions::default();
         self.define_vehicle(&mut d);
         match self.vehicle.coordinates.is_empty() {
@@ -227,4 +270,26 @@ pub(super) fn moving(i: usize) -> Velocity {
         _ => [format!("v_{i}"), format!("vt_{i}")],
     };
     Velocity::in_body(Symbol::new(&forward), Symbol::new(&sideways), &section_heading(i))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Trailer;
+
+    /// Copies share a solution, but not one of other constraints or inputs.
+    #[test]
+    fn a_solution_is_of_its_own_constraints() {
+        let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+        let alone = model.definitions().unwrap();
+        let rate = trailer_heading(1).rate();
+        let train = model.clone().with_trailers(&[Trailer { length: 1.0, hitch: 0.0 }]);
+        assert!(train.definitions().unwrap().get(&rate).is_some());
+        assert!(model.definitions().unwrap().get(&rate).is_none());
+        let car = crate::vehicles::named("car").unwrap().clone();
+        let other = Model { inputs: car.inputs.keys().cloned().collect(), vehicle: car, ..model.clone() };
+        let formula = |d: &Definitions| d.get(&"phi'".into()).map(ToString::to_string);
+        assert_ne!(formula(&other.definitions().unwrap()), formula(&alone));
+        assert_eq!(formula(&model.definitions().unwrap()), formula(&alone));
+    }
 }

@@ -26,8 +26,12 @@ pub struct Equations {
     constants: Vec<f64>,
     rates: Lanes,
     jacobian: Lanes,
+    /// Which of the derivatives are not zero by their formula.
+    live: Vec<usize>,
     outputs: Lanes,
     delay: Lanes,
+    /// The motion of the hidden states alone, where it does not ask for the pose.
+    carried: Option<Box<Equations>>,
 }
 
 /// How far beside a kink derivatives are taken, as a share of one.
@@ -104,6 +108,14 @@ impl Model {
         };
         let plain = compile(&graph, &rates)?;
         let jacobian = with_derivatives(&mut graph, &rates, by);
+        let read = live(&graph, &jacobian, rates.len());
+        let carried = match visible < states.len() {
+            true => carried(&mut graph, &jacobian, &read, [visible, states.len(), by.len()]),
+            false => None,
+        };
+        let carried =
+            carried.map(|nodes| Ok::<_, Error>((live(&graph, &nodes, rates.len()), compile(&graph, &nodes)?)));
+        let carried = carried.transpose()?;
         let jacobian = compile(&graph, &jacobian)?;
         let mut measured: Vec<NodeId> = ["x_m", "y_m", "heading_m"].map(|s| graph.insert(&Expr::sym(s))).to_vec();
         measured.extend((1..=self.trailer_count()).map(|i| graph.insert(&Expr::sym(trailer_heading(i)))));
@@ -113,7 +125,7 @@ impl Model {
         let delay = with_derivatives(&mut graph, &[delay], free);
         let delay = compile(&graph, &delay)?;
         let constants = values.into_iter().map(|(_, v)| v).collect();
-        Ok(Equations {
+        let whole = Equations {
             states,
             visible,
             inputs,
@@ -121,9 +133,13 @@ impl Model {
             constants,
             rates: plain,
             jacobian,
+            live: read,
             outputs,
             delay,
-        })
+            carried: None,
+        };
+        let carried = carried.map(|(live, jacobian)| Box::new(Equations { live, jacobian, ..whole.clone() }));
+        Ok(Equations { carried, ..whole })
     }
 }
 
@@ -134,14 +150,40 @@ fn with_derivatives(graph: &mut Graph, nodes: &[NodeId], by: &[Symbol]) -> Vec<N
     nodes.iter().copied().chain((0..nodes.len()).flat_map(row)).collect()
 }
 
-/// Working memory for one thread that evaluates [`Equations`].
+/// Which of the derivatives that follow so many rates are not zero by their formula.
+fn live(graph: &Graph, nodes: &[NodeId], rates: usize) -> Vec<usize> {
+    (rates..nodes.len()).filter(|k| !graph.is_zero(nodes[*k])).collect()
+}
+
+/// Rates and derivatives without what only the pose is moved by; `None` where hidden states, or the steps that they
+/// are integrated in, ask for the pose.
+fn carried(
+    graph: &mut Graph,
+    nodes: &[NodeId],
+    live: &[usize],
+    [visible, n, width]: [usize; 3],
+) -> Option<Vec<NodeId>> {
+    let is_live = |i: usize, j: usize| live.binary_search(&(n + i * width + j)).is_ok();
+    let mut asked = (2..n).filter(|i| *i == 2 || *i >= visible).flat_map(|i| (0..visible).map(move |j| (i, j)));
+    let steps = (0..visible).any(|i| is_live(i, i));
+    if width < n || steps || asked.any(|(i, j)| is_live(i, j)) {
+        return None;
+    }
+    let zero = graph.insert(&Expr::int(0));
+    let kept = |k: usize| k == 2 || (visible..n).contains(&k) || k >= n + visible * width;
+    Some(nodes.iter().enumerate().map(|(k, node)| if kept(k) { *node } else { zero }).collect())
+}
+
+/// Working memory for one thread that evaluates [`Equations`] at L states side by side.
 #[derive(Clone, Debug)]
-pub struct Workspace {
-    rates: Memory<1>,
-    jacobian: Memory<1>,
-    outputs: Memory<1>,
-    delay: Memory<1>,
-    results: Vec<f64>,
+pub struct Workspace<const L: usize = 1> {
+    rates: Memory<L>,
+    jacobian: Memory<L>,
+    outputs: Memory<L>,
+    delay: Memory<L>,
+    /// Rates and derivatives of the last evaluation; those that are always zero stay so.
+    slopes: Vec<[f64; L]>,
+    results: Vec<[f64; L]>,
 }
 
 impl Equations {
@@ -150,37 +192,76 @@ impl Equations {
         self.states.len()
     }
 
+    /// How many of the states, the first ones, no rate depends on: sensitivities to where they start do not change.
+    pub(crate) fn unread(&self) -> usize {
+        let n = self.n();
+        let width = self.jacobian.outputs() / n - 1;
+        let read = |j: usize| self.live.iter().any(|k| (k - n) % width == j);
+        (0..n).take_while(|j| !read(*j)).count()
+    }
+
+    /// The states that the rate of each state depends on.
+    pub(crate) fn read_by(&self) -> Vec<Vec<usize>> {
+        let n = self.n();
+        let width = self.jacobian.outputs() / n - 1;
+        let read = |i: usize, j: &usize| self.live.binary_search(&(n + i * width + j)).is_ok();
+        (0..n).map(|i| (0..n).filter(|j| read(i, j)).collect()).collect()
+    }
+
+    /// The same equations with the pose at rest, where the motion of the hidden states does not ask for it.
+    pub(crate) fn carried(&self) -> Option<&Equations> {
+        self.carried.as_deref()
+    }
+
     /// Memory for evaluating these equations at given parameters.
     pub fn workspace(&self, p: &[f64]) -> Workspace {
-        let results = [&self.rates, &self.jacobian, &self.outputs, &self.delay].map(|l| l.outputs());
+        self.side_by_side([p])
+    }
+
+    /// Memory for evaluating these equations at L states, each with its own parameters.
+    pub(crate) fn side_by_side<const L: usize>(&self, p: [&[f64]; L]) -> Workspace<L> {
         Workspace {
             rates: self.memory(&self.rates, p),
             jacobian: self.memory(&self.jacobian, p),
             outputs: self.memory(&self.outputs, p),
             delay: self.memory(&self.delay, p),
-            results: vec![0.0; results.into_iter().max().unwrap_or(0)],
+            slopes: vec![[0.0; L]; self.jacobian.outputs()],
+            results: vec![[0.0; L]; self.outputs.outputs().max(self.delay.outputs())],
         }
     }
 
-    fn memory(&self, lanes: &Lanes, p: &[f64]) -> Memory<1> {
+    fn memory<const L: usize>(&self, lanes: &Lanes, p: [&[f64]; L]) -> Memory<L> {
         let mut memory = lanes.memory();
         let moving = self.n() + self.inputs.len();
-        for (i, value) in p.iter().chain(&self.constants).enumerate() {
-            *memory.input(moving + i) = [*value];
+        for i in 0..self.free.len() {
+            *memory.input(moving + i) = p.map(|p| p[i]);
+        }
+        for (i, value) in self.constants.iter().enumerate() {
+            *memory.input(moving + self.free.len() + i) = [*value; L];
         }
         lanes.begin(&mut memory, Isa::default());
         memory
     }
 
-    fn load(&self, memory: &mut Memory<1>, z: &[f64], u: &[f64]) {
-        z.iter().enumerate().for_each(|(i, z)| *memory.input(i) = [*z]);
-        u.iter().enumerate().for_each(|(i, u)| *memory.input(self.n() + i) = [*u]);
-    }
-
     /// dz/dt.
     pub fn rates(&self, w: &mut Workspace, z: &[f64], u: &[f64], rates: &mut [f64]) {
-        self.load(&mut w.rates, z, u);
-        run(&self.rates, &mut w.rates, rates);
+        self.rates_here(w, z.as_chunks().0, u.as_chunks().0, rates.as_chunks_mut().0);
+    }
+
+    /// dz/dt of L states, inlined into a [`Kernel`](crate::formula::Kernel) of the caller.
+    #[inline(always)]
+    pub(crate) fn rates_here<const L: usize>(
+        &self,
+        w: &mut Workspace<L>,
+        z: &[[f64; L]],
+        u: &[[f64; L]],
+        rates: &mut [[f64; L]],
+    ) {
+        load(&mut w.rates, z, u);
+        self.rates.run_here(&mut w.rates);
+        for (k, rate) in rates.iter_mut().enumerate().take(self.rates.outputs()) {
+            *rate = defined(self.rates.output(&w.rates, k));
+        }
     }
 
     /// dz/dt followed by the rows of its derivatives with respect to (z, u, p).
@@ -188,51 +269,121 @@ impl Equations {
     /// At a kink, where |u| has no derivative though the motion is defined, they are those on the side of larger
     /// inputs: a vehicle that stands still is no reason to give a log up.
     pub fn rates_and_jacobian<'w>(&self, w: &'w mut Workspace, z: &[f64], u: &[f64]) -> &'w [f64] {
-        self.load(&mut w.jacobian, z, u);
-        run(&self.jacobian, &mut w.jacobian, &mut w.results);
-        let (n, outputs) = (self.n(), self.jacobian.outputs());
-        let defined = |values: &[f64]| values.iter().all(|v| v.is_finite());
-        if defined(&w.results[..n]) && !defined(&w.results[n..outputs]) {
+        self.jacobian_here(w, z.as_chunks().0, u.as_chunks().0);
+        w.slopes.as_flattened()
+    }
+
+    /// As [`Equations::rates_and_jacobian`] for L states, inlined into a kernel of the caller.
+    #[inline(always)]
+    pub(crate) fn jacobian_here<'w, const L: usize>(
+        &self,
+        w: &'w mut Workspace<L>,
+        z: &[[f64; L]],
+        u: &[[f64; L]],
+    ) -> &'w [[f64; L]] {
+        if self.differentiated(w, z, u) {
             self.beside(w, z, u);
         }
-        &w.results[..outputs]
+        &w.slopes
     }
 
-    /// The derivatives a little beside the inputs; the rates stay those of the inputs.
-    fn beside(&self, w: &mut Workspace, z: &[f64], u: &[f64]) {
-        let n = self.n();
-        let rates = w.results[..n].to_vec();
-        let beside: Vec<f64> = u.iter().map(|u| u + BESIDE * (1.0 + u.abs())).collect();
-        self.load(&mut w.jacobian, z, &beside);
-        run(&self.jacobian, &mut w.jacobian, &mut w.results);
-        w.results[..n].copy_from_slice(&rates);
+    /// Rates and derivatives; whether somewhere the rates are defined and the derivatives are not.
+    #[inline(always)]
+    fn differentiated<const L: usize>(&self, w: &mut Workspace<L>, z: &[[f64; L]], u: &[[f64; L]]) -> bool {
+        load(&mut w.jacobian, z, u);
+        self.jacobian.run_here(&mut w.jacobian);
+        // Zero times what is defined is zero.
+        let (mut rates, mut slopes) = ([0.0; L], [0.0; L]);
+        for k in 0..self.n() {
+            w.slopes[k] = defined(self.jacobian.output(&w.jacobian, k));
+            for (sum, rate) in rates.iter_mut().zip(&w.slopes[k]) {
+                *sum += 0.0 * rate;
+            }
+        }
+        for k in &self.live {
+            w.slopes[*k] = defined(self.jacobian.output(&w.jacobian, *k));
+            for (sum, slope) in slopes.iter_mut().zip(&w.slopes[*k]) {
+                *sum += 0.0 * slope;
+            }
+        }
+        let mut beside = false;
+        for l in 0..L {
+            beside |= rates[l] == 0.0 && slopes[l] != 0.0;
+        }
+        beside
     }
 
-    /// What [`Equations::rates_and_jacobian`] gave last.
-    pub fn last_jacobian<'w>(&self, w: &'w Workspace) -> &'w [f64] {
-        &w.results[..self.jacobian.outputs()]
+    /// The derivatives a little beside the inputs where there are none; the rates stay those of the inputs.
+    #[cold]
+    #[inline(never)]
+    fn beside<const L: usize>(&self, w: &mut Workspace<L>, z: &[[f64; L]], u: &[[f64; L]]) {
+        let here = w.slopes.clone();
+        let beside: Vec<[f64; L]> = u.iter().map(|u| u.map(|u| u + BESIDE * (1.0 + u.abs()))).collect();
+        self.differentiated(w, z, &beside);
+        let (rates, slopes) = here.split_at(self.n());
+        let all = |values: &[[f64; L]], l: usize| values.iter().all(|v| v[l].is_finite());
+        let kept: [bool; L] = std::array::from_fn(|l| !all(rates, l) || all(slopes, l));
+        for (k, (new, old)) in w.slopes.iter_mut().zip(&here).enumerate() {
+            for l in (0..L).filter(|l| k < rates.len() || kept[*l]) {
+                new[l] = old[l];
+            }
+        }
+    }
+
+    /// What [`Equations::jacobian_here`] gave last.
+    #[inline(always)]
+    pub(crate) fn last_jacobian<'w, const L: usize>(&self, w: &'w Workspace<L>) -> &'w [[f64; L]] {
+        &w.slopes
     }
 
     /// What the sensor measures, followed by the rows of its derivatives with respect to (visible z, p).
     pub fn outputs<'w>(&self, w: &'w mut Workspace, z: &[f64]) -> &'w [f64] {
-        let z = &z[..self.visible];
-        self.load(&mut w.outputs, z, &[]);
-        run(&self.outputs, &mut w.outputs, &mut w.results);
+        self.outputs_here(w, z.as_chunks().0).as_flattened()
+    }
+
+    /// As [`Equations::outputs`] for L states, inlined into a kernel of the caller.
+    #[inline(always)]
+    pub(crate) fn outputs_here<'w, const L: usize>(&self, w: &'w mut Workspace<L>, z: &[[f64; L]]) -> &'w [[f64; L]] {
+        load(&mut w.outputs, &z[..self.visible], &[]);
+        self.outputs.run_here(&mut w.outputs);
+        for (k, result) in w.results.iter_mut().enumerate().take(self.outputs.outputs()) {
+            *result = defined(self.outputs.output(&w.outputs, k));
+        }
         &w.results[..self.outputs.outputs()]
     }
 
     /// The delay of the inputs, s, followed by its derivatives with respect to p.
     pub fn delay<'w>(&self, w: &'w mut Workspace) -> &'w [f64] {
-        run(&self.delay, &mut w.delay, &mut w.results);
+        self.delays(w).as_flattened()
+    }
+
+    /// As [`Equations::delay`] for L sets of parameters.
+    pub(crate) fn delays<'w, const L: usize>(&self, w: &'w mut Workspace<L>) -> &'w [[f64; L]] {
+        self.delay.run_here(&mut w.delay);
+        for (k, result) in w.results.iter_mut().enumerate().take(self.delay.outputs()) {
+            *result = defined(self.delay.output(&w.delay, k));
+        }
         &w.results[..self.delay.outputs()]
     }
 }
 
-/// Runs a program; what is undefined is NaN.
-fn run(lanes: &Lanes, memory: &mut Memory<1>, results: &mut [f64]) {
-    lanes.run(memory, Isa::default());
-    for (k, result) in results.iter_mut().enumerate().take(lanes.outputs()) {
-        let [value] = *lanes.output(memory, k);
-        *result = if value.is_finite() { value } else { f64::NAN };
+/// States and inputs take the first places, one after another.
+#[inline(always)]
+fn load<const L: usize>(memory: &mut Memory<L>, z: &[[f64; L]], u: &[[f64; L]]) {
+    for (i, z) in z.iter().enumerate() {
+        *memory.input(i) = *z;
     }
+    for (i, u) in u.iter().enumerate() {
+        *memory.input(z.len() + i) = *u;
+    }
+}
+
+/// What is undefined is NaN: zero times infinity is.
+#[inline(always)]
+fn defined<const L: usize>(values: &[f64; L]) -> [f64; L] {
+    let mut out = [0.0; L];
+    for l in 0..L {
+        out[l] = values[l] + 0.0 * values[l];
+    }
+    out
 }

@@ -100,6 +100,7 @@ impl Model {
             sensor: Sensor { lever_arm: file.sensor.lever_arm, heading_offset: file.sensor.heading_offset },
             inputs: roles.to_vec(),
             effects: vec![],
+            solution: Default::default(),
         };
         if roles.is_empty() {
             model.inputs = vehicle.inputs.keys().cloned().collect();

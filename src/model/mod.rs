@@ -64,6 +64,8 @@ pub struct Model {
     pub inputs: Vec<String>,
     /// The effects the model includes.
     pub effects: Vec<Applied>,
+    /// What has been found out about its constraints; `Default::default()` where there is nothing yet.
+    pub solution: build::Solution,
 }
 
 impl Model {
@@ -108,6 +110,7 @@ impl Model {
             sensor: Sensor::default(),
             inputs: found.inputs.keys().cloned().collect(),
             effects: vec![],
+            solution: build::Solution::default(),
         })
     }
 

@@ -2,6 +2,7 @@
 
 use super::spline::curvatures;
 use crate::files::InputTiming;
+use std::sync::Arc;
 
 /// What a row of the log says about its inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,10 +38,10 @@ impl From<InputTiming> for Timing {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Signals {
-    knots: Vec<f64>,
+    knots: Arc<[f64]>,
     channels: usize,
-    /// Polynomial coefficients, interval by interval, channel by channel.
-    pieces: Vec<[f64; 4]>,
+    /// Polynomial coefficients, interval by interval, channel by channel; copies share them.
+    pieces: Arc<[[f64; 4]]>,
 }
 
 impl Signals {
@@ -55,7 +56,7 @@ impl Signals {
             };
             of_channel.into_iter().enumerate().for_each(|(i, p)| pieces[i * columns.len() + c] = p);
         }
-        Self { knots: time.to_vec(), channels: columns.len(), pieces }
+        Self { knots: time.into(), channels: columns.len(), pieces: pieces.into() }
     }
 
     /// The signals as a clock would give them that runs faster by a rate, about the middle of the log.
@@ -94,13 +95,27 @@ impl Signals {
         self.in_interval(self.interval(t), t, value, slope);
     }
 
-    /// As [`Signals::at`], looked for first in the interval of the last call, which is updated.
-    pub(super) fn at_near(&self, near: &mut usize, t: f64, value: &mut [f64], slope: &mut [f64]) {
-        let inside = |i: usize| i + 1 < self.knots.len() && self.knots[i] <= t && t < self.knots[i + 1];
-        if !inside(*near) {
-            *near = if inside(*near + 1) { *near + 1 } else { self.interval(t) };
-        }
-        self.in_interval(*near, t, value, slope);
+    /// The times of the first and the last row.
+    #[inline(always)]
+    pub(super) fn ends(&self) -> (f64, f64) {
+        (self.knots[0], self.knots[self.knots.len() - 1])
+    }
+
+    /// The interval that holds a time, if it is not the one guessed.
+    pub(super) fn interval_from(&self, guess: usize, t: f64) -> usize {
+        let inside = guess + 1 < self.knots.len() && self.knots[guess] <= t && t < self.knots[guess + 1];
+        if inside { guess } else { self.interval(t) }
+    }
+
+    /// From where to where an interval is the one that counts.
+    pub(super) fn reach(&self, i: usize) -> [f64; 2] {
+        let from = if i == 0 { f64::NEG_INFINITY } else { self.knots[i] };
+        [from, if i + 2 >= self.knots.len() { f64::INFINITY } else { self.knots[i + 1] }]
+    }
+
+    /// The coefficients of all channels in an interval.
+    pub(super) fn pieces(&self, i: usize) -> &[[f64; 4]] {
+        self.pieces.get(i * self.channels..(i + 1) * self.channels).unwrap_or(&[])
     }
 
     /// The interval that holds a time; beyond the ends the outermost.

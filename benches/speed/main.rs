@@ -31,9 +31,6 @@ type Named = (&'static str, fn() -> Pair);
 const MANY: usize = 4096;
 const CREEPS: [f64; 2] = [0.1, 0.2];
 
-/// A comparison by name.
-type Work = (&'static str, fn() -> Pair);
-
 fn main() {
     check();
     if std::env::args().any(|a| a == "check") {

@@ -148,3 +148,45 @@ fn what_does_not_change_is_not_repeated() {
     assert!(some < all, "{some} of {all}");
     assert_eq!(steps([Changes::Case; 3]), 0);
 }
+
+#[test]
+fn what_belongs_together_is_one_step_and_costs_no_result() {
+    let table: [(&[&str], usize); 8] = [
+        (&["x*y + e_rc"], 1),
+        (&["e_rc - x*y"], 1),
+        (&["x*y - e_rc"], 1),
+        (&["x*y + x*y"], 2),
+        // A product that is read elsewhere, or asked for, is a step of its own.
+        (&["x*y", "x*y + e_rc"], 2),
+        (&["x*y", "x*y + e_rc", "x*y - e_rc", "x*y + phi"], 4),
+        (&["sin(x)", "cos(x)"], 1),
+        (&["sin(x)*sin(y)*cos(phi)"], 5),
+    ];
+    let point = [0.3, 0.7, -0.2, 1.1, 0.5, -1.5, 0.9, 2.0];
+    for (texts, wanted) in table {
+        let formulas: Vec<Expr> = texts.iter().map(|text| Expr::parse(text).unwrap()).collect();
+        let program = compiled(&formulas);
+        let lanes = Lanes::new(&program, &[Changes::Lane; 8]);
+        assert_eq!((lanes.len(), lanes.outputs(), lanes.is_empty()), (wanted, texts.len(), false), "{texts:?}");
+        let found = run(&program, &[Changes::Lane; 8], &[point; L], Isa::best());
+        for (formula, lanes) in formulas.iter().zip(found) {
+            let expected = formula.eval(&|s| named(&point, s.as_str())).unwrap();
+            assert!((lanes[L - 1] - expected).abs() < 1e-15, "{formula}");
+        }
+    }
+    assert!(Lanes::new(&compiled(&[Expr::sym("x")]), &[Changes::Lane; 8]).is_empty());
+    // A sign has no value but these.
+    assert_eq!(of(Fun::Sign, [0.0, -0.0, 2.0, -3.0, 1e-300, -1e-300, 0.0, 1.0]), [0., 0., 1., -1., 1., -1., 0., 1.]);
+}
+
+#[test]
+#[cfg(target_arch = "x86_64")]
+fn the_sets_are_those_that_the_processor_has() {
+    use std::is_x86_feature_detected as has;
+    let wide = has!("avx512f") && has!("avx512dq") && has!("avx512vl") && has!("avx512bw");
+    let expected = [("baseline", true), ("AVX2", has!("avx2")), ("AVX-512", wide)];
+    let expected: Vec<&str> = expected.iter().filter(|(_, there)| *there).map(|(name, _)| *name).collect();
+    let found = Isa::available();
+    assert_eq!(found.iter().map(|isa| isa.name()).collect::<Vec<_>>(), expected);
+    assert_eq!(found.last(), Some(&Isa::best()));
+}

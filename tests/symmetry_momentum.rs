@@ -40,6 +40,10 @@ fn a_symmetry_may_move_several_coordinates() {
     assert!(same(&found.shape.expr(), "m*(x*y' - y*x') - m*(x^2 + y^2)*phi'"));
     // Without the body's own angle it is the same symmetry, with no coordinate that measures it.
     assert!(of("m*(x'^2 + y'^2)/2", &[("x", "-y"), ("y", "x")]).unwrap_err().to_string().contains("no component"));
+    // A generator of two coordinates, under which both the energy's places and its rates move.
+    let sheared = "m*(x'*(y + z) - x*(y' + z'))^2/2 + y'^2 + z'^2 + I*phi'^2/2";
+    let found = of(sheared, &[("phi", "1"), ("x", "y + z")]).unwrap();
+    assert!(same(&found.map.expr(), "I*phi' + m*(y + z)^2*(x'*(y + z) - x*(y' + z'))"));
     // A translation conserves a linear momentum.
     assert!(same(&of(energy, &[("x", "1")]).unwrap().map.expr(), "m*x'"));
 }

@@ -59,6 +59,9 @@ fn what_is_no_symmetry_conserves_nothing() {
     assert!(said("m*x'^2 + g*x", &[("x", "1")]).contains("quadratic in the rates"));
     assert!(said("I", &[("x", "1")]).contains("quadratic in the rates"));
     assert!(said("x'^2", &[("x", "2")]).contains("no component of the generator is 1"));
+    // The momentum of an angle that the energy does not know is always zero.
+    let nothing = of("x'^2", &[("phi", "1")]).unwrap();
+    assert_eq!((same(&nothing.map.expr(), "0"), same(&nothing.locked, "0")), (true, true), "{nothing:?}");
 }
 
 /// Along a free motion, whose accelerations are found from the energy by differences, the momentum stays.

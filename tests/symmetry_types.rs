@@ -213,3 +213,39 @@ fn letters_of_ones_own_come_behind_those_of_the_catalogue() {
     row.add("q'", &Expr::int(1));
     assert_eq!(of('A').row(), row);
 }
+
+/// Read as arithmetic says, and refused where it is neither a factor nor linear in rates.
+#[test]
+fn a_part_is_a_factor_or_linear_in_rates() {
+    let factors = ["-a", "a + b", "a - b", "a*b", "a/b", "-(a - b)^2", "sin(a)/2"];
+    let rates = [
+        "-psi'",
+        "psi' + theta'",
+        "psi' - theta'",
+        "a*psi' - theta'/b",
+        "-(a*psi')",
+        "0 + psi'",
+        "psi' - 0",
+        "0 - psi'",
+    ];
+    for (texts, is_factor) in [(&factors[..], true), (&rates[..], false)] {
+        for text in texts {
+            let formula = Expr::parse(text).unwrap();
+            let part = Part::of(&formula).unwrap();
+            assert_eq!(matches!(part, Part::Factor(_)), is_factor, "{text}");
+            assert_eq!(identical(&part.expr(), &formula), Some(true), "{text} is read as {}", part.expr());
+        }
+    }
+    for text in ["a + psi'", "psi' - a", "psi'*theta'", "a/psi'", "cos(psi')", "psi'^2"] {
+        assert!(Part::of(&Expr::parse(text).unwrap()).is_err(), "{text}");
+    }
+}
+
+#[test]
+fn a_name_replaced_is_replaced_in_the_row() {
+    for c in Model::sample(vehicles::named("unicycle").unwrap()).unwrap().constraints() {
+        let without = c.substitute(&|s| (*s == c.creep).then(|| Expr::int(0)));
+        assert!(c.row().expr().mentions(&c.creep) && !without.row().expr().mentions(&c.creep), "{}", c.name);
+        assert_eq!(without.row().expr(), c.ideal_row().expr(), "{}", c.name);
+    }
+}

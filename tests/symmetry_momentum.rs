@@ -62,6 +62,8 @@ fn what_is_no_symmetry_conserves_nothing() {
     // The momentum of an angle that the energy does not know is always zero.
     let nothing = of("x'^2", &[("phi", "1")]).unwrap();
     assert_eq!((same(&nothing.map.expr(), "0"), same(&nothing.locked, "0")), (true, true), "{nothing:?}");
+    let error = nothing.constraint("idle", "e").unwrap_err().to_string();
+    assert!(error.contains("the momentum of \"idle\" is zero in every motion"), "{error}");
 }
 
 /// Along a free motion, whose accelerations are found from the energy by differences, the momentum stays.

@@ -144,3 +144,49 @@ fn simpson(y: &[f64], step: f64) -> f64 {
     let weight = |i: usize| if i == 0 || i + 1 == y.len() { 1.0 } else { inner(i) };
     y.iter().enumerate().map(|(i, y)| weight(i) * y).sum::<f64>() * step / 3.0
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sleigh() -> Pushed {
+        Pushed {
+            vehicle: 1,
+            trailers: vec![],
+            masses: vec![1.0; 8],
+            offset: 0.25,
+            push: [0.5, -0.125],
+            speed: 1.5,
+            turn: -0.75,
+            friction: 12.0,
+        }
+    }
+
+    #[test]
+    fn a_case_is_shown_with_all_its_numbers() {
+        let shown = sleigh().shown();
+        let said = |name: &str| shown.iter().find(|(n, _)| n == name).map(|(_, text)| text.as_str());
+        assert_eq!((said("vehicle"), said("trailers")), (Some("sleigh"), Some("[]")));
+        assert_eq!((said("centre of mass"), said("push")), (Some("0.25"), Some("[0.5, -0.125]")));
+        assert_eq!((said("speed, turn"), said("friction")), (Some("1.5, -0.75"), Some("12")));
+        assert_eq!(shown.len(), 7);
+    }
+
+    /// ∫ x³ from 0 to 2 is 4: Simpson's rule is exact for cubics.
+    #[test]
+    fn simpson_is_exact_for_cubics() {
+        let y: Vec<f64> = (0..=4).map(|i| (0.5 * f64::from(i)).powi(3)).collect();
+        assert!((simpson(&y, 0.5) - 4.0).abs() < 1e-14);
+    }
+
+    /// What a run gains is what the inputs give and friction leaves, and a run begins as it is told.
+    #[test]
+    fn a_run_begins_as_it_is_told_and_its_energies_add_up() {
+        let run = sleigh().run(None, &[0.0, 0.5]).unwrap();
+        let first = |name: &str| run.column(name).unwrap()[0];
+        assert_eq!(["x", "y", "heading", "speed", "yaw_rate"].map(first), [0.1, 0.1, 0.1, 1.5, -0.75]);
+        let e = sleigh().energies().unwrap();
+        assert!((e.gained - e.work - e.friction).abs() < 1e-8, "{} {} {}", e.gained, e.work, e.friction);
+        assert!(e.work > 0.1 && e.friction < -0.1, "{} {}", e.work, e.friction);
+    }
+}

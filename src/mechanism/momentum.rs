@@ -80,6 +80,10 @@ impl Momentum {
     /// # Errors
     /// When no rate is left in it.
     pub fn constraint(&self, name: &str, creep: &str) -> Result<Constraint> {
+        if self.map.terms().iter().all(|(_, c)| c.is_zero()) {
+            return Err(Error::input(format!("the momentum of \"{name}\" is zero in every motion"))
+                .help("take a symmetry that moves something with inertia"));
+        }
         let mut slots = vec![
             ("s", Part::Factor(self.locked.clone())),
             ("q1'", Part::rate(&self.along.rate())),

@@ -395,3 +395,13 @@ fn cat_loop() -> Claim {
             &[("angle", "pi*(1 - sqrt(w_x^2 + (1 + w_z)^2))")],
         ])
 }
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn a_hop_is_shown_with_all_its_numbers() {
+        let shown = super::shown(&([0.5, 0.25, -1.0, 2.0], [1.0, 0.4, 0.6]));
+        let said: Vec<(&str, &str)> = shown.iter().map(|(n, t)| (n.as_str(), t.as_str())).collect();
+        assert_eq!(said, [("l, swings, lag", "[0.5, 0.25, -1.0, 2.0]"), ("I, m, d", "[1.0, 0.4, 0.6]")]);
+    }
+}

@@ -61,6 +61,27 @@ fn a_jacobian_times_a_vector_is_linear_in_the_trailers() {
     });
 }
 
+/// What is cheap is right, too: the derivatives, each times its rate.
+#[test]
+fn a_jacobian_times_a_vector_is_the_sum_of_its_columns() {
+    let (mut graph, rates, states, slots) = train(3);
+    let value = |name: &Symbol| 0.3 + 0.17 * slots.iter().position(|s| s == name).unwrap_or(0) as f64;
+    let numbers: Vec<f64> = (0..states.len()).map(|k| 1.0 - 0.37 * k as f64).collect();
+    let along: Vec<(Symbol, NodeId)> = states
+        .iter()
+        .cloned()
+        .zip(numbers.iter().map(|x| graph.insert(&Expr::parse(&format!("{x}")).unwrap())))
+        .collect();
+    let columns: Vec<Vec<NodeId>> = states.iter().map(|s| graph.derivatives(&rates, s)).collect();
+    let product = graph.directional(&rates, &along);
+    assert_eq!(product.len(), rates.len());
+    let at = |id: NodeId| graph.expr(id).eval(&value).unwrap();
+    for (i, found) in product.iter().enumerate() {
+        let sum: f64 = columns.iter().zip(&numbers).map(|(column, x)| at(column[i]) * x).sum();
+        assert!((at(*found) - sum).abs() < 1e-12 * (1.0 + sum.abs()), "row {i}: {} and {sum}", at(*found));
+    }
+}
+
 #[test]
 fn a_jacobian_is_linear_in_its_entries() {
     let costs = HARD.map(|n| {

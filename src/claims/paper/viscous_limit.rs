@@ -153,3 +153,18 @@ fn not_uniform() -> Claim {
             Ok([free, ideal]) => Outcome::all([agrees(s, "u", *free, 1e-3), agrees(s, "u_ideal", *ideal, 1e-6)]),
         })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn motions_are_apart_by_their_largest_difference() {
+        let table = |columns: [[f64; 2]; 2]| Table {
+            names: vec!["x".into(), "energy".into()],
+            columns: columns.map(Vec::from).into(),
+        };
+        let (a, b) = (table([[1.0, 4.0], [9.0, 9.0]]), table([[1.5, 2.0], [0.0, 0.0]]));
+        assert_eq!((apart(&a, &b), apart(&b, &a)), (2.0, 2.0));
+    }
+}

@@ -35,28 +35,28 @@ fn is_one_message(error: &Error, path: &Path) {
     assert!(message.contains(';'), "advice: {message}");
 }
 
+/// A file that is known by its name or by its first bytes names the feature that reads it.
+#[cfg(not(all(feature = "parquet", feature = "mcap")))]
+fn names_its_feature(files: [&str; 2], bytes: &[u8], feature: &str) {
+    let folder = tempfile::tempdir().unwrap();
+    for name in files {
+        let path = written(&folder, name, bytes);
+        let error = Run::read(&path, &example_model()).unwrap_err();
+        is_one_message(&error, &path);
+        assert!(error.to_string().contains(feature), "{error}");
+    }
+}
+
 #[cfg(not(feature = "parquet"))]
 #[test]
 fn a_parquet_file_names_the_feature_that_reads_it() {
-    let folder = tempfile::tempdir().unwrap();
-    for name in ["run.parquet", "run.csv"] {
-        let path = written(&folder, name, b"PAR1 and so on");
-        let error = Run::read(&path, &example_model()).unwrap_err();
-        is_one_message(&error, &path);
-        assert!(error.to_string().contains("--features parquet"), "{error}");
-    }
+    names_its_feature(["run.parquet", "run.csv"], b"PAR1 and so on", "--features parquet");
 }
 
 #[cfg(not(feature = "mcap"))]
 #[test]
 fn a_bag_names_the_feature_that_reads_it() {
-    let folder = tempfile::tempdir().unwrap();
-    for name in ["run.mcap", "run.csv"] {
-        let path = written(&folder, name, b"\x89MCAP0\r\n and so on");
-        let error = Run::read(&path, &example_model()).unwrap_err();
-        is_one_message(&error, &path);
-        assert!(error.to_string().contains("--features mcap"), "{error}");
-    }
+    names_its_feature(["run.mcap", "run.csv"], b"\x89MCAP0\r\n and so on", "--features mcap");
 }
 
 /// What remains of a file cut off anywhere, or with bytes flipped: an error or a run, never a panic.

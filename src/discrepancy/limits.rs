@@ -1,13 +1,9 @@
 //! Effects whose quasi-static limit has been chosen, asked for where that limit does not explain everything.
 
-use super::selection::{Grown, Selection, bic, find, without};
-use super::unnamed::remains;
+use super::selection::{FULL, Grown, Selection, bic, find, without};
+use super::unnamed::is_wanted;
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
-
-/// Effects from which on one with its transients is tried in the place of its limit, whatever remains: the others may
-/// stand for the transients.
-const MANY: usize = 2;
 
 /// The effects of a library that are asked for from the beginning: those without a limit among the others.
 pub(super) fn without_transients(library: &[Effect]) -> Vec<Effect> {
@@ -17,34 +13,32 @@ pub(super) fn without_transients(library: &[Effect]) -> Vec<Effect> {
 /// What was found with an effect in the place of its limit, where that explains the data better by more than a margin
 /// or as well with fewer effects.
 pub(super) fn search(selection: &Selection, library: &[Effect], mut named: Grown) -> Result<Grown> {
-    if !remains(&named.fit) && named.fit.model.free_effects().count() < MANY {
+    // Where nothing remains but much was needed, the others may stand for the transients.
+    if !is_wanted(&named.fit) {
         return Ok(named);
     }
     for effect in library {
-        let Some(limit) = named.fit.model.free_effects().find(|a| effect.limit.as_ref() == Some(&a.effect.id)) else {
-            continue;
-        };
+        let is_limit = |a: &&Applied| effect.limit.as_ref() == Some(&a.effect.id);
+        let Some(limit) = named.fit.model.free_effects().find(is_limit) else { continue };
         let whole = Applied::new(effect, limit.trailer, limit.values.clone());
-        if let Some(better) = in_place_of(selection, &named, &limit.clone(), whole)? {
+        if let Some(better) = in_place_of(selection, &named, limit, &whole)? {
             named = better;
         }
     }
     Ok(named)
 }
 
-fn in_place_of(selection: &Selection, named: &Grown, limit: &Applied, whole: Applied) -> Result<Option<Grown>> {
-    let outside = |(p, v): (&crate::effects::Parameter, &f64)| !(p.range[0]..=p.range[1]).contains(v);
-    if whole.effect.parameters.values().zip(&whole.values).any(outside) {
+fn in_place_of(selection: &Selection, named: &Grown, limit: &Applied, whole: &Applied) -> Result<Option<Grown>> {
+    if !whole.is_in_range() {
         return Ok(None);
     }
-    let label = whole.label();
     let model = without(&named.fit.model, limit).with_effect(whole.clone().freed());
     // From the jumps of the model as given, as where an effect is taken out.
-    let Some(fit) = selection.problem.fit(&model, &named.fit.starts, &selection.given, super::selection::FULL)? else {
+    let Some(fit) = selection.problem.fit(&model, &named.fit.starts, &selection.given, FULL)? else {
         return Ok(None);
     };
     let fit = selection.pruned(fit, selection.margin())?;
-    if find(&fit.model, &whole).is_none() {
+    if find(&fit.model, whole).is_none() {
         return Ok(None);
     }
     let n = fit.sample_size.max(named.fit.sample_size);
@@ -58,6 +52,6 @@ fn in_place_of(selection: &Selection, named: &Grown, limit: &Applied, whole: App
         return Ok(None);
     }
     let mut steps = named.steps.clone();
-    steps.push((label, fit.model.clone()));
+    steps.push((whole.label(), fit.model.clone()));
     Ok(Some(Grown { fit, steps, candidates: named.candidates.clone() }))
 }

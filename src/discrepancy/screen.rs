@@ -169,9 +169,8 @@ pub fn settled(
 
 /// The effect as promised, or where its fit would begin when that lies outside its range.
 fn tamed(promise: &Promise) -> Applied {
-    let mut inside = promise.applied.values.iter().zip(promise.applied.effect.parameters.values());
     let mut applied = promise.applied.clone();
-    if !inside.all(|(v, p)| (p.range[0]..=p.range[1]).contains(v)) {
+    if !applied.is_in_range() {
         applied.values = promise.applied.effect.starts().swap_remove(0);
     }
     applied

@@ -30,7 +30,7 @@ pub fn remains(fit: &Fit) -> bool {
 }
 
 /// Whether a term may be asked for: something remains, or suspiciously much was needed.
-fn is_wanted(named: &Fit) -> bool {
+pub(super) fn is_wanted(named: &Fit) -> bool {
     remains(named) || named.model.free_effects().count() >= MANY
 }
 

@@ -30,6 +30,11 @@ impl Applied {
         self
     }
 
+    /// Whether all values lie in the ranges of their parameters.
+    pub fn is_in_range(&self) -> bool {
+        self.effect.parameters.values().zip(&self.values).all(|(p, v)| p.admits(*v))
+    }
+
     /// Whether two entries are the same effect on the same target.
     pub fn same_as(&self, other: &Applied) -> bool {
         self.effect.id == other.effect.id && self.trailer == other.trailer

@@ -75,6 +75,13 @@ pub struct State {
     pub rate: Expr,
 }
 
+impl Parameter {
+    /// Whether a value lies in the range.
+    pub fn admits(&self, value: f64) -> bool {
+        (self.range[0]..=self.range[1]).contains(&value)
+    }
+}
+
 fn neutral_start() -> Vec<f64> {
     vec![0.0]
 }

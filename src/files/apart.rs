@@ -102,30 +102,25 @@ impl Run {
         if lost > 0 {
             *why_dropped.entry(WITHOUT.into()).or_default() += lost;
         }
-        Self {
-            time: pick(&self.time),
-            x: pick(&self.x),
-            y: pick(&self.y),
-            heading: self.heading.as_ref().map(pick),
-            trailer_headings: self.trailer_headings.iter().map(pick).collect(),
-            rows_dropped: self.rows_dropped + lost,
-            why_dropped,
-            apart: Some(Apart { time, ..apart.clone() }),
-            ..self.clone()
-        }
+        let apart = Some(Apart { time, ..apart.clone() });
+        Self { rows_dropped: self.rows_dropped + lost, why_dropped, apart, ..self.with_poses(pick) }
     }
 
     /// The poses up to a share of the time from the first to the last.
     pub fn beginning(&self, share: f64) -> Self {
         let (Some(first), Some(last)) = (self.time.first(), self.time.last()) else { return self.clone() };
         let end = self.time.partition_point(|t| *t <= first + share * (last - first));
-        let cut = |column: &Vec<f64>| column[..end].to_vec();
+        self.with_poses(|column| column[..end].to_vec())
+    }
+
+    /// The run with some of its poses: what is taken of each of their columns, the times among them.
+    fn with_poses(&self, take: impl Fn(&Vec<f64>) -> Vec<f64>) -> Self {
         Self {
-            time: cut(&self.time),
-            x: cut(&self.x),
-            y: cut(&self.y),
-            heading: self.heading.as_ref().map(cut),
-            trailer_headings: self.trailer_headings.iter().map(cut).collect(),
+            time: take(&self.time),
+            x: take(&self.x),
+            y: take(&self.y),
+            heading: self.heading.as_ref().map(&take),
+            trailer_headings: self.trailer_headings.iter().map(&take).collect(),
             ..self.clone()
         }
     }

@@ -79,17 +79,13 @@ fn starts(section: &Section) -> Result<Vec<f64>> {
     }
 }
 
-fn within(p: &Parameter, value: f64) -> bool {
-    (p.range[0]..=p.range[1]).contains(&value)
-}
-
 /// An error at a key, or at the whole section where the key is left out.
 fn at(section: &Section, key: &str, message: String) -> Error {
     section.get(key).map_or_else(|| section.error(message.clone()), |v| v.error(message.clone()))
 }
 
 fn check_size(section: &Section, p: &Parameter) -> Result<()> {
-    if within(p, p.size) || within(p, -p.size) {
+    if p.admits(p.size) || p.admits(-p.size) {
         return Ok(());
     }
     let [low, high] = p.range;
@@ -104,7 +100,7 @@ fn check_starts(section: &Section, p: &Parameter) -> Result<()> {
             return Err(at(section, "start", format!("a fit of a positive parameter cannot start at {start:?}"))
                 .help("write start = [0.1], a number above 0"));
         }
-        if !within(p, *start) {
+        if !p.admits(*start) {
             return Err(at(section, "start", format!("start {start:?} lies outside of the range {low:?} to {high:?}"))
                 .help("start within the range"));
         }

@@ -3,20 +3,17 @@
 use super::effect_parameter::{read_parameter, read_unit};
 use super::formula_text::FormulaText;
 use super::near::shown;
+use super::own_file::{at_most, read_id, read_own};
 use super::spot::Spot;
-use super::text::read_hashed;
 use super::toml_table::{Section, Source, Value};
-use super::vehicles_file::at_most;
 use crate::effects::{Effect, State};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::formula::Symbol;
 use crate::origin::Origin;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The largest file, in bytes; effects are a few lines each.
-const LARGEST: usize = 256 << 10;
 /// The most effects of a file, and the most parameters, states or changes of one.
 const MOST_EFFECTS: usize = 50;
 const MOST_PARTS: usize = 12;
@@ -58,13 +55,7 @@ impl EffectsFile {
     /// With file, line and column, inside a formula too: a file that cannot be read, a key that is missing or unknown,
     /// a formula that is malformed, a number that no fit can use, two effects of one name.
     pub fn read(path: &Path) -> Result<Self> {
-        let (text, sha256) = read_hashed(path)?;
-        if text.len() > LARGEST {
-            return Err(Error::input("is larger than 256 KiB")
-                .at_file(path)
-                .help("check that this is the file of effects you meant"));
-        }
-        Self::parse(&Arc::new(Origin { path: path.into(), sha256, text }))
+        Self::parse(&read_own(path, "effects")?)
     }
 
     fn parse(origin: &Arc<Origin>) -> Result<Self> {
@@ -92,6 +83,9 @@ impl EffectsFile {
     }
 }
 
+/// `sensor.a` is where the sensor sits.
+const SENSOR: &str = "sensor";
+
 fn read_effect(section: &Section, origin: &Arc<Origin>) -> Result<OwnEffect> {
     section.only(&[
         "id",
@@ -110,7 +104,7 @@ fn read_effect(section: &Section, origin: &Arc<Origin>) -> Result<OwnEffect> {
     let limit = section.get("limit");
     let mut own = OwnEffect {
         effect: Effect {
-            id: read_id(&id)?,
+            id: read_id(&id, "an effect", &[SENSOR])?,
             place: text("where", "where = \"traverse constraint\"")?,
             says: text("says", "says = \"what the vehicle really does\"")?,
             source: section.get("source").map(|v| v.text()).transpose()?.unwrap_or("the user's own").into(),
@@ -132,21 +126,6 @@ fn read_effect(section: &Section, origin: &Arc<Origin>) -> Result<OwnEffect> {
     own.read_changes(section)?;
     own.check_use()?;
     Ok(own)
-}
-
-/// A name that becomes part of symbols: letters, digits and hyphens.
-fn read_id(value: &Value) -> Result<String> {
-    let id = value.text()?;
-    let good = id.starts_with(|c: char| c.is_ascii_alphabetic())
-        && id.len() <= 60
-        && id.chars().all(|c| c.is_ascii_alphanumeric() || c == '-');
-    // `sensor.a` is where the sensor sits.
-    match good && id != "sensor" {
-        true => Ok(id.to_string()),
-        false => Err(value
-            .error(format!("\"{}\" cannot be the id of an effect", shown(id)))
-            .help("begin with a letter, go on with letters, digits and hyphens, at most 60")),
-    }
 }
 
 impl OwnEffect {

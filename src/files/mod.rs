@@ -23,6 +23,7 @@ mod model_file;
 mod near;
 mod order;
 mod output;
+mod own_file;
 mod parameters;
 #[cfg(feature = "parquet")]
 mod parquet_log;

@@ -2,11 +2,12 @@
 
 use super::formula_text::FormulaText;
 use super::near;
+use super::own_file::at_most;
 use super::spot::Spot;
 use super::toml_table::{Section, Value};
 use super::vehicle_quantities::{MOST, check_symbol, read_meaning};
 use super::vehicle_types::read_type;
-use super::vehicles_file::{OwnConstraint, OwnVehicle, at_most};
+use super::vehicles_file::{OwnConstraint, OwnVehicle};
 use crate::error::{Error, Result};
 use crate::files::effect_parameter::read_unit;
 use crate::formula::{Size, Symbol};

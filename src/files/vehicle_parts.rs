@@ -2,10 +2,11 @@
 
 use super::formula_text::FormulaText;
 use super::near;
+use super::own_file::at_most;
 use super::spot::Spot;
 use super::toml_table::{Section, Value};
 use super::vehicle_quantities::check_symbol;
-use super::vehicles_file::{OwnPart, OwnVehicle, at_most};
+use super::vehicles_file::{OwnPart, OwnVehicle};
 use crate::error::Result;
 use crate::formula::{Expr, Size, Symbol};
 use crate::vehicles::{Section as Trailer, Wheel};

@@ -3,8 +3,9 @@
 use super::effect_parameter::read_unit;
 use super::formula_text::FormulaText;
 use super::near::shown;
+use super::own_file::at_most;
 use super::toml_table::{Section, Value};
-use super::vehicles_file::{OwnVehicle, at_most};
+use super::vehicles_file::OwnVehicle;
 use crate::error::Result;
 use crate::formula::{Fun, Symbol};
 use crate::vehicles::{Definition, Input, Instead, Quantity};

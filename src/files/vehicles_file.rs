@@ -1,14 +1,13 @@
 //! A user's own vehicles: wheels, trailers, parameters and inputs, from which everything else is derived.
 
 use super::formula_text::FormulaText;
-use super::near::shown;
+use super::own_file::{at_most, read_id, read_own};
 use super::spot::Spot;
-use super::text::read_hashed;
 use super::toml_table::{Section, Source, Value};
 use super::vehicle_constraints::{read_constraints, read_coordinates};
 use super::vehicle_parts::{read_trailers, read_wheels};
 use super::vehicle_quantities::{read_definitions, read_inputs, read_quantities};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::formula::Symbol;
 use crate::origin::Origin;
 use crate::vehicles::Vehicle;
@@ -16,8 +15,6 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The largest file, in bytes; a vehicle has some dozens of lines.
-const LARGEST: usize = 256 << 10;
 /// The most vehicles of a file; effects are held against each of them.
 const MOST_VEHICLES: usize = 20;
 
@@ -84,13 +81,7 @@ impl VehiclesFile {
     /// With file, line and column, inside a formula too: a file that cannot be read, a key that is missing or unknown,
     /// a name or formula that is malformed, a wheel that constrains nothing, two parts of one name.
     pub fn read(path: &Path) -> Result<Self> {
-        let (text, sha256) = read_hashed(path)?;
-        if text.len() > LARGEST {
-            return Err(Error::input("is larger than 256 KiB")
-                .at_file(path)
-                .help("check that this is the file of vehicles you meant"));
-        }
-        Self::parse(&Arc::new(Origin { path: path.into(), sha256, text }))
+        Self::parse(&read_own(path, "vehicles")?)
     }
 
     fn parse(origin: &Arc<Origin>) -> Result<Self> {
@@ -121,14 +112,6 @@ impl VehiclesFile {
     }
 }
 
-/// Refuses more entries than anything could be done with.
-pub(super) fn at_most(value: &Value, found: usize, most: usize) -> Result<()> {
-    match found <= most {
-        true => Ok(()),
-        false => Err(value.error(format!("{} has {found} entries", value.name)).help(format!("give at most {most}"))),
-    }
-}
-
 const KEYS: [&str; 13] = [
     "id",
     "title",
@@ -151,7 +134,7 @@ fn read_vehicle(section: &Section, origin: &Arc<Origin>) -> Result<OwnVehicle> {
     let instead = section.get("instead");
     let mut own = OwnVehicle {
         vehicle: Vehicle {
-            id: read_id(&id)?,
+            id: read_id(&id, "a vehicle", &[])?,
             title: section.need("title", "title = \"what it is, in a line\"")?.text()?.into(),
             line: section.get("line").map_or(Ok(false), |v| v.truth())?,
             instead: instead.as_ref().map(|v| v.text().map(str::to_string)).transpose()?,
@@ -178,20 +161,6 @@ fn read_vehicle(section: &Section, origin: &Arc<Origin>) -> Result<OwnVehicle> {
     read_wheels(&mut own, section)?;
     read_held(&mut own, section)?;
     Ok(own)
-}
-
-/// A name for model files: letters, digits and hyphens.
-fn read_id(value: &Value) -> Result<String> {
-    let id = value.text()?;
-    let good = id.starts_with(|c: char| c.is_ascii_alphabetic())
-        && id.len() <= 60
-        && id.chars().all(|c| c.is_ascii_alphanumeric() || c == '-');
-    match good {
-        true => Ok(id.to_string()),
-        false => Err(value
-            .error(format!("\"{}\" cannot be the id of a vehicle", shown(id)))
-            .help("begin with a letter, go on with letters, digits and hyphens, at most 60")),
-    }
 }
 
 fn read_held(own: &mut OwnVehicle, section: &Section) -> Result<()> {

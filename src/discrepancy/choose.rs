@@ -5,7 +5,8 @@ use super::evidence::tail;
 use super::fit::Fit;
 use super::limits;
 use super::problem::Problem;
-use super::selection::{FINALISTS, FULL, MOST, Selection, bic, find, worth};
+use super::selection::{FINALISTS, FULL, Grown, MOST, Selection, bic, find, worth};
+use super::stable::{self, Scatter, Stable};
 use super::unnamed;
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
@@ -49,6 +50,8 @@ pub struct Choice {
     pub steps: Vec<(String, Model)>,
     /// All candidates as they stood against the model as given.
     pub candidates: Vec<Scored>,
+    /// Effects and terms that the whole data ask for, and parts of them with other values: see [`super::stable`].
+    pub unshared: Vec<Applied>,
 }
 
 /// Adds effects of the library until nothing is left above the noise.
@@ -72,19 +75,23 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &d
     };
     let named = limits::search(&selection, library, selection.grown(&before, progress)?)?;
     let grown = unnamed::search(&selection, model, &before, &named, progress)?.unwrap_or(named);
-    let chosen = selection.examined(&grown.fit)?;
-    Ok(Some(Choice { before, after: grown.fit, chosen, steps: grown.steps, candidates: grown.candidates }))
+    let stable = stable::search(&selection, model, &before, grown, progress)?;
+    let Stable { grown, unshared, scatter } = stable;
+    let chosen = selection.examined(&grown.fit, scatter.as_ref())?;
+    let Grown { fit: after, steps, candidates } = grown;
+    Ok(Some(Choice { before, after, chosen, steps, candidates, unshared }))
 }
 
 impl Selection<'_> {
     /// Evidence, deviations and rivals of every chosen effect.
-    fn examined(&self, fit: &Fit) -> Result<Vec<Chosen>> {
+    fn examined(&self, fit: &Fit, scatter: Option<&Scatter>) -> Result<Vec<Chosen>> {
         let mut at = 0;
         let mut found = Vec::new();
         for applied in fit.model.free_effects().cloned() {
             let k = applied.values.len();
             // What runs scatter by counts where it is more than their noise, and what hangs together in it, explains.
-            let between = |i: usize| fit.between_runs.as_ref().map_or(0.0, |c| c[(i, i)].sqrt());
+            let runs = |i: usize| fit.between_runs.as_ref().map_or(0.0, |c| c[(i, i)].sqrt());
+            let between = |i: usize| scatter.map_or(0.0, |s| s.std[i]).max(runs(i));
             let spread =
                 |i: usize| fit.covariance.as_ref().map(|c| (c[(i, i)] * fit.dependence()).sqrt().max(between(i)));
             let std = (at..at + k).map(spread).collect();

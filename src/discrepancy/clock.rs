@@ -18,6 +18,9 @@ const TRIED: f64 = 0.05;
 const MUCH: [f64; 2] = [0.1, 1.5];
 /// Deviance that a drift must be worth: far beyond chance and beyond what another small misfit imitates.
 const WORTH: f64 = 40.0;
+/// A clock is blamed where it explains more than this share of what remains: a law that grows along a run, as speed
+/// does on a ramp, is imitated by a drift, which leaves most of it.
+const MOST_OF_IT: f64 = 0.5;
 /// Runs that are asked, the first ones: each costs some fits.
 const MOST_RUNS: usize = 6;
 /// How often the drift is doubled: up to some seconds.
@@ -33,6 +36,8 @@ pub struct Drift {
     pub total: f64,
     /// The deviance that this is worth, as far as it is independent.
     pub gain: f64,
+    /// The share of what remains unexplained that goes with it.
+    pub explained: f64,
     /// Time between rows, s.
     pub step: f64,
 }
@@ -40,7 +45,7 @@ pub struct Drift {
 impl Drift {
     /// Whether clocks that match could not do this.
     pub fn is_mismatch(&self) -> bool {
-        self.total.abs() > MUCH[0].max(MUCH[1] * self.step) && self.gain > WORTH
+        self.total.abs() > MUCH[0].max(MUCH[1] * self.step) && self.gain > WORTH && self.explained > MOST_OF_IT
     }
 }
 
@@ -65,11 +70,10 @@ impl Problem {
         let starts: super::windows::Starts = own().map(|(_, s)| s.clone()).collect();
         let plan = own().map(|(s, _)| super::windows::Segment { record: 0, ..s.clone() }).collect();
         let alone = Problem { records: vec![record.clone()], plan, ..self.clone() };
-        let fitted = |rate: f64| -> Result<(f64, f64)> {
+        let fitted = |rate: f64| -> Result<At> {
             let mut stretched = alone.clone();
             stretched.records[0].signals = record.signals.stretched(rate);
-            let fitted = stretched.fit(&model, &starts, &fit.variances, EFFORT)?;
-            Ok(fitted.map_or((f64::INFINITY, 1.0), |f| (f.deviance, f.dependence())))
+            Ok(stretched.fit(&model, &starts, &fit.variances, EFFORT)?.map_or(At::NOWHERE, |f| At::of(&f)))
         };
         let tried = TRIED / duration(record);
         let here = fitted(0.0)?;
@@ -79,17 +83,36 @@ impl Problem {
             // Far from where the clocks agree the deviance is flat: so long as it falls, twice as far.
             for _ in 0..MOST_DOUBLINGS {
                 let there = fitted(rate)?;
-                if there.0 >= best.1.0 {
+                if there.deviance >= best.1.deviance {
                     break;
                 }
                 best = (rate, there);
                 rate *= 2.0;
             }
         }
-        let (rate, (reached, dependence)) = best;
-        let gain = (here.0 - reached) / dependence;
-        let total = rate * duration(record);
-        Ok(gain.is_finite().then(|| Drift { run: record.name.clone(), total, gain, step: record.step() }))
+        let (rate, there) = best;
+        let gain = (here.deviance - there.deviance) / there.dependence;
+        let (run, total, step) = (record.name.clone(), rate * duration(record), record.step());
+        let explained = 1.0 - there.unexplained / here.unexplained.max(f64::MIN_POSITIVE);
+        Ok(gain.is_finite().then_some(Drift { run, total, gain, explained, step }))
+    }
+}
+
+/// A run at some drift of its clocks.
+#[derive(Clone, Copy)]
+struct At {
+    deviance: f64,
+    dependence: f64,
+    /// What remains, by the deviance it is worth.
+    unexplained: f64,
+}
+
+impl At {
+    const NOWHERE: At = At { deviance: f64::INFINITY, dependence: 1.0, unexplained: f64::INFINITY };
+
+    fn of(fit: &Fit) -> Self {
+        let unexplained = fit.unexplained.iter().sum();
+        Self { deviance: fit.deviance, dependence: fit.dependence(), unexplained }
     }
 }
 

@@ -5,7 +5,7 @@ use crate::effects::Applied;
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
 /// Where an effect's values stand among the free ones, those that vanish where it is neutral.
-fn neutral_at_zero(fit: &Fit, effect: &Applied) -> Vec<(usize, f64)> {
+pub(super) fn neutral_at_zero(fit: &Fit, effect: &Applied) -> Vec<(usize, f64)> {
     let mut at = 0;
     for e in fit.model.free_effects() {
         if e.same_as(effect) {

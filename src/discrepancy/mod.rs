@@ -48,6 +48,7 @@ pub mod report;
 pub mod screen;
 mod selection;
 pub mod smooth;
+mod stable;
 pub mod summary;
 pub mod unnamed;
 pub mod variances;

@@ -46,11 +46,22 @@ pub(super) fn search(
     named: &Grown,
     progress: &dyn Fn(&str),
 ) -> Result<Option<Grown>> {
+    search_among(selection, model.terms()?, model, before, named, progress)
+}
+
+/// As [`search`], with some terms only.
+pub(super) fn search_among(
+    selection: &Selection,
+    terms: Vec<Effect>,
+    model: &Model,
+    before: &Fit,
+    named: &Grown,
+    progress: &dyn Fn(&str),
+) -> Result<Option<Grown>> {
     if !is_wanted(&named.fit) {
         return Ok(None);
     }
     progress("looking for an equation of what has no name");
-    let terms = model.terms()?;
     let library: Vec<Effect> = selection.library.iter().cloned().chain(terms).collect();
     let wider = Selection {
         library: &library,

@@ -2,10 +2,13 @@
 
 use super::choose::{Choice, Scored};
 use super::clock::Drift;
+use super::fit::Fit;
 use super::locate::Violation;
 use super::problem::Problem;
 use super::report::{NextExperiment, Verdict};
+use super::summary::listed;
 use super::unnamed;
+use super::whiteness::NOTICEABLE;
 
 /// A verdict with what there is to say about it.
 pub struct Outcome {
@@ -17,10 +20,16 @@ pub struct Outcome {
     pub next_experiment: Option<NextExperiment>,
 }
 
+/// Names in a sentence.
+const NAMED: usize = 3;
+
 /// Windows that a statement about effects needs at least.
 const FEWEST_WINDOWS: usize = 5;
 /// A model that misses more than this share of the motion does not describe it.
 const HOPELESS: f64 = 0.5;
+
+/// A violation this many times as large as what noise makes of none is seen without statistics.
+const VISIBLE: f64 = 2.0;
 
 /// A slip angle beyond creep, rad.
 const SLIP_ANGLE: f64 = 0.35;
@@ -85,9 +94,16 @@ pub fn after_fitting(choice: &Choice, after: &[Violation], clocks: &[Drift]) -> 
         return outcome(Verdict::UnusableData, &sentence, None);
     }
     let without_name = choice.chosen.iter().any(|c| unnamed::is_term(&c.applied));
+    let contradicted = !choice.unshared.is_empty();
     if !choice.chosen.is_empty() {
         let verdict = if without_name { Verdict::UnnamedEffect } else { Verdict::MissingEffect };
-        return Outcome { verdict, sentence: None, next_experiment: None };
+        let sentence = (!without_name && contradicted).then(|| partly(choice));
+        return Outcome { verdict, sentence, next_experiment: contradicted.then(|| settling(choice)) };
+    }
+    if contradicted || disagrees(&choice.after, after) {
+        let sentence =
+            "Model and measurement disagree, but not alike in all parts of these runs: nothing can be named.";
+        return outcome(Verdict::NotIdentifiable, sentence, Some(settling(choice)));
     }
     match missed(&choice.candidates) {
         Some(candidate) => {
@@ -102,6 +118,50 @@ pub fn after_fitting(choice: &Choice, after: &[Violation], clocks: &[Drift]) -> 
         }
         None => Outcome { verdict: Verdict::NoMissingEffect, sentence: None, next_experiment: None },
     }
+}
+
+/// What parts of the data ask for differently, as a phrase.
+pub(super) fn unshared(choice: &Choice) -> String {
+    let mut names: Vec<String> = Vec::new();
+    for effect in &choice.unshared {
+        let name = match unnamed::is_term(effect) {
+            true => format!("a law without name at the {}", effect.effect.place),
+            false => effect.label(),
+        };
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    if names.len() > NAMED + 1 {
+        let more = names.split_off(NAMED).len();
+        names.push(format!("{more} more"));
+    }
+    listed(names.iter().map(String::as_str))
+}
+
+/// What mends runs whose parts contradict each other: no manoeuvre can be thought through with a model that is wrong,
+/// but where speed and turn change by themselves a law shows as what it is.
+fn settling(choice: &Choice) -> NextExperiment {
+    let asked = match choice.unshared.is_empty() {
+        true => "parts of these runs contradict each other".to_string(),
+        false => format!("parts of these runs ask for other values of {}", unshared(choice)),
+    };
+    drive(&format!("{asked}: where speed and turn vary together, one law imitates another"))
+}
+
+/// What is named where more remains that is not.
+fn partly(choice: &Choice) -> String {
+    let names: Vec<String> = choice.chosen.iter().map(|c| c.applied.label()).collect();
+    let names = listed(names.iter().map(String::as_str));
+    format!("The model misses {names}; what else remains differs between parts of these runs and is not named.")
+}
+
+/// Whether what a fit leaves of a constraint is more than chance, and stands out of the noise to the eye.
+fn disagrees(fit: &Fit, after: &[Violation]) -> bool {
+    (0..fit.unexplained.len()).any(|c| {
+        let visible = Violation::rms(after, c).is_some_and(|(rms, noise)| rms > VISIBLE * noise);
+        visible && fit.unexplained[c] / fit.dependence() > NOTICEABLE
+    })
 }
 
 /// A model that misses most of the motion, whatever is added to it.

@@ -58,6 +58,7 @@ fn copy(at: &Places) {
             "Cargo.toml" => bytes.extend_from_slice(PROFILE.as_bytes()),
             "tests/support/mod.rs" => bytes = fewer_cases(&bytes),
             "src/lib.rs" => bytes.extend_from_slice(b"\n#[doc(hidden)]\n#[allow(missing_docs)]\npub mod mutant;\n"),
+            "src/main.rs" => bytes.extend_from_slice(b"\nuse creepage::mutant;\n"),
             _ => {}
         }
         put(&at.copy().join(file), &bytes);
@@ -106,7 +107,7 @@ fn write(at: &Places, mutants: &[Mutant], fates: &mut BTreeMap<usize, Fate>) {
 
 /// The number of errors, and the mutants they are in.
 fn check(at: &Places, mutants: &[Mutant], fates: &BTreeMap<usize, Fate>) -> (usize, BTreeMap<usize, Fate>) {
-    let made = cargo(at, &["check", "--lib"]);
+    let made = cargo(at, &["check", "--lib", "--bins"]);
     std::fs::write(at.file("check.json"), &made.stdout).unwrap();
     let mut bad = BTreeMap::new();
     let mut errors = 0;

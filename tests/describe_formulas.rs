@@ -8,8 +8,10 @@ use creepage::formula::{Expr, Symbol, Unit};
 use creepage::model::Model;
 use creepage::vehicles;
 use models::{machines, machines_with_effects, reviewed, reviewed_as_text, still, with_each_effect};
+use rayon::prelude::*;
 use serde_json::Value;
 use std::collections::BTreeSet;
+use std::sync::LazyLock;
 
 /// Every machine alone, with each effect, and those that were reviewed; one logged as speed.
 fn all() -> Vec<(String, Model)> {
@@ -27,6 +29,13 @@ fn all() -> Vec<(String, Model)> {
     let reviewed = reviewed().into_iter().map(|(_, m)| m);
     let later = reviewed_as_text().into_iter().map(|(_, m)| m);
     machines().into_iter().chain(still()).chain(with).chain(reviewed).chain(later).chain([speed]).map(named).collect()
+}
+
+/// What is said of all of them, found once for the tests of this file.
+fn described() -> &'static [(String, Description)] {
+    static ALL: LazyLock<Vec<(String, Description)>> =
+        LazyLock::new(|| all().into_par_iter().map(|(name, m)| (name, Description::of(&m).unwrap())).collect());
+    &ALL
 }
 
 fn parse(text: &str) -> Expr {
@@ -48,8 +57,8 @@ fn same(a: &Expr, b: &Expr) -> bool {
 
 #[test]
 fn every_formula_reads_back_and_means_the_same() {
-    for (name, model) in all() {
-        for f in Description::of(&model).unwrap().formulas() {
+    for (name, d) in described() {
+        for f in d.formulas() {
             assert!(same(&parse(&f.to_string()), &f), "{name}: {f}");
         }
     }
@@ -74,9 +83,8 @@ fn printed(text: &str) -> Vec<String> {
 
 #[test]
 fn the_text_holds_every_formula_in_readable_lines() {
-    for (name, model) in all() {
-        let d = Description::of(&model).unwrap();
-        let text = describe::text(&d);
+    for (name, d) in described() {
+        let text = describe::text(d);
         let (_, formulas) = text.split_once("## Constraints").unwrap();
         text.lines().for_each(|l| assert!(l.chars().count() <= 100, "{name}: {l}"));
         let mut read: Vec<Expr> = Vec::new();
@@ -96,8 +104,7 @@ fn the_text_holds_every_formula_in_readable_lines() {
 
 #[test]
 fn every_symbol_is_in_the_table_with_a_unit_and_a_meaning_and_no_two_look_alike() {
-    for (name, model) in all() {
-        let d = Description::of(&model).unwrap();
+    for (name, d) in described() {
         let used: BTreeSet<Symbol> = d.formulas().iter().flat_map(Expr::symbols).collect();
         for s in used {
             let entry = d.symbols.get(&s).unwrap_or_else(|| panic!("{name}: {s}"));
@@ -117,28 +124,27 @@ fn unit(d: &Description, e: &Expr, name: &str) -> Unit {
 #[test]
 fn every_formula_has_one_unit() {
     let [speed, second] = ["m/s", "s"].map(|u| Unit::parse(u).unwrap());
-    for (name, model) in all() {
-        let d = Description::of(&model).unwrap();
+    for (name, d) in described() {
         let of = |s: &Symbol| Unit::parse(&d.symbols.get(s).unwrap().unit).unwrap();
         for e in &d.definitions {
-            assert!(unit(&d, &e.formula, &name).fits(&of(&e.name)), "{name}: {} = {}", e.name, e.formula);
+            assert!(unit(d, &e.formula, name).fits(&of(&e.name)), "{name}: {} = {}", e.name, e.formula);
         }
         for e in &d.states {
-            let rate = creepage::formula::Scalar::mul(&unit(&d, &e.formula, &name), &second);
+            let rate = creepage::formula::Scalar::mul(&unit(d, &e.formula, name), &second);
             assert!(rate.fits(&of(&e.name)), "{name}: rate of {} = {}", e.name, e.formula);
         }
         for c in &d.constraints {
-            let speed = if c.kind.letter == 'S' { unit(&d, &c.generic, &name) } else { speed };
+            let speed = if c.kind.letter == 'S' { unit(d, &c.generic, name) } else { speed };
             let zero = [c.generic.clone()].into_iter().chain(c.rows().map(|(_, row)| row));
-            zero.for_each(|row| assert!(unit(&d, &row, &name).fits(&speed), "{name}: {row}"));
+            zero.for_each(|row| assert!(unit(d, &row, name).fits(&speed), "{name}: {row}"));
             let times = |e: &Expr, s: &Symbol| e * &Expr::sym(s.clone());
             let by_q = c.jacobian.q.iter().map(|(q, r)| times(&r.expr(), q));
             let by_rate = c.jacobian.rates.iter().map(|(rate, k)| times(k, rate));
-            by_q.chain(by_rate).for_each(|t| assert!(unit(&d, &t, &name).fits(&speed), "{name}: {t}"));
-            assert!(unit(&d, &c.jacobian.e.expr(), &name).fits(&speed), "{name}: {}", c.name);
+            by_q.chain(by_rate).for_each(|t| assert!(unit(d, &t, name).fits(&speed), "{name}: {t}"));
+            assert!(unit(d, &c.jacobian.e.expr(), name).fits(&speed), "{name}: {}", c.name);
             for p in &c.parts {
                 let slot = c.kind.slots.iter().find(|s| s.name.as_str() == p.label).unwrap();
-                let found = unit(&d, &p.formula, &name);
+                let found = unit(d, &p.formula, name);
                 // A momentum may be an angular or a linear one.
                 let wanted = slot.unit.as_ref().map(|u| Unit::parse(u).unwrap());
                 assert!(wanted.is_none_or(|u| found.fits(&u)), "{name}: {}", p.formula);
@@ -149,8 +155,8 @@ fn every_formula_has_one_unit() {
 
 #[test]
 fn the_latex_is_balanced() {
-    for (name, model) in all() {
-        let text = describe::latex(&Description::of(&model).unwrap());
+    for (name, d) in described() {
+        let text = describe::latex(d);
         let count = |part: &str| text.matches(part).count();
         let plain = text.replace(r"\{", "").replace(r"\}", "").replace(r"\$", "");
         let mut depth = 0i32;
@@ -196,9 +202,8 @@ fn texts(v: &Value, found: &mut Vec<String>) {
 
 #[test]
 fn the_json_holds_every_formula_and_every_symbol() {
-    for (name, model) in all() {
-        let d = Description::of(&model).unwrap();
-        let json = describe::json(&d);
+    for (name, d) in described() {
+        let json = describe::json(d);
         let mut found = Vec::new();
         texts(&json, &mut found);
         for f in d.formulas() {

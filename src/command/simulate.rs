@@ -5,11 +5,12 @@ use super::print;
 use super::progress::Progress;
 use clap::Args;
 use creepage::dynamics::simulate_file;
-use creepage::files::{Initial, Inputs, ModelFile, write_whole};
+use creepage::files::{Initial, Inputs, ModelFile, write_whole_by};
 use creepage::model::Model;
 use creepage::motion::{Integrator, Signals, Table, simulate_model};
 use creepage::{Error, Result};
-use std::fmt::Write;
+use std::fmt::Write as _;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Integrate a (patched) model over given inputs
@@ -67,7 +68,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
         }
     };
     drop(progress);
-    write_whole(&arguments.out, csv(&table)?.as_bytes())?;
+    check_defined(&table)?;
+    write_whole_by(&arguments.out, |to| write_csv(&table, to))?;
     if !quiet {
         print(&format!("{} rows are in {}\n", table.rows(), arguments.out.display()))?;
     }
@@ -98,19 +100,25 @@ fn at_origin(file: &ModelFile) -> Initial {
     Initial { trailer_headings: vec![0.0; file.trailers()], ..Initial::default() }
 }
 
-/// The table as CSV, numbers in the shortest form that reads back.
-fn csv(table: &Table) -> Result<String> {
-    if table.columns.iter().flatten().any(|v| !v.is_finite()) {
-        return Err(Error::run("the motion becomes undefined").help("see `creepage describe` for where the model is"));
+fn check_defined(table: &Table) -> Result<()> {
+    match table.columns.iter().flatten().all(|v| v.is_finite()) {
+        true => Ok(()),
+        false => Err(Error::run("the motion becomes undefined").help("see `creepage describe` for where the model is")),
     }
-    let mut text = table.names.join(",");
-    text.push('\n');
+}
+
+/// The table as CSV, numbers in the shortest form that reads back; a row at a time, for a long one has gigabytes.
+fn write_csv(table: &Table, to: &mut dyn Write) -> io::Result<()> {
+    writeln!(to, "{}", table.names.join(","))?;
+    let mut line = String::new();
     for i in 0..table.rows() {
+        line.clear();
         for (k, column) in table.columns.iter().enumerate() {
             let comma = if k > 0 { "," } else { "" };
-            let _ = write!(text, "{comma}{}", column[i]);
+            let _ = write!(line, "{comma}{}", column[i]);
         }
-        text.push('\n');
+        line.push('\n');
+        to.write_all(line.as_bytes())?;
     }
-    Ok(text)
+    Ok(())
 }

@@ -2,19 +2,31 @@
 
 use crate::error::{Error, Result};
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile, TempPath};
 
 /// Writes a file in one step: whatever fails, `path` holds the new bytes whole or what it held before.
 pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<()> {
+    write_whole_by(path, |to| to.write_all(bytes))
+}
+
+/// As [`write_whole`], of bytes that are written piece by piece and never held together.
+///
+/// ```
+/// use creepage::files::write_whole_by;
+/// # let path = std::env::temp_dir().join("creepage-write-whole-by");
+/// write_whole_by(&path, |to| (1..=3).try_for_each(|i| writeln!(to, "{i}"))).unwrap();
+/// assert_eq!(std::fs::read_to_string(&path).unwrap(), "1\n2\n3\n");
+/// ```
+pub fn write_whole_by(path: impl AsRef<Path>, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     let path = path.as_ref();
     let target = target(path)?;
     if is_device(&target) {
         // A pipe or /dev/null takes bytes as they come; renaming a file over it would destroy it.
-        return write_through(&target, bytes).map_err(|e| unwritable(path, &e));
+        return write_through(&target, write).map_err(|e| unwritable(path, &e));
     }
-    let ready = prepare(&target, bytes).map_err(|e| unwritable(path, &e))?;
+    let ready = prepare(&target, write).map_err(|e| unwritable(path, &e))?;
     ready.persist(&target).map_err(|e| unwritable(path, &e.error))?;
     Ok(())
 }
@@ -63,7 +75,7 @@ fn put_all(dir: &Path, files: &[(&str, &[u8])]) -> Result<()> {
     for (name, bytes) in files {
         let path = dir.join(name);
         let target = target(&path)?;
-        let new = prepare(&target, bytes).map_err(|e| unwritable(&path, &e))?;
+        let new = prepare(&target, |to| to.write_all(bytes)).map_err(|e| unwritable(&path, &e))?;
         let old = keep_old(&target).map_err(|e| unwritable(&path, &e))?;
         ready.push((target, new, old));
     }
@@ -127,16 +139,23 @@ fn is_device(target: &Path) -> bool {
     fs::metadata(target).is_ok_and(|data| !data.is_file())
 }
 
-fn write_through(target: &Path, bytes: &[u8]) -> io::Result<()> {
-    OpenOptions::new().write(true).open(target)?.write_all(bytes)
+fn write_through(target: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    buffered(&OpenOptions::new().write(true).open(target)?, write)
 }
 
-/// The bytes in a finished file beside the target, gone when dropped.
-fn prepare(target: &Path, bytes: &[u8]) -> io::Result<NamedTempFile<File>> {
-    let mut file = builder(target).tempfile_in(folder_of(target))?;
-    file.write_all(bytes)?;
+/// What is written in a finished file beside the target, gone when dropped.
+fn prepare(target: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<NamedTempFile<File>> {
+    let file = builder(target).tempfile_in(folder_of(target))?;
+    buffered(file.as_file(), write)?;
     file.as_file().sync_all()?;
     Ok(file)
+}
+
+fn buffered(file: &File, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let mut to = BufWriter::new(file);
+    write(&mut to)?;
+    // Dropping the buffer would lose what the disk said to its last bytes.
+    to.flush()
 }
 
 /// Temporary files with the permissions of the file they replace, or those of any new file.

@@ -1,6 +1,6 @@
-//! Formulas, names and units in files: written as text.
+//! Formulas and names in files: written as text.
 
-use super::{Expr, Symbol, Unit};
+use super::{Expr, Symbol};
 use serde::de::{Deserialize, Deserializer, Error};
 
 impl<'de> Deserialize<'de> for Expr {
@@ -13,13 +13,5 @@ impl<'de> Deserialize<'de> for Symbol {
     fn deserialize<D: Deserializer<'de>>(d: D) -> Result<Self, D::Error> {
         let symbol = Symbol::new(&String::deserialize(d)?);
         if symbol.is_well_formed() { Ok(symbol) } else { Err(D::Error::custom(format!("{symbol:?} is no name"))) }
-    }
-}
-
-impl<'de> Deserialize<'de> for Unit {
-    fn deserialize<D: Deserializer<'de>>(d: D) -> Result<Self, D::Error> {
-        let text = String::deserialize(d)?;
-        Unit::parse(&text)
-            .ok_or_else(|| D::Error::custom(format!("{text:?} is no unit; write m, s, kg, rad, 1 with * / ^")))
     }
 }

@@ -1,6 +1,7 @@
 //! What a model does under given inputs, as a table.
 
-use super::{Drive, Integrator, initial_hidden, simulate, visible_state};
+use super::trajectory::simulate_by;
+use super::{Drive, Integrator, initial_hidden, visible_state};
 use crate::error::{Error, Result};
 use crate::formula::{Graph, Program, Symbol};
 use crate::model::{Equations, Model, Workspace};
@@ -42,7 +43,7 @@ impl Table {
 /// sensor sees begin at their quasi-static values, see [`initial_hidden`].
 ///
 /// # Errors
-/// As [`simulate`], [`visible_state`], and when a speed is undefined.
+/// As [`super::simulate`], [`visible_state`], and when a speed is undefined.
 ///
 /// ```
 /// use creepage::model::Model;
@@ -76,14 +77,14 @@ pub fn simulate_model(
     };
     let mut z0 = visible_state(&equations, &[], start)?;
     z0.extend(initial_hidden(&equations, &[], &at(first), &z0));
-    let states = simulate(&equations, &[], inputs, &z0, times, integrator)?;
     let speeds = Speeds::new(model, &equations)?;
     let names = names(&equations);
-    let mut columns = vec![Vec::with_capacity(times.len()); names.len()];
-    for (t, z) in times.iter().zip(states) {
-        let row = row(*t, &z, &at(*t), &equations, &mut w, &speeds)?;
+    let mut columns: Vec<Vec<f64>> = names.iter().map(|_| Vec::with_capacity(times.len())).collect();
+    simulate_by(&equations, &[], inputs, &z0, times, integrator, |t, z| {
+        let row = row(t, z, &at(t), &equations, &mut w, &speeds)?;
         columns.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
-    }
+        Ok(())
+    })?;
     Ok(Table { names, columns })
 }
 

@@ -41,6 +41,24 @@ pub fn simulate(
     times: &[f64],
     integrator: &Integrator,
 ) -> Result<Vec<Vec<f64>>> {
+    let mut states = Vec::with_capacity(times.len());
+    simulate_by(equations, p, inputs, z0, times, integrator, |_, z| {
+        states.push(z.to_vec());
+        Ok(())
+    })?;
+    Ok(states)
+}
+
+/// As [`simulate`], of states that are seen one after another, each with its time, and not kept.
+pub(super) fn simulate_by(
+    equations: &Equations,
+    p: &[f64],
+    inputs: &impl Drive,
+    z0: &[f64],
+    times: &[f64],
+    integrator: &Integrator,
+    see: impl FnMut(f64, &[f64]) -> Result<()>,
+) -> Result<()> {
     fits(equations, p, inputs, z0)?;
     let mut w = equations.workspace(p);
     let delay = equations.delay(&mut w)[0];
@@ -49,7 +67,7 @@ pub fn simulate(
         values(look_up, &mut u);
         equations.rates(&mut w, z, &u, rates);
     };
-    follow(inputs.knots(), delay, z0, times, &mut integrator.walk()?, rhs, Differences)
+    follow_by(inputs.knots(), delay, z0, times, &mut integrator.walk()?, rhs, Differences, see)
 }
 
 /// The states at `times` and their derivatives with respect to (z0, p), from the variational equations
@@ -173,13 +191,32 @@ fn follow(
     y0: &[f64],
     times: &[f64],
     walk: &mut Walk,
+    rhs: impl FnMut(f64, &[f64], &mut [f64]),
+    slopes: impl Slopes,
+) -> Result<Vec<Vec<f64>>> {
+    let mut rows = Vec::with_capacity(times.len());
+    follow_by(knots, delay, y0, times, walk, rhs, slopes, |_, y| {
+        rows.push(y.to_vec());
+        Ok(())
+    })?;
+    Ok(rows)
+}
+
+/// As [`follow`], with a look at every row in place of keeping them.
+#[expect(clippy::too_many_arguments, reason = "those of follow, and the look")]
+fn follow_by(
+    knots: &[f64],
+    delay: f64,
+    y0: &[f64],
+    times: &[f64],
+    walk: &mut Walk,
     mut rhs: impl FnMut(f64, &[f64], &mut [f64]),
     mut slopes: impl Slopes,
-) -> Result<Vec<Vec<f64>>> {
+    mut see: impl FnMut(f64, &[f64]) -> Result<()>,
+) -> Result<()> {
     if !delay.is_finite() {
         return Err(Error::run("the delay of the inputs is undefined"));
     }
-    let mut rows = Vec::with_capacity(times.len());
     let mut y = y0.to_vec();
     let mut last = times.first().copied().unwrap_or(0.0);
     for time in times {
@@ -192,10 +229,10 @@ fn follow(
             let mut slopes = Retimed { slopes: &mut slopes, time: look_up, factor: 1.0 };
             y = walk.span(&mut rhs, &mut slopes, from, to, &y)?;
         }
-        rows.push(y.clone());
+        see(*time, &y)?;
         last = *time;
     }
-    Ok(rows)
+    Ok(())
 }
 
 /// The way from one time to another cut at the delayed knots.

@@ -13,12 +13,16 @@ use std::process::{Command, Output};
 const PROFILE: &str = "\n[profile.schemata]\ninherits = \"dev\"\nopt-level = 1\ndebug = false\nincremental = false\n\
                        \n[profile.schemata.package.\"*\"]\nopt-level = 3\n";
 
+/// Numbers that the switch can note.
+const MOST: usize = 8192;
+
 /// What the mutants were found in is left out of the search for errors after this many rounds.
 const ROUNDS: usize = 25;
 
 /// Copies, rewrites and builds; leaves `fates.tsv` with a line for every mutant.
 pub fn make(at: &Places) {
-    let mutants = list(&at.root, &at.files);
+    let mutants = list(at);
+    assert!(mutants.len() <= MOST, "{} mutants are more than {MOST}: take a --shard of them", mutants.len());
     std::fs::create_dir_all(at.copy()).unwrap();
     copy(at);
     let mut fates: BTreeMap<usize, Fate> = BTreeMap::new();
@@ -54,6 +58,7 @@ fn copy(at: &Places) {
             "Cargo.toml" => bytes.extend_from_slice(PROFILE.as_bytes()),
             "tests/support/mod.rs" => bytes = fewer_cases(&bytes),
             "src/lib.rs" => bytes.extend_from_slice(b"\n#[doc(hidden)]\n#[allow(missing_docs)]\npub mod mutant;\n"),
+            "src/main.rs" => bytes.extend_from_slice(b"\nuse creepage::mutant;\n"),
             _ => {}
         }
         put(&at.copy().join(file), &bytes);
@@ -102,7 +107,7 @@ fn write(at: &Places, mutants: &[Mutant], fates: &mut BTreeMap<usize, Fate>) {
 
 /// The number of errors, and the mutants they are in.
 fn check(at: &Places, mutants: &[Mutant], fates: &BTreeMap<usize, Fate>) -> (usize, BTreeMap<usize, Fate>) {
-    let made = cargo(at, &["check", "--lib"]);
+    let made = cargo(at, &["check", "--lib", "--bins"]);
     std::fs::write(at.file("check.json"), &made.stdout).unwrap();
     let mut bad = BTreeMap::new();
     let mut errors = 0;

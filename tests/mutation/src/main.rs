@@ -19,6 +19,8 @@ pub struct Places {
     pub scratch: PathBuf,
     /// Beginnings of the paths of the files that are mutated; none for all.
     pub files: Vec<String>,
+    /// Which of how many parts of the mutants.
+    pub shard: (u64, u64),
 }
 
 impl Places {
@@ -38,6 +40,9 @@ impl Places {
     }
 }
 
+const USAGE: &str = "usage: mutation [--files PATH,PATH] [--shard I/N] \
+                     [build | reach [TESTS] | run SECONDS PART OF | table]";
+
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
@@ -45,9 +50,13 @@ fn main() {
         ["--files", files, ..] => (files.split(',').map(String::from).collect(), &words[2..]),
         _ => (Vec::new(), &words[..]),
     };
+    let (shard, words) = match *words {
+        ["--shard", shard, ..] => (listed::shard(shard).expect("--shard I/N with I < N"), &words[2..]),
+        _ => ((0, 1), words),
+    };
     let scratch = std::env::var("MUTATION_SCRATCH").unwrap_or_else(|_| "/tmp/creepage-mutation".into());
     let root = std::fs::canonicalize(std::env::var("MUTATION_ROOT").unwrap_or_else(|_| ".".into())).unwrap();
-    let at = Places { root, scratch: scratch.into(), files };
+    let at = Places { root, scratch: scratch.into(), files, shard };
     match *words {
         [] => {
             build::make(&at);
@@ -61,6 +70,6 @@ fn main() {
             run::run(&at, seconds.parse().unwrap(), part.parse().unwrap(), of.parse().unwrap());
         }
         ["table"] => table::print(&at),
-        _ => eprintln!("usage: mutation [--files PATH,PATH] [build | reach [TESTS] | run SECONDS PART OF | table]"),
+        _ => eprintln!("{USAGE}"),
     }
 }

@@ -7,7 +7,10 @@ use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::process::{Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
-/// Test binaries that hardly concern these layers and take long.
+/// Beginnings of the paths of the three layers below the rest.
+const BELOW: [&str; 3] = ["src/formula", "src/mechanism", "src/claims"];
+
+/// Beginnings of the names of test binaries that hardly concern the three layers and take long.
 const LEFT_OUT: [&str; 9] = [
     "discover_laws",
     "discover_names",
@@ -19,6 +22,9 @@ const LEFT_OUT: [&str; 9] = [
     "trust_small",
     "unnamed",
 ];
+
+/// The same for the layers above: what concerns those below, and what takes minutes.
+const LEFT_OUT_ABOVE: [&str; 5] = ["claims_", "cost_of_trailers", "formula_", "mechanism_", "trust_small"];
 
 /// The variable that says which share of its cases a property tries.
 pub const ONE_IN: &str = "MUTATION_ONE_IN";
@@ -47,8 +53,7 @@ pub fn binaries(at: &Places, only: &[&str]) -> Vec<(String, String)> {
     let mut names: Vec<String> = std::fs::read_dir(at.root.join("tests"))
         .unwrap()
         .filter_map(|f| f.unwrap().file_name().to_str()?.strip_suffix(".rs").map(String::from))
-        .filter(|name| !LEFT_OUT.contains(&name.as_str()))
-        .filter(|name| only.is_empty() || only.contains(&name.as_str()))
+        .filter(|name| if only.is_empty() { is_asked(at, name) } else { only.contains(&name.as_str()) })
         .collect();
     names.sort();
     wanted.extend(names.iter().map(|name| format!("--test={name}")));
@@ -60,6 +65,17 @@ pub fn binaries(at: &Places, only: &[&str]) -> Vec<(String, String)> {
         false => None,
     };
     lines.lines().filter_map(|l| binary(serde_json::from_str(l).ok()?)).collect()
+}
+
+/// Whether the tests of a file are asked about these mutants unless others are named.
+fn is_asked(at: &Places, name: &str) -> bool {
+    let left_out: &[&str] = if is_below(at) { &LEFT_OUT } else { &LEFT_OUT_ABOVE };
+    !left_out.iter().any(|l| name.starts_with(l))
+}
+
+/// Whether only layers are mutated that the claims are about.
+pub fn is_below(at: &Places) -> bool {
+    at.files.iter().all(|f| BELOW.iter().any(|b| f.starts_with(b)))
 }
 
 /// The program itself, and the claims it knows.

@@ -72,6 +72,11 @@ impl Model {
         self.compiled(free, &[&self.states()[..], &inputs, free].concat())
     }
 
+    /// The equations of motion with the derivatives of the rates by free symbols alone.
+    pub(crate) fn equations_by(&self, free: &[Symbol]) -> Result<Equations> {
+        self.compiled(free, free)
+    }
+
     /// The equations of motion for a simulation: the rates have no derivatives where nothing asks for them. Those of a
     /// train of N trailers are N² formulas.
     pub(crate) fn equations_to_simulate(&self) -> Result<Equations> {
@@ -200,12 +205,18 @@ impl Equations {
         (0..n).take_while(|j| !read(*j)).count()
     }
 
-    /// The states that the rate of each state depends on.
-    pub(crate) fn read_by(&self) -> Vec<Vec<usize>> {
+    /// The columns that the rate of each state depends on: of (z, u, p), or of what the derivatives were asked by.
+    pub(crate) fn live_by_rate(&self) -> Vec<Vec<usize>> {
         let n = self.n();
         let width = self.jacobian.outputs() / n - 1;
         let read = |i: usize, j: &usize| self.live.binary_search(&(n + i * width + j)).is_ok();
-        (0..n).map(|i| (0..n).filter(|j| read(i, j)).collect()).collect()
+        (0..n).map(|i| (0..width).filter(|j| read(i, j)).collect()).collect()
+    }
+
+    /// The states that the rate of each state depends on.
+    pub(crate) fn read_by(&self) -> Vec<Vec<usize>> {
+        let own = |row: Vec<usize>| row.into_iter().filter(|j| *j < self.n()).collect();
+        self.live_by_rate().into_iter().map(own).collect()
     }
 
     /// The same equations with the pose at rest, where the motion of the hidden states does not ask for it.

@@ -2,7 +2,7 @@
 
 use super::{Model, trailer_heading};
 use crate::error::{Error, Result};
-use crate::formula::{Changes, Expr, Graph, Isa, Lanes, Memory, NodeId, Program, Symbol};
+use crate::formula::{Changes, Expr, Graph, Isa, Lanes, Memory, NodeId, Program, Rows, Symbol};
 use std::collections::BTreeMap;
 
 /// dz/dt = f(z, u, p) and y = h(z, p) with their exact derivatives, compiled once.
@@ -187,8 +187,8 @@ pub struct Workspace<const L: usize = 1> {
     outputs: Memory<L>,
     delay: Memory<L>,
     /// Rates and derivatives of the last evaluation; those that are always zero stay so.
-    slopes: Vec<[f64; L]>,
-    results: Vec<[f64; L]>,
+    slopes: Rows<L>,
+    results: Rows<L>,
 }
 
 impl Equations {
@@ -236,8 +236,8 @@ impl Equations {
             jacobian: self.memory(&self.jacobian, p),
             outputs: self.memory(&self.outputs, p),
             delay: self.memory(&self.delay, p),
-            slopes: vec![[0.0; L]; self.jacobian.outputs()],
-            results: vec![[0.0; L]; self.outputs.outputs().max(self.delay.outputs())],
+            slopes: Rows::new(self.jacobian.outputs()),
+            results: Rows::new(self.outputs.outputs().max(self.delay.outputs())),
         }
     }
 
@@ -334,7 +334,7 @@ impl Equations {
         let (rates, slopes) = here.split_at(self.n());
         let all = |values: &[[f64; L]], l: usize| values.iter().all(|v| v[l].is_finite());
         let kept: [bool; L] = std::array::from_fn(|l| !all(rates, l) || all(slopes, l));
-        for (k, (new, old)) in w.slopes.iter_mut().zip(&here).enumerate() {
+        for (k, (new, old)) in w.slopes.iter_mut().zip(here.iter()).enumerate() {
             for l in (0..L).filter(|l| k < rates.len() || kept[*l]) {
                 new[l] = old[l];
             }

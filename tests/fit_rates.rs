@@ -75,12 +75,11 @@ fn noisy_samples_give_the_least_squares() {
     let wanted = least_squares_by_search(&data);
     // A sum of squares tells its minimum to the root of rounding.
     assert!(found.p.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-7), "{:?} and {wanted:?}", found.p);
-    // Uniform noise of half width 0.05: JᵀJ is Σv²·diag(1 + e_tc², (1 − e_rc)²).
+    // By hand: (JᵀJ)⁻¹ = [1, t; t, (1 + e_tc²)/(1 − e_rc)²]/Σv² with t = e_tc/(1 − e_rc).
     let v2: f64 = data.inputs[0].iter().map(|u| (R * u) * (R * u)).sum();
-    let c = found.covariance.unwrap();
-    let [e_rc, e_tc] = [found.p[0], found.p[1]];
-    assert!((c[(0, 0)] * v2 * (1.0 + e_tc * e_tc) - 1.0).abs() < 1e-9 && c[(0, 1)].abs() * v2 < 1e-9);
-    assert!((c[(1, 1)] * v2 * (1.0 - e_rc) * (1.0 - e_rc) - 1.0).abs() < 1e-9);
+    let (c, kept, t) = (found.covariance.unwrap() * v2, 1.0 - found.p[0], found.p[1]);
+    let wanted = [1.0, t / kept, t / kept, (1.0 + t * t) / (kept * kept)];
+    assert!(c.iter().zip(wanted).all(|(c, wanted)| (c - wanted).abs() < 1e-9), "{c} and {wanted:?}");
 }
 
 #[test]

@@ -193,18 +193,25 @@ impl Dop853 {
     }
 }
 
-/// out = y + h·Σ weight·rate
+/// out = y + h·Σ weight·rate, each number by itself.
 #[inline(always)]
 fn sum(out: &mut [Wide], y: &[Wide], h: f64, weights: &[f64], k: &[Wide]) {
-    let row = y.len();
-    for (i, (out, y)) in out.iter_mut().zip(y).enumerate() {
+    let terms = || weights.iter().enumerate().filter(|(_, w)| **w != 0.0).map(|(s, w)| (s, h * w));
+    // One width stays in the processor's registers.
+    if let ([out], [y]) = (&mut *out, y) {
         let mut total = *y;
-        for (s, weight) in weights.iter().enumerate().filter(|(_, w)| **w != 0.0) {
-            let (w, rate) = (h * weight, &k[s * row + i]);
+        for (s, w) in terms() {
             for l in 0..WIDTH {
-                total[l] += w * rate[l];
+                total[l] += w * k[s][l];
             }
         }
         *out = total;
+        return;
+    }
+    let row = y.len();
+    out.copy_from_slice(y);
+    for (s, w) in terms() {
+        let rate = k[s * row..][..row].as_flattened();
+        out.as_flattened_mut().iter_mut().zip(rate).for_each(|(out, rate)| *out += w * rate);
     }
 }

@@ -67,6 +67,36 @@ def scipy_runs():
     return wheel, train
 
 
+def scipy_fit():
+    """e_rc and e_tc from 1000 samples of heading, wheel rate, x' and y', with exact derivatives."""
+    from scipy.optimize import least_squares
+
+    i = np.arange(1000)
+    t = 0.02 * i
+    phi, u = 0.3 * t + 0.4 * np.sin(0.7 * t), 2 + 0.5 * np.cos(t)
+    noise = [0.01 * (((i * 7919 + k * 104729) % 1999) / 999 - 1) for k in range(2)]
+    s, c = np.sin(phi), np.cos(phi)
+    forward = 0.9 * R * u
+    x, y = forward * c - 0.2 * forward * s + noise[0], forward * s + 0.2 * forward * c + noise[1]
+
+    def residuals(e):
+        s, c = np.sin(phi), np.cos(phi)
+        forward = (1 - e[0]) * R * u
+        return np.concatenate([forward * (c - e[1] * s) - x, forward * (s + e[1] * c) - y])
+
+    def slopes(e):
+        s, c = np.sin(phi), np.cos(phi)
+        forward = (1 - e[0]) * R * u
+        by_rc = -R * u * np.concatenate([c - e[1] * s, s + e[1] * c]).reshape(2, -1)
+        return np.stack([by_rc.ravel(), np.concatenate([-forward * s, forward * c])], axis=1)
+
+    def fit():
+        return least_squares(residuals, [0.0, 0.0], slopes, method="lm", xtol=1e-12, ftol=1e-12, gtol=1e-12).x
+
+    assert np.abs(fit() - [0.1, 0.2]).max() < 1e-3
+    return fit
+
+
 def creeps():
     i = np.arange(MANY)
     return -0.2 + 0.4 * i / MANY, 0.2 * (1 - 2 * ((i * 7919) % MANY) / MANY)
@@ -165,4 +195,5 @@ def all_of_them():
     yield "wheels in a sweep, each", "wheels", f"diffrax, Dopri8, {MANY} sets at once", seconds(wheels, MANY)
     yield "ten trailers in a sweep, each", "trains", f"diffrax, Dopri8, {MANY} sets at once", seconds(trains, MANY)
     yield "Jacobian of ten trailers", "jacobian", "CasADi, generated C alone", seconds(casadi_jacobian(), 100_000)
+    yield "fit of e_rc and e_tc to 1000 samples", "fit", "SciPy `least_squares`, exact derivatives", seconds(scipy_fit())
     yield "Jacobian of ten trailers", "jacobian", f"JAX, {MANY} at once", seconds(jax_jacobian(), MANY)

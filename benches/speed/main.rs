@@ -10,6 +10,7 @@ mod adaptive;
 mod growth;
 mod jacobian;
 mod pair;
+mod rates;
 mod serve;
 #[path = "../../src/motion/tableau.rs"]
 #[allow(dead_code)]
@@ -41,12 +42,13 @@ fn main() {
     }
     let only = std::env::args().nth(1).filter(|a| !a.starts_with('-'));
     println!("| work | yardstick | creepage | yardstick | ratio (quartiles) |\n|---|---|---|---|---|");
-    let all: [Named; 5] = [
+    let all: [Named; 6] = [
         ("wheel", single),
         ("wheels", sweep),
         ("train", trailers_single),
         ("trains", trailers_sweep),
         ("jacobian", jacobians),
+        ("fit", fit),
     ];
     for (_, compare) in all.iter().filter(|(name, _)| only.as_ref().is_none_or(|o| o == name)) {
         println!("{}", compare().row());
@@ -112,6 +114,9 @@ fn check() {
     let found = all(&trailers::ensemble(), &cases);
     assert!(cases.iter().zip(&found).all(|(c, z)| difference(&z[..trailers::N], &exact_trailers(*c)) < 1e-10));
     check_jacobian();
+    let rows: Vec<[f64; 4]> = (0..rates::SAMPLES).map(rates::sample).collect();
+    let (ours, theirs) = (rates::Library::new().run(), rates::by_hand(&rows));
+    assert!(difference(&ours, &theirs) < 1e-10 && difference(&ours, &[0.1, 0.2]) < 1e-3, "{ours:?} and {theirs:?}");
 }
 
 fn check_jacobian() {
@@ -207,5 +212,13 @@ fn jacobians() -> Pair {
             );
             black_box(&block.by_phi);
         }
+    })
+}
+
+fn fit() -> Pair {
+    let (ours, rows) = (rates::Library::new(), (0..rates::SAMPLES).map(rates::sample).collect::<Vec<_>>());
+    let work = || drop(black_box(black_box(&ours).run()));
+    pair("fit of e_rc and e_tc to 1000 samples", "Gauss–Newton by hand, scalar", 1, work, || {
+        black_box(rates::by_hand(black_box(&rows)));
     })
 }

@@ -1,7 +1,7 @@
 //! Batches on demand, for a script that times other programs in turn with this one.
 
 use super::pair::processor_time;
-use super::{CREEPS, MANY, jacobian, trailers, wheel};
+use super::{CREEPS, MANY, jacobian, rates, trailers, wheel};
 use creepage::formula::Isa;
 use creepage::motion::Ensemble;
 use std::hint::black_box;
@@ -36,10 +36,12 @@ pub fn serve() {
     let creeps: Vec<[f64; 2]> = (0..MANY).map(|i| wheel::creeps(i, MANY)).collect();
     let cases: Vec<[f64; 2]> = (0..MANY).map(|i| trailers::case(i, MANY)).collect();
     let mut jacobian = jacobian::compiled(jacobian::TRAILERS);
+    let fit = rates::Library::new();
     for line in std::io::stdin().lock().lines() {
         let answer = match line.unwrap().as_str() {
             "wheel" => timed(1, || drop(black_box(one.run(black_box(CREEPS))))),
             "train" => timed(1, || drop(black_box(train.run(black_box([0.5, 0.3]))))),
+            "fit" => timed(1, || drop(black_box(fit.run()))),
             "wheels" => sweep(&wheels, &creeps),
             "trains" => sweep(&trains, &cases),
             "jacobian" => timed(100 * jacobian::LANES, || {

@@ -20,6 +20,13 @@ pub fn model() -> Model {
     model.with_effect(creep("rotation-creep")).with_effect(creep("traverse-creep"))
 }
 
+/// The model with both creeps to be found.
+pub fn free_model() -> Model {
+    let creep = |id: &str| Applied::new(effects::named(id).unwrap(), None, vec![0.0]).freed();
+    let model = Model::new("unicycle", &[("wheel_radius", R)]).unwrap();
+    model.with_effect(creep("rotation-creep")).with_effect(creep("traverse-creep"))
+}
+
 /// The laws of the rates, in the order of the model's inputs (wheel_rate, yaw_rate), and their constants.
 pub fn laws() -> (Vec<Expr>, Vec<(Symbol, f64)>) {
     let [yaw, wheel] = Reading::A.spelled().unwrap().try_into().unwrap();

@@ -246,7 +246,7 @@ fn sample_size(linear: &[Vec<Linear>], e: &Eliminated) -> f64 {
 }
 
 /// The inverse of an information matrix, unless a direction is as good as open.
-fn inverse(information: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+pub(super) fn inverse(information: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     if information.is_empty() {
         return Some(information.clone());
     }

@@ -41,6 +41,7 @@ pub mod manoeuvre;
 pub mod outliers;
 pub mod picture;
 pub mod problem;
+pub mod rates;
 pub mod record;
 pub mod relatives;
 pub mod remaining;

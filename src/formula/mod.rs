@@ -47,7 +47,7 @@ pub use expr::{Expr, Node};
 pub use fun::Fun;
 pub use graph::{Graph, NodeId, Op};
 pub use jet::{Jet, Layout};
-pub use lanes::{Changes, Isa, Kernel, Lanes, Memory};
+pub use lanes::{Changes, Isa, Kernel, Lanes, Memory, Rows};
 pub use latex::latex_symbol;
 pub(crate) use lex::{caret, column_of};
 pub use normal::{Normal, identical};

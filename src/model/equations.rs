@@ -2,7 +2,7 @@
 
 use super::{Model, trailer_heading};
 use crate::error::{Error, Result};
-use crate::formula::{Changes, Expr, Graph, Isa, Lanes, Memory, NodeId, Program, Symbol};
+use crate::formula::{Changes, Expr, Graph, Isa, Lanes, Memory, NodeId, Program, Rows, Symbol};
 use std::collections::BTreeMap;
 
 /// dz/dt = f(z, u, p) and y = h(z, p) with their exact derivatives, compiled once.
@@ -70,6 +70,11 @@ impl Model {
     pub fn equations(&self, free: &[Symbol]) -> Result<Equations> {
         let inputs: Vec<Symbol> = self.inputs.iter().map(|i| Symbol::new(i)).collect();
         self.compiled(free, &[&self.states()[..], &inputs, free].concat())
+    }
+
+    /// The equations of motion with the derivatives of the rates by free symbols alone.
+    pub(crate) fn equations_by(&self, free: &[Symbol]) -> Result<Equations> {
+        self.compiled(free, free)
     }
 
     /// The equations of motion for a simulation: the rates have no derivatives where nothing asks for them. Those of a
@@ -182,8 +187,8 @@ pub struct Workspace<const L: usize = 1> {
     outputs: Memory<L>,
     delay: Memory<L>,
     /// Rates and derivatives of the last evaluation; those that are always zero stay so.
-    slopes: Vec<[f64; L]>,
-    results: Vec<[f64; L]>,
+    slopes: Rows<L>,
+    results: Rows<L>,
 }
 
 impl Equations {
@@ -200,12 +205,18 @@ impl Equations {
         (0..n).take_while(|j| !read(*j)).count()
     }
 
-    /// The states that the rate of each state depends on.
-    pub(crate) fn read_by(&self) -> Vec<Vec<usize>> {
+    /// The columns that the rate of each state depends on: of (z, u, p), or of what the derivatives were asked by.
+    pub(crate) fn live_by_rate(&self) -> Vec<Vec<usize>> {
         let n = self.n();
         let width = self.jacobian.outputs() / n - 1;
         let read = |i: usize, j: &usize| self.live.binary_search(&(n + i * width + j)).is_ok();
-        (0..n).map(|i| (0..n).filter(|j| read(i, j)).collect()).collect()
+        (0..n).map(|i| (0..width).filter(|j| read(i, j)).collect()).collect()
+    }
+
+    /// The states that the rate of each state depends on.
+    pub(crate) fn read_by(&self) -> Vec<Vec<usize>> {
+        let own = |row: Vec<usize>| row.into_iter().filter(|j| *j < self.n()).collect();
+        self.live_by_rate().into_iter().map(own).collect()
     }
 
     /// The same equations with the pose at rest, where the motion of the hidden states does not ask for it.
@@ -225,8 +236,8 @@ impl Equations {
             jacobian: self.memory(&self.jacobian, p),
             outputs: self.memory(&self.outputs, p),
             delay: self.memory(&self.delay, p),
-            slopes: vec![[0.0; L]; self.jacobian.outputs()],
-            results: vec![[0.0; L]; self.outputs.outputs().max(self.delay.outputs())],
+            slopes: Rows::new(self.jacobian.outputs()),
+            results: Rows::new(self.outputs.outputs().max(self.delay.outputs())),
         }
     }
 
@@ -323,7 +334,7 @@ impl Equations {
         let (rates, slopes) = here.split_at(self.n());
         let all = |values: &[[f64; L]], l: usize| values.iter().all(|v| v[l].is_finite());
         let kept: [bool; L] = std::array::from_fn(|l| !all(rates, l) || all(slopes, l));
-        for (k, (new, old)) in w.slopes.iter_mut().zip(&here).enumerate() {
+        for (k, (new, old)) in w.slopes.iter_mut().zip(here.iter()).enumerate() {
             for l in (0..L).filter(|l| k < rates.len() || kept[*l]) {
                 new[l] = old[l];
             }

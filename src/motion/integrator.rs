@@ -245,14 +245,10 @@ impl Walk {
             undefined.set(!rates.iter().all(|v| v.is_finite()));
         };
         let mut end = y.to_vec();
-        let mut start = vec![0.0; y.len()];
-        watched(from, y, &mut start);
-        if undefined.get() {
-            return Err(Error::run(format!("the equations of motion are undefined at t = {from}")));
-        }
         let Integrator { rtol, atol, .. } = self.integrator;
         let request = Request { from, to, rtol, atol, first: self.first, most_steps: self.left };
         let done = self.memory.run(&mut watched, request, &mut end).map_err(|stop| match stop {
+            dop853::Stop::Undefined => Error::run(format!("the equations of motion are undefined at t = {from}")),
             dop853::Stop::Underflow(x) => {
                 self.explain(&IntegrationError::StepSizeUnderflow { x }, undefined.get(), |x| x)
             }

@@ -4,8 +4,10 @@ mod exec;
 mod isa;
 mod lower;
 mod math;
+mod rows;
 
 pub use isa::{Isa, Kernel};
+pub use rows::Rows;
 
 use super::{Fun, Program};
 use exec::{Run, Step};
@@ -64,8 +66,8 @@ pub struct Lanes {
 /// Registers of one thread that runs [`Lanes`].
 #[derive(Clone, Debug)]
 pub struct Memory<const L: usize> {
-    block: Vec<[f64; L]>,
-    instant: Vec<[f64; 1]>,
+    block: Rows<L>,
+    instant: Rows<1>,
 }
 
 impl<const L: usize> Memory<L> {
@@ -90,7 +92,7 @@ impl Lanes {
 
     /// Working memory, constants in place.
     pub fn memory<const L: usize>(&self) -> Memory<L> {
-        let (mut block, mut instant) = (vec![[0.0; L]; self.registers], vec![[0.0; 1]; self.instant_registers]);
+        let (mut block, mut instant) = (Rows::new(self.registers), Rows::new(self.instant_registers));
         for (i, value) in self.constants.iter().enumerate() {
             block[self.inputs + i] = [*value; L];
             instant[self.inputs + i] = [*value];
@@ -114,6 +116,28 @@ impl Lanes {
         exec::execute(&self.instant, &mut memory.instant);
         for (from, to) in &self.handed {
             memory.block[*to as usize] = [memory.instant[*from as usize][0]; L];
+        }
+        exec::execute(&self.body, &mut memory.block);
+    }
+
+    /// Computes what depends on the instant alone and adds it to a list, for [`Lanes::run_at`].
+    #[inline(always)]
+    pub fn push_instant<const L: usize>(&self, memory: &mut Memory<L>, values: &mut Vec<f64>) {
+        exec::execute(&self.instant, &mut memory.instant);
+        values.extend(self.handed.iter().map(|(from, _)| memory.instant[*from as usize][0]));
+    }
+
+    /// How many numbers [`Lanes::push_instant`] adds.
+    #[inline(always)]
+    pub fn instant_len(&self) -> usize {
+        self.handed.len()
+    }
+
+    /// As [`Lanes::run_here`] at an instant of which everything is known.
+    #[inline(always)]
+    pub fn run_at<const L: usize>(&self, memory: &mut Memory<L>, instant: &[f64]) {
+        for ((_, to), value) in self.handed.iter().zip(instant) {
+            memory.block[*to as usize] = [*value; L];
         }
         exec::execute(&self.body, &mut memory.block);
     }

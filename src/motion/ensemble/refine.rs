@@ -1,7 +1,7 @@
 //! Runs with N and 2N steps, until they agree.
 
 use super::equations::LaneEquations;
-use super::steps::{Block, Lane, Scheme, Span, advance};
+use super::steps::{Block, Instants, Lane, Running, Scheme, Span, advance};
 use super::{Case, Ensemble, LANES, Plan, scheme};
 use crate::error::Result;
 use crate::formula::Memory;
@@ -23,6 +23,8 @@ struct Work<'a> {
     scheme: Scheme,
     block: Block,
     readings: Memory<LANES>,
+    /// By how often the number of steps has doubled.
+    instants: Vec<Instants>,
 }
 
 impl Ensemble {
@@ -119,9 +121,13 @@ impl Ensemble {
     fn integrate(&self, work: &mut Work, z0: &[Lane], steps: (f64, u32)) -> Rows {
         let mut z = z0.to_vec();
         let mut rows = Vec::with_capacity(self.times.len());
-        for span in self.spans(work.e) {
-            let span = Span { steps: self.steps_in(&span, steps), ..span };
-            advance(work.e, &work.scheme, span, &mut z, &mut work.block, self.isa);
+        let cut = |span: Span| Span { steps: self.steps_in(&span, steps), ..span };
+        let spans: Vec<Span> = self.spans(work.e).into_iter().map(cut).collect();
+        let instants = &mut work.instants[steps.1 as usize];
+        instants.rewind(work.e, &work.scheme, spans.iter().map(|s| s.steps).sum());
+        for span in spans {
+            let memory = Running { block: &mut work.block, instants };
+            advance(work.e, &work.scheme, span, &mut z, memory, self.isa);
             if span.row {
                 rows.push(z.clone());
             }
@@ -161,7 +167,13 @@ impl Ensemble {
 
 impl<'a> Work<'a> {
     fn new(e: &'a LaneEquations, scheme: Scheme) -> Self {
-        Self { e, block: Block::new(e, scheme.stages), scheme, readings: e.readings.memory() }
+        Self {
+            e,
+            block: Block::new(e, scheme.stages),
+            scheme,
+            readings: e.readings.memory(),
+            instants: vec![Instants::default(); DOUBLINGS as usize + 2],
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::LANES;
 use super::equations::LaneEquations;
-use crate::formula::{Isa, Kernel, Memory};
+use crate::formula::{Isa, Kernel, Memory, Rows};
 use crate::motion::tableau::Tableau;
 
 /// The lanes of one quantity.
@@ -38,11 +38,47 @@ impl Scheme {
     }
 }
 
+/// Most numbers that are kept of the instants of a run.
+const MOST: usize = 1 << 18;
+
+/// What depends on the time alone, stage by stage of a run: the same for every block of cases, and kept for the next one
+/// where it is not too much.
+#[derive(Clone, Default)]
+pub(super) struct Instants {
+    values: Vec<f64>,
+    at: usize,
+    all: usize,
+}
+
+impl Instants {
+    /// To the start of a run of so many steps.
+    pub fn rewind(&mut self, e: &LaneEquations, scheme: &Scheme, steps: usize) {
+        self.at = 0;
+        self.all = steps.saturating_mul(scheme.stages * e.rates.instant_len());
+        if self.values.len() != self.all {
+            self.values.clear();
+        }
+    }
+
+    /// Goes to the next step; whether its instants are to be computed.
+    #[inline(always)]
+    fn next(&mut self) -> bool {
+        if self.all == 0 || self.at < self.values.len() {
+            return false;
+        }
+        if self.all > MOST {
+            self.values.clear();
+            self.at = 0;
+        }
+        true
+    }
+}
+
 /// Memory for integrating a block.
 pub(super) struct Block {
     pub memory: Memory<LANES>,
     /// Rates, stage by stage.
-    k: Vec<Lane>,
+    k: Rows<LANES>,
     logged: Vec<f64>,
     slopes: Vec<f64>,
 }
@@ -52,7 +88,7 @@ impl Block {
         let channels = e.log.as_ref().map_or(0, |l| l.channels());
         Self {
             memory: e.rates.memory(),
-            k: vec![[0.0; LANES]; stages * e.n],
+            k: Rows::new(stages * e.n),
             logged: vec![0.0; channels],
             slopes: vec![0.0; channels],
         }
@@ -60,8 +96,15 @@ impl Block {
 }
 
 /// Advances the states `z` of a block over a span.
-pub(super) fn advance(e: &LaneEquations, scheme: &Scheme, span: Span, z: &mut [Lane], block: &mut Block, isa: Isa) {
-    isa.dispatch(Advance { e, scheme, span, z, block });
+pub(super) fn advance(e: &LaneEquations, scheme: &Scheme, span: Span, z: &mut [Lane], memory: Running, isa: Isa) {
+    let Running { block, instants } = memory;
+    isa.dispatch(Advance { e, scheme, span, z, block, instants });
+}
+
+/// Memory of a run under way.
+pub(super) struct Running<'a> {
+    pub block: &'a mut Block,
+    pub instants: &'a mut Instants,
 }
 
 struct Advance<'a> {
@@ -70,33 +113,41 @@ struct Advance<'a> {
     span: Span,
     z: &'a mut [Lane],
     block: &'a mut Block,
+    instants: &'a mut Instants,
 }
 
 impl Kernel for Advance<'_> {
     #[inline(always)]
     fn run(self) {
-        let Advance { e, scheme, span, z, block } = self;
+        let Advance { e, scheme, span, z, block, instants } = self;
         let h = (span.to - span.from) / span.steps as f64;
         // At the ends themselves rounding would look across a kink of the inputs.
         let margin = 4.0 * f64::EPSILON * span.from.abs().max(span.to.abs());
         let within = [span.from + margin, span.to - margin];
         for i in 0..span.steps {
-            step(e, scheme, (span.from + h * i as f64, h), within, z, block);
+            let t = span.from + h * i as f64;
+            if instants.next() {
+                for c in &scheme.c {
+                    let at = (t + c * h).max(within[0]).min(within[1]);
+                    e.set_clock(at, &mut block.memory, &mut block.logged, &mut block.slopes);
+                    e.rates.push_instant(&mut block.memory, &mut instants.values);
+                }
+            }
+            step(e, scheme, h, z, block, &instants.values[instants.at..]);
+            instants.at += scheme.stages * e.rates.instant_len();
         }
     }
 }
 
 #[inline(always)]
-fn step(e: &LaneEquations, scheme: &Scheme, (t, h): (f64, f64), within: [f64; 2], z: &mut [Lane], block: &mut Block) {
-    let n = e.n;
+fn step(e: &LaneEquations, scheme: &Scheme, h: f64, z: &mut [Lane], block: &mut Block, instants: &[f64]) {
+    let (n, instant) = (e.n, e.rates.instant_len());
     for s in 0..scheme.stages {
         // States that no rate reads need no value between the steps.
         for i in &e.read {
             *block.memory.input(*i) = sum(&z[*i], &scheme.a[s], h, &block.k, n, *i);
         }
-        let at = (t + scheme.c[s] * h).max(within[0]).min(within[1]);
-        e.set_clock(at, &mut block.memory, &mut block.logged, &mut block.slopes);
-        e.rates.run_here(&mut block.memory);
+        e.rates.run_at(&mut block.memory, &instants[s * instant..(s + 1) * instant]);
         for i in 0..n {
             block.k[s * n + i] = *e.rates.output(&block.memory, i);
         }

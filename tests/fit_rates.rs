@@ -51,10 +51,10 @@ fn least_squares_by_search(s: &RateSamples) -> [f64; 2] {
             let (sine, cosine) = s.states[2][i].sin_cos();
             let v = R * s.inputs[0][i];
             let f = [v * (cosine - e_tc * sine), v * (sine + e_tc * cosine)];
-            for k in 0..2 {
-                along += f[k] * s.rates[k][i];
-                square += f[k] * f[k];
-                all += s.rates[k][i] * s.rates[k][i];
+            for (f, rates) in f.iter().zip(&s.rates) {
+                along += f * rates[i];
+                square += f * f;
+                all += rates[i] * rates[i];
             }
         }
         (all - along * along / square, 1.0 - along / square)

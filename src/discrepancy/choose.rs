@@ -50,7 +50,7 @@ pub struct Choice {
     pub steps: Vec<(String, Model)>,
     /// All candidates as they stood against the model as given.
     pub candidates: Vec<Scored>,
-    /// Effects and terms that the whole data ask for, and parts of them with other values: see [`super::stable`].
+    /// Effects and terms that the whole data ask for, and parts of them with other values, so that they are not kept.
     pub unshared: Vec<Applied>,
 }
 

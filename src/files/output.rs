@@ -325,7 +325,7 @@ mod tests {
         let [old, new, folder] = ["old", "new", "folder"].map(|name| dir.path().join(name));
         fs::write(&old, b"old").unwrap();
         fs::create_dir(&folder).unwrap();
-        let ready = |target: &Path| (target.to_path_buf(), prepare(target, b"changed").unwrap());
+        let ready = |target: &Path| (target.to_path_buf(), prepare(target, |to| to.write_all(b"changed")).unwrap());
         let with = |(target, file): (PathBuf, _), kept| (target, file, kept);
         let kept = keep_old(&old).unwrap();
         let all = vec![with(ready(&old), kept), with(ready(&new), None), with(ready(&folder), None)];

@@ -137,3 +137,14 @@ fn runs_that_share_nothing_name_nothing() {
     assert_eq!((report.verdict, report.effects.len()), (Verdict::NotIdentifiable, 0), "{}", report.summary);
     assert!(report.summary.contains("nothing can be named") && report.next_experiment.is_some(), "{}", report.summary);
 }
+
+/// A law in one of three runs: what stands in for it moves from part to part, and its deviations say so.
+#[test]
+fn deviations_are_as_wide_as_parts_scatter() {
+    let hidden = |law| Hidden { scale: -0.03, creep: CREEP, law };
+    let report =
+        report([hidden(|v, w| 0.1 * (1.0 - (-(v * w).powi(2) / 4.0).exp())), hidden(|_, _| 0.0), hidden(|_, _| 0.0)]);
+    let arm = report.effects.iter().find(|e| e.id == "lever-arm").unwrap();
+    let beside = &arm.parameters["b"];
+    assert!(beside.std.unwrap() > 0.015, "{beside:?}");
+}

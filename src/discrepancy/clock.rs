@@ -126,3 +126,19 @@ fn with_delay(model: &Model) -> Model {
     let known = model.effects.iter().find(|e| e.effect.id == DELAY).map_or(0.0, |e| e.values[0]);
     model.clone().with_effect(Applied::new(effect, None, vec![known]).freed())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn clocks_are_blamed_for_long_drifts_that_explain_what_remains() {
+        let drift = |total, gain, explained| Drift { run: "run.csv".into(), total, gain, explained, step: 0.02 };
+        assert!(drift(0.3, 90.0, 0.9).is_mismatch());
+        assert!(drift(-0.3, 90.0, 0.9).is_mismatch());
+        // As a law that grows along a run would have it.
+        assert!(!drift(0.3, 90.0, 0.1).is_mismatch());
+        assert!(!drift(0.05, 90.0, 0.9).is_mismatch());
+        assert!(!drift(0.3, 30.0, 0.9).is_mismatch());
+    }
+}

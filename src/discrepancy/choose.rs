@@ -74,9 +74,8 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &d
         drops: true,
     };
     let named = limits::search(&selection, library, selection.grown(&before, progress)?)?;
-    let grown = unnamed::search(&selection, model, &before, &named, progress)?.unwrap_or(named);
-    let stable = stable::search(&selection, model, &before, grown, progress)?;
-    let Stable { grown, unshared, scatter } = stable;
+    let grown = unnamed::search(&selection, (model, &before), &named, &[], progress)?.unwrap_or(named);
+    let Stable { grown, unshared, scatter } = stable::search(&selection, (model, &before), grown, progress)?;
     let chosen = selection.examined(&grown.fit, scatter.as_ref())?;
     let Grown { fit: after, steps, candidates } = grown;
     Ok(Some(Choice { before, after, chosen, steps, candidates, unshared }))

@@ -93,10 +93,7 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
     let judged = Judged::of(&data, &model, &choice, request.seed)?;
     report.gap = judged.gaps(&horizons(request));
     report.data.warnings.extend(too_long(request, &report));
-    if !choice.unshared.is_empty() {
-        let names = verdict::unshared(&choice);
-        report.data.warnings.push(format!("parts of these runs ask for other values of {names}, so that is not named"));
-    }
+    report.data.warnings.extend(verdict::warning(&choice));
     report.steps = judged.steps(&choice, &report.gap)?;
     report.summary = found.sentence.unwrap_or_else(|| summary::verdict_sentence(&report));
     let added = match report.verdict {

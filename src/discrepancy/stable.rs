@@ -9,9 +9,9 @@ use super::problem::Problem;
 use super::record::Record;
 use super::selection::{FULL, Grown, Selection};
 use super::summary::listed;
-use super::unnamed::{self, is_term, remains};
+use super::unnamed::{self, is_term, remains, still_open};
 use super::windows::plan;
-use crate::effects::{Applied, Effect};
+use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
 use rayon::prelude::*;
@@ -100,8 +100,7 @@ pub(super) struct Stable {
 /// Asked only where motion remains that the fit does not explain: where nothing remains the formal evidence holds.
 pub(super) fn search(
     selection: &Selection,
-    model: &Model,
-    before: &Fit,
+    given: (&Model, &Fit),
     found: Grown,
     progress: &dyn Fn(&str),
 ) -> Result<Stable> {
@@ -113,7 +112,10 @@ pub(super) fn search(
         stable.look_again(selection, progress)?;
     }
     if !stable.unshared.is_empty() && !stable.grown.fit.model.free_effects().any(is_term) {
-        stable.look_for_terms(selection, model, before, progress)?;
+        let named = Grown { fit: stable.grown.fit.clone(), steps: vec![], candidates: vec![] };
+        if let Some(found) = unnamed::search(selection, given, &named, &stable.unshared, progress)? {
+            stable.go_on_with(found);
+        }
         stable.keep_shared(selection, progress)?;
     }
     Ok(stable)
@@ -130,42 +132,19 @@ impl Stable {
             let Some(worst) = worst else { break };
             let Some(smaller) = selection.reduced(&self.grown.fit, &worst)? else { break };
             self.unshared.push(worst);
-            let names: Vec<String> = smaller.model.free_effects().map(Applied::label).collect();
-            let step = (listed(names.iter().map(String::as_str)), smaller.model.clone());
-            self.grown.steps = if names.is_empty() { vec![] } else { vec![step] };
+            let step = (listed(smaller.model.free_effects().map(Applied::label)), smaller.model.clone());
+            self.grown.steps = smaller.model.free_effects().next().map(|_| step).into_iter().collect();
             self.grown.fit = smaller;
             self.scatter = None;
         }
         Ok(self.unshared.len() > known)
     }
 
-    fn is_open(&self, effect: &Effect) -> bool {
-        self.unshared.iter().all(|u| u.effect.id != effect.id)
-    }
-
     /// The search for names from what is shared on, without what is not.
     fn look_again(&mut self, selection: &Selection, progress: &dyn Fn(&str)) -> Result<()> {
-        let library: Vec<Effect> = selection.library.iter().filter(|e| self.is_open(e)).cloned().collect();
+        let library = still_open(selection.library, &self.unshared);
         let found = Selection { library: &library, ..*selection }.grown(&self.grown.fit, progress)?;
         self.go_on_with(found);
-        Ok(())
-    }
-
-    /// The search for an equation of what remains beside the names that are shared.
-    fn look_for_terms(
-        &mut self,
-        selection: &Selection,
-        model: &Model,
-        before: &Fit,
-        progress: &dyn Fn(&str),
-    ) -> Result<()> {
-        let library: Vec<Effect> = selection.library.iter().filter(|e| self.is_open(e)).cloned().collect();
-        let terms: Vec<Effect> = model.terms()?.into_iter().filter(|e| self.is_open(e)).collect();
-        let narrower = Selection { library: &library, ..*selection };
-        let named = Grown { fit: self.grown.fit.clone(), steps: vec![], candidates: vec![] };
-        if let Some(found) = unnamed::search_among(&narrower, terms, model, before, &named, progress)? {
-            self.go_on_with(found);
-        }
         Ok(())
     }
 

@@ -3,6 +3,7 @@
 use super::report::{BeforeAfter, Estimate, Gap, Named, Report, Rival, RunClock, Verdict};
 use crate::picture::number::{decimals, plain, prefixed, significant, with_error};
 use crate::picture::svg::cut;
+use std::borrow::Borrow;
 use std::collections::BTreeMap;
 
 /// Columns of the terminal.
@@ -45,13 +46,20 @@ fn composed_sentence(report: &Report) -> String {
 }
 
 /// Names as a phrase: "a", "a and b", "a, b and c".
-pub fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    let names: Vec<_> = names.collect();
+pub fn listed<S: Borrow<str>>(names: impl IntoIterator<Item = S>) -> String {
+    let names: Vec<S> = names.into_iter().collect();
     match names.split_last() {
         None => "an effect".into(),
-        Some((last, [])) => (*last).into(),
-        Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
+        Some((last, [])) => last.borrow().into(),
+        Some((last, rest)) => format!("{} and {}", rest.join(", "), last.borrow()),
     }
+}
+
+/// The first names as a phrase, and how many more there are.
+pub(super) fn listed_to(names: &[String], most: usize) -> String {
+    let more = names.len().saturating_sub(most);
+    let rest = (more > 0).then(|| format!("{more} more"));
+    listed(names.iter().take(most).chain(&rest).map(String::as_str))
 }
 
 /// The gap at the middle horizon; of two horizons the longer.

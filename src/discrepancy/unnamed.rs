@@ -26,7 +26,12 @@ pub fn is_term(effect: &Applied) -> bool {
 
 /// Whether motion remains that a fit does not explain.
 pub fn remains(fit: &Fit) -> bool {
-    fit.unexplained.iter().any(|gain| gain / fit.dependence() > NOTICEABLE)
+    remaining(fit).next().is_some()
+}
+
+/// The kinds of jumps that a fit needs beyond chance.
+pub(super) fn remaining(fit: &Fit) -> impl Iterator<Item = usize> {
+    (0..fit.unexplained.len()).filter(|c| fit.unexplained[*c] / fit.dependence() > NOTICEABLE)
 }
 
 /// Whether a term may be asked for: something remains, or suspiciously much was needed.
@@ -38,31 +43,19 @@ pub(super) fn is_wanted(named: &Fit) -> bool {
 ///
 /// A term stands for what has no name, so it must do more than a name would: beat the best model of named effects
 /// by BIC and twice the margin, predict the windows left out better, and remove a good share of what is violated at
-/// its place.
+/// its place. What is given up, with or without a name, is not asked again.
 pub(super) fn search(
     selection: &Selection,
-    model: &Model,
-    before: &Fit,
+    (model, before): (&Model, &Fit),
     named: &Grown,
-    progress: &dyn Fn(&str),
-) -> Result<Option<Grown>> {
-    search_among(selection, model.terms()?, model, before, named, progress)
-}
-
-/// As [`search`], with some terms only.
-pub(super) fn search_among(
-    selection: &Selection,
-    terms: Vec<Effect>,
-    model: &Model,
-    before: &Fit,
-    named: &Grown,
+    given_up: &[Applied],
     progress: &dyn Fn(&str),
 ) -> Result<Option<Grown>> {
     if !is_wanted(&named.fit) {
         return Ok(None);
     }
     progress("looking for an equation of what has no name");
-    let library: Vec<Effect> = selection.library.iter().cloned().chain(terms).collect();
+    let library = still_open(selection.library.iter().chain(&model.terms()?), given_up);
     let wider = Selection {
         library: &library,
         size: model.applicable(&library).len() as f64,
@@ -90,6 +83,12 @@ pub(super) fn search_among(
     found.steps = [&named.steps[..], &found.steps].concat();
     found.candidates.clone_from(&named.candidates);
     Ok((better && predicts).then_some(found))
+}
+
+/// The effects of a library without those that were given up.
+pub(super) fn still_open<'e>(library: impl IntoIterator<Item = &'e Effect>, given_up: &[Applied]) -> Vec<Effect> {
+    let is_open = |e: &&Effect| given_up.iter().all(|g| g.effect.id != e.id);
+    library.into_iter().filter(is_open).cloned().collect()
 }
 
 fn named_effects(fit: &Fit) -> usize {

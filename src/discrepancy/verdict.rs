@@ -6,9 +6,8 @@ use super::fit::Fit;
 use super::locate::Violation;
 use super::problem::Problem;
 use super::report::{NextExperiment, Verdict};
-use super::summary::listed;
+use super::summary::{listed, listed_to};
 use super::unnamed;
-use super::whiteness::NOTICEABLE;
 
 /// A verdict with what there is to say about it.
 pub struct Outcome {
@@ -120,8 +119,8 @@ pub fn after_fitting(choice: &Choice, after: &[Violation], clocks: &[Drift]) -> 
     }
 }
 
-/// What parts of the data ask for differently, as a phrase.
-pub(super) fn unshared(choice: &Choice) -> String {
+/// That parts of the data ask for something differently; `None` where they agree.
+fn contradiction(choice: &Choice) -> Option<String> {
     let mut names: Vec<String> = Vec::new();
     for effect in &choice.unshared {
         let name = match unnamed::is_term(effect) {
@@ -132,36 +131,34 @@ pub(super) fn unshared(choice: &Choice) -> String {
             names.push(name);
         }
     }
-    if names.len() > NAMED + 1 {
-        let more = names.split_off(NAMED).len();
-        names.push(format!("{more} more"));
-    }
-    listed(names.iter().map(String::as_str))
+    // The last one takes no more room than its number.
+    let most = if names.len() == NAMED + 1 { NAMED + 1 } else { NAMED };
+    let names = (!names.is_empty()).then(|| listed_to(&names, most));
+    names.map(|names| format!("parts of these runs ask for other values of {names}"))
+}
+
+/// What the report warns of where parts of the data contradict each other.
+pub(super) fn warning(choice: &Choice) -> Option<String> {
+    contradiction(choice).map(|asked| format!("{asked}, so that is not named"))
 }
 
 /// What mends runs whose parts contradict each other: no manoeuvre can be thought through with a model that is wrong,
 /// but where speed and turn change by themselves a law shows as what it is.
 fn settling(choice: &Choice) -> NextExperiment {
-    let asked = match choice.unshared.is_empty() {
-        true => "parts of these runs contradict each other".to_string(),
-        false => format!("parts of these runs ask for other values of {}", unshared(choice)),
-    };
+    let asked = contradiction(choice).unwrap_or_else(|| "parts of these runs contradict each other".into());
     drive(&format!("{asked}: where speed and turn vary together, one law imitates another"))
 }
 
 /// What is named where more remains that is not.
 fn partly(choice: &Choice) -> String {
-    let names: Vec<String> = choice.chosen.iter().map(|c| c.applied.label()).collect();
-    let names = listed(names.iter().map(String::as_str));
+    let names = listed(choice.chosen.iter().map(|c| c.applied.label()));
     format!("The model misses {names}; what else remains differs between parts of these runs and is not named.")
 }
 
 /// Whether what a fit leaves of a constraint is more than chance, and stands out of the noise to the eye.
 fn disagrees(fit: &Fit, after: &[Violation]) -> bool {
-    (0..fit.unexplained.len()).any(|c| {
-        let visible = Violation::rms(after, c).is_some_and(|(rms, noise)| rms > VISIBLE * noise);
-        visible && fit.unexplained[c] / fit.dependence() > NOTICEABLE
-    })
+    let visible = |c: usize| Violation::rms(after, c).is_some_and(|(rms, noise)| rms > VISIBLE * noise);
+    unnamed::remaining(fit).any(visible)
 }
 
 /// A model that misses most of the motion, whatever is added to it.

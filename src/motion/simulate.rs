@@ -80,7 +80,7 @@ pub fn simulate_model(
     let speeds = Speeds::new(model, &equations)?;
     let names = names(&equations);
     let mut columns: Vec<Vec<f64>> = names.iter().map(|_| Vec::with_capacity(times.len())).collect();
-    simulate_by(&equations, &[], inputs, &z0, times, integrator, |t, z| {
+    simulate_by(&equations, &[], inputs, &z0, times, integrator, &mut |t, z| {
         let row = row(t, z, &at(t), &equations, &mut w, &speeds)?;
         columns.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
         Ok(())

@@ -1,6 +1,5 @@
 //! Trajectories of a model and their exact sensitivities.
 
-use super::integrator::Walk;
 use super::stiff::{Differences, Retimed, Slopes};
 use super::{Drive, Integrator};
 use crate::error::{Error, Result};
@@ -41,12 +40,7 @@ pub fn simulate(
     times: &[f64],
     integrator: &Integrator,
 ) -> Result<Vec<Vec<f64>>> {
-    let mut states = Vec::with_capacity(times.len());
-    simulate_by(equations, p, inputs, z0, times, integrator, |_, z| {
-        states.push(z.to_vec());
-        Ok(())
-    })?;
-    Ok(states)
+    kept(times, |see| simulate_by(equations, p, inputs, z0, times, integrator, see))
 }
 
 /// As [`simulate`], of states that are seen one after another, each with its time, and not kept.
@@ -57,7 +51,7 @@ pub(super) fn simulate_by(
     z0: &[f64],
     times: &[f64],
     integrator: &Integrator,
-    see: impl FnMut(f64, &[f64]) -> Result<()>,
+    see: &mut Look,
 ) -> Result<()> {
     fits(equations, p, inputs, z0)?;
     let mut w = equations.workspace(p);
@@ -67,7 +61,7 @@ pub(super) fn simulate_by(
         values(look_up, &mut u);
         equations.rates(&mut w, z, &u, rates);
     };
-    follow_by(inputs.knots(), delay, z0, times, &mut integrator.walk()?, rhs, Differences, see)
+    Route { knots: inputs.knots(), delay, start: z0, times }.follow(integrator, rhs, Differences, see)
 }
 
 /// The states at `times` and their derivatives with respect to (z0, p), from the variational equations
@@ -131,7 +125,8 @@ pub fn with_sensitivities(
     };
     let identity = DMatrix::<f64>::identity(n, n + parameters);
     let y0 = [z0, identity.as_slice()].concat();
-    let rows = follow(inputs.knots(), delay, &y0, times, &mut integrator.walk()?, rhs, Differences)?;
+    let route = Route { knots: inputs.knots(), delay, start: &y0, times };
+    let rows = kept(times, |see| route.follow(integrator, rhs, Differences, see))?;
     let split = |y: Vec<f64>| (y[..n].to_vec(), DMatrix::from_column_slice(n, n + parameters, &y[n..]));
     Ok(rows.into_iter().map(split).collect())
 }
@@ -178,61 +173,65 @@ pub fn integrate(
     rates: impl FnMut(f64, &[f64], &mut [f64]),
     slopes: impl FnMut(f64, &[f64], &mut [f64]),
 ) -> Result<Vec<Vec<f64>>> {
-    follow(knots, 0.0, z0, times, &mut integrator.walk()?, rates, slopes)
+    let route = Route { knots, delay: 0.0, start: z0, times };
+    kept(times, |see| route.follow(integrator, rates, slopes, see))
 }
 
-/// Integrates from the first time through all times, restarting where a knot, delayed, is passed.
-///
-/// `rhs` gets the time at which the inputs are to be looked up. It is kept strictly between the knots around
-/// the span: at the end of a span rounding would else look across the knot, at the other piece's slope.
-fn follow(
-    knots: &[f64],
-    delay: f64,
-    y0: &[f64],
-    times: &[f64],
-    walk: &mut Walk,
-    rhs: impl FnMut(f64, &[f64], &mut [f64]),
-    slopes: impl Slopes,
-) -> Result<Vec<Vec<f64>>> {
+/// What looks at a time and the states then; what fails there ends the integration.
+type Look<'a> = dyn FnMut(f64, &[f64]) -> Result<()> + 'a;
+
+/// All states that are shown, those of each of the times.
+fn kept(times: &[f64], show: impl FnOnce(&mut Look) -> Result<()>) -> Result<Vec<Vec<f64>>> {
     let mut rows = Vec::with_capacity(times.len());
-    follow_by(knots, delay, y0, times, walk, rhs, slopes, |_, y| {
+    show(&mut |_, y| {
         rows.push(y.to_vec());
         Ok(())
     })?;
     Ok(rows)
 }
 
-/// As [`follow`], with a look at every row in place of keeping them.
-#[expect(clippy::too_many_arguments, reason = "those of follow, and the look")]
-fn follow_by(
-    knots: &[f64],
+/// Where an integration begins, and the times it goes through; the inputs' knots are met a delay later.
+struct Route<'a> {
+    knots: &'a [f64],
     delay: f64,
-    y0: &[f64],
-    times: &[f64],
-    walk: &mut Walk,
-    mut rhs: impl FnMut(f64, &[f64], &mut [f64]),
-    mut slopes: impl Slopes,
-    mut see: impl FnMut(f64, &[f64]) -> Result<()>,
-) -> Result<()> {
-    if !delay.is_finite() {
-        return Err(Error::run("the delay of the inputs is undefined"));
-    }
-    let mut y = y0.to_vec();
-    let mut last = times.first().copied().unwrap_or(0.0);
-    for time in times {
-        for (from, to) in spans(knots, delay, last, *time) {
-            let after = knots.partition_point(|k| *k <= (from + to) / 2.0 - delay);
-            let low = if after == 0 { f64::NEG_INFINITY } else { knots[after - 1].next_up() };
-            let high = knots.get(after).map_or(f64::INFINITY, |k| k.next_down());
-            let look_up = |t: f64| (t - delay).max(low).min(high);
-            let mut rhs = |t: f64, y: &[f64], rates: &mut [f64]| rhs(look_up(t), y, rates);
-            let mut slopes = Retimed { slopes: &mut slopes, time: look_up, factor: 1.0 };
-            y = walk.span(&mut rhs, &mut slopes, from, to, &y)?;
+    start: &'a [f64],
+    times: &'a [f64],
+}
+
+impl Route<'_> {
+    /// Integrates from the first time through all times, restarting where a knot, delayed, is passed.
+    ///
+    /// `rhs` gets the time at which the inputs are to be looked up. It is kept strictly between the knots around
+    /// the span: at the end of a span rounding would else look across the knot, at the other piece's slope.
+    fn follow(
+        &self,
+        integrator: &Integrator,
+        mut rhs: impl FnMut(f64, &[f64], &mut [f64]),
+        mut slopes: impl Slopes,
+        see: &mut Look,
+    ) -> Result<()> {
+        let mut walk = integrator.walk()?;
+        let Self { knots, delay, start, times } = *self;
+        if !delay.is_finite() {
+            return Err(Error::run("the delay of the inputs is undefined"));
         }
-        see(*time, &y)?;
-        last = *time;
+        let mut y = start.to_vec();
+        let mut last = times.first().copied().unwrap_or(0.0);
+        for time in times {
+            for (from, to) in spans(knots, delay, last, *time) {
+                let after = knots.partition_point(|k| *k <= (from + to) / 2.0 - delay);
+                let low = if after == 0 { f64::NEG_INFINITY } else { knots[after - 1].next_up() };
+                let high = knots.get(after).map_or(f64::INFINITY, |k| k.next_down());
+                let look_up = |t: f64| (t - delay).max(low).min(high);
+                let mut rhs = |t: f64, y: &[f64], rates: &mut [f64]| rhs(look_up(t), y, rates);
+                let mut slopes = Retimed { slopes: &mut slopes, time: look_up, factor: 1.0 };
+                y = walk.span(&mut rhs, &mut slopes, from, to, &y)?;
+            }
+            see(*time, &y)?;
+            last = *time;
+        }
+        Ok(())
     }
-    Ok(())
 }
 
 /// The way from one time to another cut at the delayed knots.

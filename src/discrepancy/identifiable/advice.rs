@@ -9,7 +9,7 @@ use crate::discrepancy::fit::Fit;
 use crate::discrepancy::manoeuvre::{Manoeuvre, library};
 use crate::discrepancy::problem::{Problem, pose_of};
 use crate::discrepancy::report::NextExperiment;
-use crate::discrepancy::summary::listed;
+use crate::discrepancy::summary::listed_to;
 use crate::discrepancy::windows::{Starts, plan};
 use crate::error::Result;
 use rayon::prelude::*;
@@ -104,9 +104,7 @@ impl Open<'_> {
             let why = "one minute within these speeds and turns mends nothing of it by itself; this says most".into();
             return NextExperiment { why, manoeuvre: format!("{sentence}; repeat it") };
         }
-        let more = names.len().saturating_sub(NAMED);
-        let last = format!("{more} more");
-        let named = names.iter().take(NAMED).map(String::as_str).chain((more > 0).then_some(last.as_str()));
-        NextExperiment { why: format!("the minute is expected to {}", listed(named)), manoeuvre: sentence.into() }
+        let why = format!("the minute is expected to {}", listed_to(&names, NAMED));
+        NextExperiment { why, manoeuvre: sentence.into() }
     }
 }

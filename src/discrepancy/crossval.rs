@@ -6,7 +6,7 @@ use super::problem::Problem;
 use super::variances::noise_determinant;
 use super::windows::{Linear, linearise};
 use crate::error::Result;
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 /// Parts that are left out in turn.
 const FOLDS: usize = 5;
@@ -17,7 +17,7 @@ const BLOCK: usize = 10;
 
 /// What is left out together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
+enum Part {
     /// A whole run: what moves from run to run is no finding.
     Run,
     /// Every fifth block of neighbouring windows.
@@ -25,21 +25,6 @@ pub enum Part {
 }
 
 impl Problem {
-    /// For every part of the data its deviance under the values that the others give.
-    ///
-    /// | symbol | meaning |
-    /// |---|---|
-    /// | part | a run, or every fifth block of windows; its poses are its own |
-    /// | values | to first order about the fit, so that no part is fitted anew |
-    ///
-    /// Smaller is better; differences between models of the same data count. `None` where a part leaves a parameter open.
-    ///
-    /// # Errors
-    /// When the model's formulas are malformed.
-    pub fn left_out(&self, fit: &Fit, part: Part) -> Result<Option<Vec<f64>>> {
-        Ok(self.linear(fit)?.and_then(|linear| self.deviances(fit, &linear, part)))
-    }
-
     /// Whether a model predicts the parts it was not fitted to better than another: all together, and most of those
     /// in which the two differ at all.
     ///
@@ -47,7 +32,7 @@ impl Problem {
     /// blocks of windows, and the runs must be predicted better all together.
     ///
     /// # Errors
-    /// As [`Problem::left_out`].
+    /// When the model's formulas are malformed.
     pub fn predicts_better(&self, fit: &Fit, than: &Fit) -> Result<bool> {
         let runs = self.records.len();
         let part = if runs >= FEWEST_RUNS { Part::Run } else { Part::Blocks };
@@ -76,19 +61,28 @@ impl Problem {
         Ok(linearise(&equations, &fit.p, &self.records, &self.plan, &fit.starts))
     }
 
+    /// For every part of the data its deviance under the values that the others give, to first order about the fit, so
+    /// that no part is fitted anew; its poses are its own. Smaller is better; differences between models of the same data
+    /// count. `None` where a part leaves a parameter open.
     fn deviances(&self, fit: &Fit, linear: &Along, part: Part) -> Option<Vec<f64>> {
-        let blocks = self.blocks(linear, part);
-        let folds = blocks.iter().map(|b| b.fold + 1).max().unwrap_or(0);
-        (0..folds).map(|fold| of_fold(&blocks, fold, &fit.variances, fit.p.len())).collect()
+        let own = self.shares(fit, linear, part)?;
+        let shares = own.iter().zip(others(&own, fit.p.len()));
+        shares.map(|(own, others)| own.under(&others)).collect()
     }
 
-    /// Whole runs, or neighbouring windows cut loose from one another.
-    fn blocks(&self, linear: &Along, part: Part) -> Vec<Block> {
-        if part == Part::Run {
-            let whole = self.plan.iter().zip(linear);
-            return whole.map(|(s, windows)| Block { fold: s.record, windows: windows.clone() }).collect();
+    /// What each part of the data says of the values: whole runs, or neighbouring windows cut loose from one another.
+    fn shares(&self, fit: &Fit, linear: &Along, part: Part) -> Option<Vec<Share>> {
+        let blocks = if part == Part::Blocks { loose(linear) } else { vec![] };
+        let folded: Vec<(usize, &Vec<Linear>)> = match part {
+            Part::Run => self.plan.iter().map(|s| s.record).zip(linear).collect(),
+            Part::Blocks => blocks.iter().enumerate().map(|(i, b)| (i % FOLDS, b)).collect(),
+        };
+        let folds = folded.iter().map(|(fold, _)| fold + 1).max().unwrap_or(0);
+        let mut shares = vec![Share::nothing(fit.p.len()); folds];
+        for (fold, windows) in folded {
+            shares[fold].add(windows, &fit.variances, fit.p.len())?;
         }
-        loose(linear).into_iter().enumerate().map(|(i, windows)| Block { fold: i % FOLDS, windows }).collect()
+        Some(shares)
     }
 }
 
@@ -113,25 +107,91 @@ fn total(gains: &[f64]) -> f64 {
     gains.iter().sum()
 }
 
-/// Windows that stay together, and the part they belong to.
-struct Block {
-    fold: usize,
-    windows: Vec<Linear>,
+/// What a part of the data says of the values, its poses eliminated: twice the negative log likelihood.
+#[derive(Clone)]
+struct Share {
+    /// The quadratic form in (δp, 1).
+    form: DMatrix<f64>,
+    /// What does not depend on the values.
+    constant: f64,
 }
 
-fn of_fold(blocks: &[Block], fold: usize, v: &Variances, parameters: usize) -> Option<f64> {
-    let pick = |out: bool| -> Vec<Vec<Linear>> {
-        let chosen = blocks.iter().filter(|b| (b.fold == fold) == out);
-        chosen.map(|b| b.windows.clone()).collect()
-    };
-    let (fitted, judged) = (eliminate(&pick(false), v, parameters)?, pick(true));
-    let (information, gradient) = fitted.normal();
-    let delta = match parameters {
-        0 => DVector::zeros(0),
-        _ => -information.cholesky()?.solve(&gradient),
-    };
-    let left_out = eliminate(&judged, v, parameters)?;
-    let one = delta.push(1.0);
-    let cost = one.dot(&(&left_out.form * &one));
-    Some(cost + left_out.log_determinant + noise_determinant(&judged, v))
+impl Share {
+    fn nothing(parameters: usize) -> Self {
+        Self { form: DMatrix::zeros(parameters + 1, parameters + 1), constant: 0.0 }
+    }
+
+    fn add(&mut self, windows: &Vec<Linear>, v: &Variances, parameters: usize) -> Option<()> {
+        let windows = std::slice::from_ref(windows);
+        let eliminated = eliminate(windows, v, parameters)?;
+        self.form += eliminated.form;
+        self.constant += eliminated.log_determinant + noise_determinant(windows, v);
+        Some(())
+    }
+
+    /// The part's deviance where another part's form is least; `None` where that leaves a value open.
+    fn under(&self, others: &DMatrix<f64>) -> Option<f64> {
+        let p = others.nrows() - 1;
+        let delta = match p {
+            0 => DVector::zeros(0),
+            _ => -others.view((0, 0), (p, p)).into_owned().cholesky()?.solve(&others.view((0, p), (p, 1)).column(0)),
+        };
+        let one = delta.push(1.0);
+        Some(one.dot(&(&self.form * &one)) + self.constant)
+    }
+}
+
+/// For each part the form of all others: sums from both ends, so that the cost is linear in the parts and nothing
+/// cancels.
+fn others(own: &[Share], parameters: usize) -> Vec<DMatrix<f64>> {
+    let nothing = DMatrix::zeros(parameters + 1, parameters + 1);
+    let mut after = vec![nothing.clone()];
+    for share in own.iter().skip(1).rev() {
+        after.push(&after[after.len() - 1] + &share.form);
+    }
+    let mut before = nothing;
+    let both = own.iter().zip(after.into_iter().rev()).map(|(share, after)| {
+        let sum = &before + after;
+        before += &share.form;
+        sum
+    });
+    both.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// (a − x)² + (b − y)² + c, times a weight.
+    fn share(a: f64, b: f64, c: f64, weight: f64) -> Share {
+        let form = DMatrix::from_row_slice(3, 3, &[1.0, 0.0, -a, 0.0, 1.0, -b, -a, -b, a * a + b * b + c]) * weight;
+        Share { form, constant: 0.5 }
+    }
+
+    fn close(a: f64, b: f64) -> bool {
+        (a - b).abs() < 1e-12
+    }
+
+    #[test]
+    fn each_part_is_judged_where_the_others_are_at_their_best() {
+        let parts = [share(1.0, 0.0, 0.0, 1.0), share(3.0, 2.0, 0.0, 1.0), share(6.0, -4.0, 7.0, 2.0)];
+        let judged: Vec<f64> = parts.iter().zip(others(&parts, 2)).map(|(p, o)| p.under(&o).expect("told")).collect();
+        // The others' means, weighted: (5, -2), (13/3, -8/3), (2, 1).
+        assert!(close(judged[0], 16.0 + 4.0 + 0.5), "{judged:?}");
+        assert!(close(judged[1], (4.0_f64 / 3.0).powi(2) + (14.0_f64 / 3.0).powi(2) + 0.5), "{judged:?}");
+        assert!(close(judged[2], 2.0 * (16.0 + 25.0 + 7.0) + 0.5), "{judged:?}");
+    }
+
+    #[test]
+    fn one_part_alone_leaves_the_values_open() {
+        let alone = [share(1.0, 2.0, 0.0, 1.0)];
+        assert_eq!(others(&alone, 2).iter().filter_map(|o| alone[0].under(o)).count(), 0);
+        assert!(others(&[], 2).is_empty());
+    }
+
+    #[test]
+    fn without_values_a_part_is_judged_as_it_is() {
+        let part = Share { form: DMatrix::from_element(1, 1, 4.0), constant: -1.0 };
+        assert_eq!(part.under(&DMatrix::zeros(1, 1)), Some(3.0));
+    }
 }

@@ -194,6 +194,12 @@ mod tests {
     }
 
     #[test]
+    fn one_tick_alone_is_no_scale() {
+        let axis = Axis::linear("v", "m/s", [-4.0, 4.0]).along([0.0, 130.0]);
+        assert_eq!(labels(&axis), ["−4", "−2", "0", "2", "4"]);
+    }
+
+    #[test]
     fn far_origins_and_small_values_leave_the_labels() {
         let axis = Axis::linear("x", "m", [4_500_000.0, 4_500_010.0]).along([0.0, 300.0]);
         assert_eq!((labels(&axis)[0].as_str(), axis.caption().as_str()), ("0", "x − 4500000, m"));

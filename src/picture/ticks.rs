@@ -19,9 +19,13 @@ fn scaled(digit: f64, exponent: i32) -> f64 {
     format!("{digit}e{exponent}").parse().unwrap_or(1.0)
 }
 
-/// Multiples of a nice step within a range, at most about `count` of them.
+/// Multiples of a nice step within a range, at most about `count` of them, but two: a single one shows no scale.
 pub fn linear(from: f64, to: f64, count: usize) -> (Vec<f64>, f64) {
-    let step = nice_step((to - from) / count.max(1) as f64);
+    let at = |count: usize| multiples(from, to, nice_step((to - from) / count.max(1) as f64));
+    (count..=count + 3).map(at).find(|(values, _)| values.len() > 1).unwrap_or_else(|| at(count))
+}
+
+fn multiples(from: f64, to: f64, step: f64) -> (Vec<f64>, f64) {
     let first = (from / step - 1e-9).ceil();
     let last = (to / step + 1e-9).floor();
     let steps = if last >= first { (last - first) as usize } else { 0 };

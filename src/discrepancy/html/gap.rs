@@ -27,7 +27,7 @@ pub enum Axes {
 pub fn figure(report: &Report, pictures: &Pictures) -> Option<Element> {
     let curve = curve(report, pictures)?;
     let mut drawings = vec![panel(report, &curve, Axes::Log, SIZE, "gap-log")?];
-    drawings.extend(heading_curve(report).and_then(|c| heading_panel(&c)));
+    drawings.extend(heading_curve(report).and_then(|c| heading_panel(report, &c)));
     let see = "The gap over the horizon on logarithmic axes: how near the patched model comes to the noise.";
     let how = format!(
         "RMS error of prediction on the {} data after the model was restarted on the measured path. Inside the grey band \
@@ -83,9 +83,9 @@ pub fn panel(report: &Report, curve: &GapCurve, axes: Axes, size: Size, id: &str
     Some(panel.finish(id, "Position error over the horizon", description))
 }
 
-fn heading_panel(curve: &GapCurve) -> Option<Element> {
+fn heading_panel(report: &Report, curve: &GapCurve) -> Option<Element> {
     let mut panel = drawn(curve, ("heading error", "rad"), Axes::Log, SIZE)?;
-    panel.heading("Heading error over horizon", "");
+    panel.heading("Heading error over horizon", &format!("{} data", data_name(report)));
     let description = "RMS heading error of prediction over the horizon, before and after, and the noise floor.";
     Some(panel.finish("gap-heading", "Heading error over the horizon", description))
 }

@@ -9,11 +9,15 @@ use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 use std::ops::Range;
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 /// Numbers a block of cases holds, about.
 const BLOCK: usize = 1 << 16;
-/// Blocks that are computed between two writes, for each thread.
-const ROUND: usize = 4;
+/// Blocks that are computed between two writes, for each thread: at first, and at most.
+const ROUND: [usize; 2] = [4, 64];
+/// A round that takes less than this may be longer: at its end threads wait for one another. What is longer would be lost
+/// by a kill.
+const QUICK: Duration = Duration::from_millis(50);
 
 /// How far a sweep is, in cases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,9 +68,11 @@ impl Sweep {
         let all = range.len();
         let mut next = range.start + journal.cases();
         let mut computed: Vec<Result<Rows>> = vec![];
+        let mut blocks = ROUND[0];
         loop {
             tell(Progress { found: journal.found, done: journal.cases(), all });
-            let round = next..range.end.min(next + self.round());
+            let began = Instant::now();
+            let round = next..range.end.min(next + self.block() * blocks * rayon::current_num_threads());
             next = round.end;
             // What was computed is written while the next cases are.
             let before = std::mem::take(&mut computed);
@@ -77,6 +83,9 @@ impl Sweep {
             if last {
                 break;
             }
+            if began.elapsed() < QUICK {
+                blocks = ROUND[1].min(2 * blocks);
+            }
         }
         let ([undefined, not_converged], found) = (journal.troubles(), journal.found);
         journal.finish(out, format, &columns)?;
@@ -86,10 +95,6 @@ impl Sweep {
     /// Cases of a block: whole vectors, and not more numbers than fit near the processor.
     fn block(&self) -> usize {
         (BLOCK / (self.rows * self.width)).clamp(32, 1024) / 32 * 32
-    }
-
-    fn round(&self) -> usize {
-        self.block() * ROUND * rayon::current_num_threads()
     }
 
     fn compute(&self, cases: Range<usize>, format: Format) -> Vec<Result<Rows>> {

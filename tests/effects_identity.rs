@@ -1,5 +1,6 @@
 //! Effects that are the same under another name are proved to be, and near misses are not.
 
+use creepage::describe::every_effect_page;
 use creepage::discrepancy::identity::{Measured, Relation, TURN, relation};
 use creepage::effects::{self, Applied, Effect};
 use creepage::formula::{Expr, Symbol, identical};
@@ -202,4 +203,15 @@ fn what_differs_is_called_different() {
     ] {
         assert_eq!(word(&between(vehicle, a, b, Measured::ALL)), "different", "{vehicle}: {a}, {b}");
     }
+}
+
+#[test]
+fn the_page_of_every_effect_on_every_vehicle_is_not_stale() {
+    let fresh = every_effect_page(None, vehicles::all(), effects::all()).unwrap();
+    let kept = concat!(env!("CARGO_MANIFEST_DIR"), "/book/src/guide/every-effect.md");
+    let kept = std::fs::read_to_string(kept).unwrap();
+    assert!(kept == fresh, "run: creepage effects --format page > book/src/guide/every-effect.md");
+    assert!(fresh.contains("| `input-delay` | `u(t) becomes u(t - delay)` |"), "what a delay does to the inputs");
+    let without = "\nNo effect is applied to `sleigh`, `skid-steer`: their motion follows from forces or momenta.\n";
+    assert!(fresh.ends_with(without), "vehicles without a table are named");
 }

@@ -5,7 +5,8 @@ use super::print;
 use clap::{Args, ValueEnum};
 use creepage::Result;
 use creepage::describe::{
-    effects_json, effects_text, vehicle_effects_json, vehicle_effects_text, vehicles_json, vehicles_text,
+    effects_json, effects_text, every_effect_page, vehicle_effects_json, vehicle_effects_text, vehicles_json,
+    vehicles_text,
 };
 
 /// List the vehicles a model file may name
@@ -27,6 +28,7 @@ pub struct Vehicles {
 Examples:
   creepage effects
   creepage effects --vehicle car
+  creepage effects --format page
   creepage effects --effects examples/effects/my_effects.toml
   creepage effects --vehicles examples/bus/bus.toml --vehicle articulated-bus")]
 pub struct Effects {
@@ -34,10 +36,18 @@ pub struct Effects {
     #[arg(long, value_name = "NAME")]
     vehicle: Option<String>,
     /// How to print them
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = EffectsFormat::Text)]
+    format: EffectsFormat,
     #[command(flatten)]
     own: Own,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum EffectsFormat {
+    Text,
+    Json,
+    /// A Markdown page: tables of the equations that every effect rewrites on every vehicle
+    Page,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -63,14 +73,12 @@ pub fn vehicles(arguments: &Vehicles) -> Result<()> {
 /// Carries out `creepage effects`.
 pub fn effects(arguments: &Effects) -> Result<()> {
     let (vehicles, library) = arguments.own.catalogues()?;
-    if let Some(vehicle) = &arguments.vehicle {
-        return print(&match arguments.format {
-            Format::Text => vehicle_effects_text(vehicle, &vehicles, &library)?,
-            Format::Json => pretty(&vehicle_effects_json(vehicle, &vehicles, &library)?),
-        });
-    }
-    print(&match arguments.format {
-        Format::Text => effects_text(&vehicles, &library)?,
-        Format::Json => pretty(&effects_json(&vehicles, &library)?),
+    let one = arguments.vehicle.as_deref();
+    print(&match (arguments.format, one) {
+        (EffectsFormat::Page, one) => every_effect_page(one, &vehicles, &library)?,
+        (EffectsFormat::Text, Some(vehicle)) => vehicle_effects_text(vehicle, &vehicles, &library)?,
+        (EffectsFormat::Json, Some(vehicle)) => pretty(&vehicle_effects_json(vehicle, &vehicles, &library)?),
+        (EffectsFormat::Text, None) => effects_text(&vehicles, &library)?,
+        (EffectsFormat::Json, None) => pretty(&effects_json(&vehicles, &library)?),
     })
 }

@@ -28,7 +28,7 @@ use serde_json::{Value, json};
 pub fn vehicle_effects_text(vehicle: &str, vehicles: &[Vehicle], library: &[Effect]) -> Result<String> {
     let model = model_of(vehicle, vehicles)?;
     model.determined()?;
-    let all: Vec<Applied> = model.applicable(library).into_iter().map(|(e, t)| open(e, t)).collect();
+    let all = applied(&model, library);
     let related: Vec<Vec<String>> = all.par_iter().map(|a| relatives(&model, a, &all)).collect();
     let mut page = Page::default();
     page.heading(1, &format!("Effects on {vehicle}"));
@@ -41,6 +41,61 @@ pub fn vehicle_effects_text(vehicle: &str, vehicles: &[Vehicle], library: &[Effe
     Ok(page.finished())
 }
 
+/// Every effect on every vehicle, or on one: the equations it rewrites and its relatives, a Markdown page with a table for
+/// each vehicle.
+///
+/// Vehicles whose constraints leave their motion open, and those that no effect applies to, are named at the end.
+///
+/// # Errors
+/// When no vehicle has that name, or one cannot be built.
+///
+/// ```
+/// use creepage::{describe::every_effect_page, effects, vehicles};
+/// let page = every_effect_page(Some("car"), vehicles::all(), effects::all()).unwrap();
+/// assert!(page.contains("| `wheel-radius` | `r = wheel_radius*(1 + scale)` | identical to `rotation-creep`"));
+/// ```
+pub fn every_effect_page(only: Option<&str>, vehicles: &[Vehicle], library: &[Effect]) -> Result<String> {
+    let ids: Vec<&str> = match only {
+        Some(id) => vec![id],
+        None => vehicles.iter().map(|v| v.id.as_str()).chain([WITH_TRAILERS]).collect(),
+    };
+    let mut page = format!("# Every effect on every vehicle\n\n{PAGE}\n");
+    let mut without = Vec::new();
+    for id in ids {
+        let model = model_of(id, vehicles)?;
+        let all = applied(&model, library);
+        if model.determined().is_err() || all.is_empty() {
+            without.push(format!("`{id}`"));
+            continue;
+        }
+        let row = |a: &Applied| table_row(&model, a, &all);
+        let rows: Vec<String> = all.par_iter().map(row).collect();
+        page += &format!("\n## {id}\n\n| effect | what it rewrites | relatives |\n|---|---|---|\n{}", rows.concat());
+    }
+    if !without.is_empty() {
+        page += &format!(
+            "\nNo effect is applied to {}: their motion follows from forces or momenta.\n",
+            without.join(", ")
+        );
+    }
+    Ok(page)
+}
+
+/// What stands above the tables.
+const PAGE: &str = "What `discover` can name, with the equations that stand in the patched model; letters are those of \
+                    `creepage describe`. The sensor sits at the reference point and measures heading and trailers.";
+
+fn table_row(model: &Model, a: &Applied, all: &[Applied]) -> String {
+    let code = |text: &str| format!("`{text}`");
+    let equations: Vec<String> = equation(a, model).split("; ").map(code).collect();
+    let relatives: Vec<String> = related(model, a, all).iter().map(|(b, r)| words(r, &code(b), code)).collect();
+    format!("| {} | {} | {} |\n", code(&a.label()), equations.join("<br>"), relatives.join("<br>"))
+}
+
+fn applied(model: &Model, library: &[Effect]) -> Vec<Applied> {
+    model.applicable(library).into_iter().map(|(e, t)| open(e, t)).collect()
+}
+
 /// As [`vehicle_effects_text`], as JSON: id, trailer, meaning, equations and relatives of every effect.
 ///
 /// # Errors
@@ -48,7 +103,7 @@ pub fn vehicle_effects_text(vehicle: &str, vehicles: &[Vehicle], library: &[Effe
 pub fn vehicle_effects_json(vehicle: &str, vehicles: &[Vehicle], library: &[Effect]) -> Result<Value> {
     let model = model_of(vehicle, vehicles)?;
     model.determined()?;
-    let all: Vec<Applied> = model.applicable(library).into_iter().map(|(e, t)| open(e, t)).collect();
+    let all = applied(&model, library);
     let entry = |a: &Applied| {
         let equation = equation(a, &model);
         json!({
@@ -80,25 +135,30 @@ fn model_of(name: &str, vehicles: &[Vehicle]) -> Result<Model> {
     }
 }
 
-/// What an effect is to each of the others, as far as it is anything.
+/// What an effect is to each of the others, as far as it is anything, in words.
 fn relatives(model: &Model, a: &Applied, all: &[Applied]) -> Vec<String> {
-    let others = all.iter().filter(|b| !b.same_as(a));
-    others
-        .filter_map(|b| words(&relation(model, std::slice::from_ref(a), std::slice::from_ref(b), Measured::ALL), b))
-        .collect()
+    related(model, a, all).iter().map(|(b, r)| words(r, b, str::to_string)).collect()
 }
 
-fn words(relation: &Relation, other: &Applied) -> Option<String> {
-    let name = other.label();
-    Some(match relation {
+/// The others that an effect is related to, by their labels.
+fn related(model: &Model, a: &Applied, all: &[Applied]) -> Vec<(String, Relation)> {
+    let others = all.iter().filter(|b| !b.same_as(a));
+    let found =
+        others.map(|b| (b.label(), relation(model, std::slice::from_ref(a), std::slice::from_ref(b), Measured::ALL)));
+    found.filter(|(_, r)| !matches!(r, Relation::Different)).collect()
+}
+
+/// A relation to another effect, formulas set as they are to be.
+fn words(relation: &Relation, name: &str, set: impl Fn(&str) -> String) -> String {
+    let formulas = |change: &Change| {
+        let all: Vec<String> = change.iter().map(|(s, f)| set(&format!("{s} = {f}"))).collect();
+        all.join(", ")
+    };
+    match relation {
         Relation::Identical(change) => format!("identical to {name}: {}", formulas(change)),
         Relation::Contained(change) => format!("a special case of {name}: {}", formulas(change)),
         Relation::Contains(change) => format!("{name} is a special case of it: {}", formulas(change)),
         Relation::FirstOrder => format!("agrees with {name} to first order"),
-        Relation::Different => return None,
-    })
-}
-
-fn formulas(change: &Change) -> String {
-    change.iter().map(|(s, f)| format!("{s} = {f}")).collect::<Vec<_>>().join(", ")
+        Relation::Different => format!("differs from {name}"),
+    }
 }

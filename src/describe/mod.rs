@@ -38,7 +38,7 @@ pub use effects::{effects_json, effects_text};
 pub use holonomy::Holonomy;
 pub use jacobian::Jacobian;
 pub use json::json;
-pub use kinship::{vehicle_effects_json, vehicle_effects_text};
+pub use kinship::{every_effect_page, vehicle_effects_json, vehicle_effects_text};
 pub use latex::latex;
 pub use meaning::universal;
 pub use realised::Realised;

@@ -82,8 +82,8 @@ pub fn equation(applied: &Applied, model: &Model) -> String {
     lines.join("; ")
 }
 
-/// The constraint whose creep coefficient a name is.
+/// The constraint whose creep coefficient a name is; of the time that inputs lag, what it does to them.
 fn constraint_of(name: &str, model: &Model) -> String {
     let found = model.constraints().into_iter().find(|c| c.creep.as_str() == name);
-    found.map_or_else(|| name.to_string(), |c| format!("{} = 0", c.row()))
+    found.map_or_else(|| format!("u(t) becomes u(t - {name})"), |c| format!("{} = 0", c.row()))
 }

@@ -97,7 +97,9 @@ pub fn summary_text(report: &Report) -> String {
     let gap = gap_lines(&report.gap);
     let mut tail = Vec::new();
     tail.extend(report.next_experiment.iter().map(|_| String::new()));
-    tail.extend(report.next_experiment.iter().flat_map(|n| wrapped(&format!("Next: {} {}", n.manoeuvre, n.why), 0, 3)));
+    tail.extend(
+        report.next_experiment.iter().flat_map(|n| wrapped(&format!("Next: {}: {}", n.manoeuvre, n.why), 0, 3)),
+    );
     tail.extend(data_lines(report));
     lines.truncate(LINES - gap.len() - tail.len());
     lines.extend(gap);

@@ -212,6 +212,9 @@ fn the_page_of_every_effect_on_every_vehicle_is_not_stale() {
     let kept = std::fs::read_to_string(kept).unwrap();
     assert!(kept == fresh, "run: creepage effects --format page > book/src/guide/every-effect.md");
     assert!(fresh.contains("| `input-delay` | `u(t) becomes u(t - delay)` |"), "what a delay does to the inputs");
-    let without = "\nNo effect is applied to `sleigh`, `skid-steer`: their motion follows from forces or momenta.\n";
-    assert!(fresh.ends_with(without), "vehicles without a table are named");
+    let open =
+        "\nNo effect is fitted on `sleigh`, `skid-steer`: their constraints alone do not determine their motion.\n";
+    assert!(fresh.ends_with(open), "vehicles without a table are named");
+    let sleigh = every_effect_page(Some("sleigh"), vehicles::all(), effects::all());
+    assert!(sleigh.unwrap_err().to_string().contains("do not determine its motion"));
 }

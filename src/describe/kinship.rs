@@ -44,10 +44,10 @@ pub fn vehicle_effects_text(vehicle: &str, vehicles: &[Vehicle], library: &[Effe
 /// Every effect on every vehicle, or on one: the equations it rewrites and its relatives, a Markdown page with a table for
 /// each vehicle.
 ///
-/// Vehicles whose constraints leave their motion open, and those that no effect applies to, are named at the end.
+/// Vehicles whose constraints leave their motion open are named at the end.
 ///
 /// # Errors
-/// When no vehicle has that name, or one cannot be built.
+/// When no vehicle has that name, one cannot be built, or the constraints of the only one do not determine its motion.
 ///
 /// ```
 /// use creepage::{describe::every_effect_page, effects, vehicles};
@@ -60,23 +60,18 @@ pub fn every_effect_page(only: Option<&str>, vehicles: &[Vehicle], library: &[Ef
         None => vehicles.iter().map(|v| v.id.as_str()).chain([WITH_TRAILERS]).collect(),
     };
     let mut page = format!("# Every effect on every vehicle\n\n{PAGE}\n");
-    let mut without = Vec::new();
+    let mut open = Vec::new();
     for id in ids {
         let model = model_of(id, vehicles)?;
-        let all = applied(&model, library);
-        if model.determined().is_err() || all.is_empty() {
-            without.push(format!("`{id}`"));
-            continue;
+        match model.determined() {
+            Ok(()) => page += &format!("\n## {id}\n\n{}", table(&model, &applied(&model, library))),
+            Err(why) if only.is_some() => return Err(why),
+            Err(_) => open.push(format!("`{id}`")),
         }
-        let row = |a: &Applied| table_row(&model, a, &all);
-        let rows: Vec<String> = all.par_iter().map(row).collect();
-        page += &format!("\n## {id}\n\n| effect | what it rewrites | relatives |\n|---|---|---|\n{}", rows.concat());
     }
-    if !without.is_empty() {
-        page += &format!(
-            "\nNo effect is applied to {}: their motion follows from forces or momenta.\n",
-            without.join(", ")
-        );
+    if !open.is_empty() {
+        let open = open.join(", ");
+        page += &format!("\nNo effect is fitted on {open}: their constraints alone do not determine their motion.\n");
     }
     Ok(page)
 }
@@ -84,6 +79,14 @@ pub fn every_effect_page(only: Option<&str>, vehicles: &[Vehicle], library: &[Ef
 /// What stands above the tables.
 const PAGE: &str = "What `discover` can name, with the equations that stand in the patched model; letters are those of \
                     `creepage describe`. The sensor sits at the reference point and measures heading and trailers.";
+
+fn table(model: &Model, all: &[Applied]) -> String {
+    if all.is_empty() {
+        return "No effect applies.\n".into();
+    }
+    let rows: Vec<String> = all.par_iter().map(|a| table_row(model, a, all)).collect();
+    format!("| effect | what it rewrites | relatives |\n|---|---|---|\n{}", rows.concat())
+}
 
 fn table_row(model: &Model, a: &Applied, all: &[Applied]) -> String {
     let code = |text: &str| format!("`{text}`");

@@ -161,7 +161,8 @@ pub fn report() -> Report {
             gap(30.0, [1.4145, 0.0349, 0.0312]),
         ],
         next_experiment: Some(NextExperiment {
-            why: "it separates cornering creep, which grows with speed times yaw rate, from load-dependent creep".into(),
+            why: "it separates cornering creep, which grows with speed times yaw rate, from load-dependent creep"
+                .into(),
             manoeuvre: "drive the same circle of 2 m at 0.5 and at 2 m/s for 20 s each".into(),
         }),
         steps: vec![Step { added: "cornering-creep".into(), gap_after: 0.0094 }],

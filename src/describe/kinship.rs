@@ -29,7 +29,7 @@ pub fn vehicle_effects_text(vehicle: &str, vehicles: &[Vehicle], library: &[Effe
     let model = model_of(vehicle, vehicles)?;
     model.determined()?;
     let all = applied(&model, library);
-    let related: Vec<Vec<String>> = all.par_iter().map(|a| relatives(&model, a, &all)).collect();
+    let related: Vec<Vec<String>> = all.par_iter().map(|a| relatives(&model, a, &all, str::to_string)).collect();
     let mut page = Page::default();
     page.heading(1, &format!("Effects on {vehicle}"));
     for (a, related) in all.iter().zip(related) {
@@ -57,7 +57,7 @@ pub fn vehicle_effects_text(vehicle: &str, vehicles: &[Vehicle], library: &[Effe
 pub fn every_effect_page(only: Option<&str>, vehicles: &[Vehicle], library: &[Effect]) -> Result<String> {
     let ids: Vec<&str> = match only {
         Some(id) => vec![id],
-        None => vehicles.iter().map(|v| v.id.as_str()).chain([WITH_TRAILERS]).collect(),
+        None => ids_of(vehicles),
     };
     let mut page = format!("# Every effect on every vehicle\n\n{PAGE}\n");
     let mut open = Vec::new();
@@ -91,8 +91,8 @@ fn table(model: &Model, all: &[Applied]) -> String {
 fn table_row(model: &Model, a: &Applied, all: &[Applied]) -> String {
     let code = |text: &str| format!("`{text}`");
     let equations: Vec<String> = equation(a, model).split("; ").map(code).collect();
-    let relatives: Vec<String> = related(model, a, all).iter().map(|(b, r)| words(r, &code(b), code)).collect();
-    format!("| {} | {} | {} |\n", code(&a.label()), equations.join("<br>"), relatives.join("<br>"))
+    let relatives = relatives(model, a, all, code).join("<br>");
+    format!("| {} | {} | {relatives} |\n", code(&a.label()), equations.join("<br>"))
 }
 
 fn applied(model: &Model, library: &[Effect]) -> Vec<Applied> {
@@ -111,11 +111,16 @@ pub fn vehicle_effects_json(vehicle: &str, vehicles: &[Vehicle], library: &[Effe
         let equation = equation(a, &model);
         json!({
             "id": a.effect.id, "trailer": a.trailer, "where": a.effect.place, "says": a.effect.says,
-            "equations": equation.split("; ").collect::<Vec<_>>(), "relatives": relatives(&model, a, &all),
+            "equations": equation.split("; ").collect::<Vec<_>>(), "relatives": relatives(&model, a, &all, str::to_string),
         })
     };
     let entries: Vec<Value> = all.par_iter().map(entry).collect();
     Ok(json!({ "schema": 1, "vehicle": vehicle, "effects": entries }))
+}
+
+/// What `--vehicle` may name.
+fn ids_of(vehicles: &[Vehicle]) -> Vec<&str> {
+    vehicles.iter().map(|v| v.id.as_str()).chain([WITH_TRAILERS]).collect()
 }
 
 fn open(effect: &Effect, trailer: Option<usize>) -> Applied {
@@ -125,8 +130,7 @@ fn open(effect: &Effect, trailer: Option<usize>) -> Applied {
 /// The vehicle with every parameter one and no arm to its sensor.
 fn model_of(name: &str, vehicles: &[Vehicle]) -> Result<Model> {
     let unknown = || {
-        let ids: Vec<&str> = vehicles.iter().map(|v| v.id.as_str()).chain([WITH_TRAILERS]).collect();
-        Error::input(format!("no vehicle is called {name:?}")).help(advice(name, "known vehicles", &ids))
+        Error::input(format!("no vehicle is called {name:?}")).help(advice(name, "known vehicles", &ids_of(vehicles)))
     };
     match vehicles.iter().find(|v| v.id == name) {
         Some(vehicle) => Model::sample(vehicle),
@@ -138,30 +142,23 @@ fn model_of(name: &str, vehicles: &[Vehicle]) -> Result<Model> {
     }
 }
 
-/// What an effect is to each of the others, as far as it is anything, in words.
-fn relatives(model: &Model, a: &Applied, all: &[Applied]) -> Vec<String> {
-    related(model, a, all).iter().map(|(b, r)| words(r, b, str::to_string)).collect()
-}
-
-/// The others that an effect is related to, by their labels.
-fn related(model: &Model, a: &Applied, all: &[Applied]) -> Vec<(String, Relation)> {
+/// What an effect is to each of the others, as far as it is anything; names and formulas set as they are to be.
+fn relatives(model: &Model, a: &Applied, all: &[Applied], set: impl Fn(&str) -> String) -> Vec<String> {
     let others = all.iter().filter(|b| !b.same_as(a));
-    let found =
-        others.map(|b| (b.label(), relation(model, std::slice::from_ref(a), std::slice::from_ref(b), Measured::ALL)));
-    found.filter(|(_, r)| !matches!(r, Relation::Different)).collect()
+    let known = |b: &Applied| relation(model, std::slice::from_ref(a), std::slice::from_ref(b), Measured::ALL);
+    others.filter_map(|b| words(&known(b), &set(&b.label()), &set)).collect()
 }
 
-/// A relation to another effect, formulas set as they are to be.
-fn words(relation: &Relation, name: &str, set: impl Fn(&str) -> String) -> String {
+fn words(relation: &Relation, name: &str, set: impl Fn(&str) -> String) -> Option<String> {
     let formulas = |change: &Change| {
         let all: Vec<String> = change.iter().map(|(s, f)| set(&format!("{s} = {f}"))).collect();
         all.join(", ")
     };
-    match relation {
+    Some(match relation {
         Relation::Identical(change) => format!("identical to {name}: {}", formulas(change)),
         Relation::Contained(change) => format!("a special case of {name}: {}", formulas(change)),
         Relation::Contains(change) => format!("{name} is a special case of it: {}", formulas(change)),
         Relation::FirstOrder => format!("agrees with {name} to first order"),
-        Relation::Different => format!("differs from {name}"),
-    }
+        Relation::Different => return None,
+    })
 }

@@ -11,6 +11,8 @@ use crate::model::Model;
 
 /// Runs that are drawn.
 const MOST_RUNS: usize = 6;
+/// The definition by which inputs lag.
+const DELAY: &str = "delay";
 
 pub(super) fn pictures(data: &Data, choice: &Choice, report: &Report, judged: &Judged) -> Pictures {
     let drawn = |records: &[Record], [before, after]: &[Predictors; 2], held_out: bool| -> Vec<PathPicture> {
@@ -84,6 +86,9 @@ pub fn equation(applied: &Applied, model: &Model) -> String {
 
 /// The constraint whose creep coefficient a name is; of the time that inputs lag, what it does to them.
 fn constraint_of(name: &str, model: &Model) -> String {
-    let found = model.constraints().into_iter().find(|c| c.creep.as_str() == name);
-    found.map_or_else(|| format!("u(t) becomes u(t - {name})"), |c| format!("{} = 0", c.row()))
+    match model.constraints().into_iter().find(|c| c.creep.as_str() == name) {
+        Some(constraint) => format!("{} = 0", constraint.row()),
+        None if name == DELAY => format!("u(t) becomes u(t - {DELAY})"),
+        None => name.to_string(),
+    }
 }

@@ -133,7 +133,7 @@ impl Stable {
             let Some(smaller) = selection.reduced(&self.grown.fit, &worst)? else { break };
             self.unshared.push(worst);
             let step = (listed(smaller.model.free_effects().map(Applied::label)), smaller.model.clone());
-            self.grown.steps = smaller.model.free_effects().next().map(|_| step).into_iter().collect();
+            self.grown.steps = if smaller.p.is_empty() { vec![] } else { vec![step] };
             self.grown.fit = smaller;
             self.scatter = None;
         }

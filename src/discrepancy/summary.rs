@@ -96,10 +96,10 @@ pub fn summary_text(report: &Report) -> String {
     );
     let gap = gap_lines(&report.gap);
     let mut tail = Vec::new();
-    tail.extend(report.next_experiment.iter().map(|_| String::new()));
-    tail.extend(
-        report.next_experiment.iter().flat_map(|n| wrapped(&format!("Next: {}: {}", n.manoeuvre, n.why), 0, 3)),
-    );
+    if let Some(next) = &report.next_experiment {
+        tail.push(String::new());
+        tail.extend(wrapped(&format!("Next: {}: {}", next.manoeuvre, next.why), 0, 3));
+    }
     tail.extend(data_lines(report));
     lines.truncate(LINES - gap.len() - tail.len());
     lines.extend(gap);

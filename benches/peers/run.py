@@ -4,8 +4,8 @@
     python3 benches/peers/run.py
 
 makes a virtual environment in target/peers with the pinned requirements, builds the benchmark, times every pair in turn
-(creepage, peer, creepage, peer ...), and writes benches/TABLE.md, which the README shows between its markers. Needs
-gcc for the code that CasADi generates.
+(creepage, peer, creepage, peer ...), then creepage beside code by hand (criterion, in one process), and writes
+benches/TABLE.md, which the README shows between its markers. Needs gcc for the code that CasADi generates.
 """
 
 import json
@@ -13,6 +13,7 @@ import os
 import pathlib
 import platform
 import re
+import shutil
 import statistics
 import subprocess
 import sys
@@ -80,22 +81,62 @@ def machine():
     return f"{cpu.strip()}, {os.cpu_count()} processors, {platform.system()} {platform.machine()}"
 
 
+class Measured:
+    """What criterion left: seconds an element and ratios, each a median with its interval of 95 %."""
+
+    def __init__(self, program):
+        home = HOME / "criterion"
+        shutil.rmtree(home, ignore_errors=True)
+        subprocess.run([program, "--bench"], cwd=ROOT, check=True, env={**os.environ, "CRITERION_HOME": str(home)})
+        self.found = {}
+        for path in home.glob("**/new/benchmark.json"):
+            what = json.loads(path.read_text())
+            median = json.loads(path.with_name("estimates.json").read_text())["median"]
+            bounds = median["confidence_interval"]
+            values = [median["point_estimate"], bounds["lower_bound"], bounds["upper_bound"]]
+            units = (what["throughput"] or {}).get("Elements", 1)
+            name = what["function_id"] or what["value_str"]
+            self.found.setdefault(what["group_id"], {})[name] = [v / units for v in values]
+
+    def by_hand(self):
+        """Rows of the works that have a yardstick, the largest first."""
+        works = {work: by for work, by in self.found.items() if "ratio" in by}
+        for work, by in sorted(works.items(), key=lambda item: -item[1]["creepage"][0]):
+            yardstick = next(name for name in by if name not in ("creepage", "ratio"))
+            ratio, low, high = by["ratio"]
+            times = f"{time_of(by['creepage'][0])} | {time_of(by[yardstick][0])}"
+            yield f"| {work} | {yardstick} | {times} | {ratio:.2f} ({low:.2f}–{high:.2f}) |"
+
+    def growth(self):
+        """Rows of trailers, columns of works."""
+        for size in sorted(self.found[GROWTH[0]], key=int):
+            yield f"| {size} | " + " | ".join(time_of(self.found[work][size][0]) for work in GROWTH) + " |"
+
+
+GROWTH = ["rows of a train", "J v of a train", "rows by one length", "Jacobian of a train"]
+BY_HAND = ["| work | yardstick | creepage | yardstick | ratio (95 %) |", "|---|---|---|---|---|"]
+GROWS = ["| trailers | rows | J·v | by one length | Jacobian, an entry |", "|---|---|---|---|---|"]
+
+
 def table():
     import works
 
-    creepage = Creepage(built())
+    program = built()
+    creepage = Creepage(program)
     rows = ["| work | creepage | peer | | times faster |", "|---|---|---|---|---|"]
     for title, work, peer, run in works.all_of_them():
         ours, theirs, ratio = compare(lambda: creepage(work), run)
         rows.append(f"| {title} | {time_of(ours)} | {peer} | {time_of(theirs)} | {ratio:.3g} |")
         print(rows[-1], flush=True)
-    hand = subprocess.run([creepage.process.args[0]], check=True, stdout=subprocess.PIPE, text=True).stdout
+    measured = Measured(program)
     note = (
         f"One core of: {machine()}. Written by `python3 benches/peers/run.py`; times are medians, ratios medians of\n"
         f"neighbouring batches. SciPy {works.version('scipy')}, JAX {works.version('jax')}, diffrax "
         f"{works.version('diffrax')}, CasADi {works.version('casadi')}.\n"
     )
-    return "\n".join([note, *rows, "", "By hand, in the same process:", "", hand])
+    hand = ["", "By hand, in the same process:", "", *BY_HAND, *measured.by_hand()]
+    costs = ["", "How costs grow: a lane, a trailer; of the Jacobian, an entry that is not zero.", "", *GROWS]
+    return "\n".join([note, *rows, *hand, *costs, *measured.growth(), ""])
 
 
 def show(text):

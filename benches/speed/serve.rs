@@ -1,6 +1,6 @@
 //! Batches on demand, for a script that times other programs in turn with this one.
 
-use super::pair::processor_time;
+use super::harness::processor_time;
 use super::{CREEPS, MANY, jacobian, rates, trailers, wheel};
 use creepage::formula::Isa;
 use creepage::motion::Ensemble;

@@ -166,9 +166,10 @@ pub(super) fn execute<const L: usize>(code: &[Step], r: &mut [[f64; L]]) {
                 r[d as usize] = y;
             }
             Step::SinCos { a, s, c } => {
-                let (sine, cosine) = math::sin_cos(&r[a as usize]);
-                r[s as usize] = sine;
-                r[c as usize] = cosine;
+                let x = r[a as usize];
+                let both = r.get_disjoint_mut([s as usize, c as usize]);
+                let [s, c] = both.expect("sine and cosine have registers of their own");
+                math::sin_cos(&x, s, c);
             }
             Step::Call { f, a, d } => {
                 let y = math::call(f, &r[a as usize]);

@@ -43,10 +43,10 @@ fn horner(z: f64, c: &[f64; 6]) -> f64 {
 
 /// sin x and cos x, each within 2 units in the last place.
 ///
-/// Whole quarter turns are taken away in three parts (Cody and Waite); arguments beyond [`FAR`] go to the crate `libm`.
+/// Whole quarter turns are taken away in three parts (Cody and Waite); arguments beyond [`FAR`] go to the crate `libm`. They
+/// are written where they are to stay: copies of blocks cost as much as a tenth of a motion.
 #[inline(always)]
-pub(super) fn sin_cos<const L: usize>(x: &[f64; L]) -> ([f64; L], [f64; L]) {
-    let (mut s, mut c) = ([0.0; L], [0.0; L]);
+pub(super) fn sin_cos<const L: usize>(x: &[f64; L], s: &mut [f64; L], c: &mut [f64; L]) {
     let mut near = true;
     for l in 0..L {
         near &= x[l].abs() <= FAR;
@@ -64,22 +64,20 @@ pub(super) fn sin_cos<const L: usize>(x: &[f64; L]) -> ([f64; L], [f64; L]) {
         s[l] = f64::from_bits(((sine & !swap) | (cosine & swap)) ^ ((turns & 2) << 62));
         c[l] = f64::from_bits(((cosine & !swap) | (sine & swap)) ^ ((turns.wrapping_add(1) & 2) << 62));
     }
-    if !near { far_sin_cos(x) } else { (s, c) }
+    if !near {
+        far_sin_cos(x, s, c);
+    }
 }
 
+/// Puts the sines and cosines of what is far, or no number, in the place of what was found for them.
 #[cold]
 #[inline(never)]
-fn far_sin_cos<const L: usize>(x: &[f64; L]) -> ([f64; L], [f64; L]) {
-    let (mut s, mut c) = ([f64::NAN; L], [f64::NAN; L]);
+fn far_sin_cos<const L: usize>(x: &[f64; L], s: &mut [f64; L], c: &mut [f64; L]) {
     for l in 0..L {
-        if x[l].abs() <= FAR {
-            let ([sine], [cosine]) = sin_cos(&[x[l]]);
-            (s[l], c[l]) = (sine, cosine);
-        } else if x[l].is_finite() {
-            (s[l], c[l]) = libm::sincos(x[l]);
+        if x[l].is_nan() || x[l].abs() > FAR {
+            (s[l], c[l]) = if x[l].is_finite() { libm::sincos(x[l]) } else { (f64::NAN, f64::NAN) };
         }
     }
-    (s, c)
 }
 
 /// A function other than sine and cosine.
@@ -87,10 +85,11 @@ fn far_sin_cos<const L: usize>(x: &[f64; L]) -> ([f64; L], [f64; L]) {
 pub(super) fn call<const L: usize>(f: Fun, x: &[f64; L]) -> [f64; L] {
     let mut y = [0.0; L];
     match f {
-        Fun::Sin => y = sin_cos(x).0,
-        Fun::Cos => y = sin_cos(x).1,
+        Fun::Sin => sin_cos(x, &mut y, &mut [0.0; L]),
+        Fun::Cos => sin_cos(x, &mut [0.0; L], &mut y),
         Fun::Tan | Fun::Cot => {
-            let (s, c) = sin_cos(x);
+            let (mut s, mut c) = ([0.0; L], [0.0; L]);
+            sin_cos(x, &mut s, &mut c);
             for l in 0..L {
                 y[l] = if matches!(f, Fun::Tan) { quotient(s[l], c[l]) } else { quotient(c[l], s[l]) };
             }

@@ -69,13 +69,14 @@ pub(super) fn sin_cos<const L: usize>(x: &[f64; L], s: &mut [f64; L], c: &mut [f
     }
 }
 
-/// Puts the sines and cosines of what is far, or no number, in the place of what was found for them.
+/// Puts the sines and cosines of what is far in the place of what was found for them; both are NaN where x is no number or
+/// infinite.
 #[cold]
 #[inline(never)]
 fn far_sin_cos<const L: usize>(x: &[f64; L], s: &mut [f64; L], c: &mut [f64; L]) {
     for l in 0..L {
-        if x[l].is_nan() || x[l].abs() > FAR {
-            (s[l], c[l]) = if x[l].is_finite() { libm::sincos(x[l]) } else { (f64::NAN, f64::NAN) };
+        if x[l].abs() > FAR {
+            (s[l], c[l]) = libm::sincos(x[l]);
         }
     }
 }

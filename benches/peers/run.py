@@ -40,7 +40,7 @@ def in_environment():
 
 def built():
     """The benchmark as a program."""
-    command = ["cargo", "bench", "--bench", "speed", "--no-run", "--message-format=json"]
+    command = ["cargo", "bench", "--manifest-path", "benches/Cargo.toml", "--no-run", "--message-format=json"]
     out = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True).stdout
     found = [json.loads(line) for line in out.splitlines() if line.startswith("{")]
     return next(m["executable"] for m in found if m.get("executable") and m["target"]["name"] == "speed")

@@ -1,9 +1,9 @@
 //! What the library costs, each figure a ratio to a yardstick timed side by side with it in this process.
 //!
-//! `cargo bench --bench speed` measures, a word behind `--` what it is about; `-- check` only holds the yardsticks' results
-//! against the library's, and `-- serve` answers benches/peers/run.py, which makes the tables. Criterion times one thing after
-//! another by the wall clock; a shared machine's speed drifts by more than the ratios differ, so it is given processor time and
-//! ratios of neighbours to measure.
+//! `cargo bench --manifest-path benches/Cargo.toml` measures, a word behind `--` what it is about; `-- check` only holds the
+//! yardsticks' results against the library's, and `-- serve` answers benches/peers/run.py, which makes the tables. Criterion
+//! times one thing after another by the wall clock; a shared machine's speed drifts by more than the ratios differ, so it is
+//! given processor time and ratios of neighbours to measure.
 #![allow(clippy::needless_range_loop)] // loops over lanes are written out, so that they become vectors
 
 mod adaptive;

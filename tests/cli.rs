@@ -66,6 +66,7 @@ fn wrong_usage_is_exit_code_2() {
         &["discover", "run.csv", "run.csv", "--model", "model.toml"],
         &["discover", "run.csv", "--held-out", "run.csv", "--model", "model.toml"],
         &["describe", "model.toml", "--format", "html"],
+        &["effects", "--vehicle", "nonsense"],
         &["simulate", "model.toml", "--inputs", "run.csv", "--out", "out.csv", "--rtol", "0"],
         &["fly"],
     ] {

@@ -37,6 +37,10 @@ fn a_file_to_begin_with_is_valid_for_every_vehicle() {
         let starter = Starter::new(&Wanted { vehicle: vehicle.id.clone(), ..Wanted::default() }).unwrap();
         let file = parsed(&starter);
         Model::from_file(&file, effects::all(), &[]).unwrap();
+        // A log still to be written has columns that are called what they hold: none is left for the user to name.
+        for input in vehicle.inputs.iter().filter(|(_, q)| q.instead.is_none()).map(|(name, _)| name) {
+            assert!(starter.text.contains(&format!("\n{input} = \"{input}\"")), "{}: {input}", vehicle.id);
+        }
         for (name, p) in vehicle.parameters.iter() {
             assert_eq!(file.parameters.contains_key(name), !p.optional, "{}: {name}", vehicle.id);
             assert!(starter.text.contains(&p.meaning) && starter.text.contains(&format!("# {}; ", p.unit)), "{name}");
@@ -293,6 +297,8 @@ fn check_answers_scripts_and_people() {
     assert_eq!((found.schema, found.verdict), (1, Standing::Identifiable), "{}", found.summary);
     let driven = &found.data.runs[0];
     assert!(driven.left > 0.2 && driven.right > 0.2 && driven.left + driven.right <= 1.0, "{driven:?}");
+    let rate = (driven.rows - 1) as f64 / driven.duration_s;
+    assert!((driven.rate_hz - rate).abs() < 0.01 * rate && driven.longest_gap_s < 1.5 / rate, "{driven:?}");
     assert!(driven.standing == 0.0 && driven.backwards == 0.0 && (driven.way_ratio.unwrap() - 1.0).abs() < 0.01);
     assert!(found.effects.iter().all(|e| e.seen == Seen::Yes && e.parameters.values().any(|p| p.std.is_some())));
     let people = creepage(folder.path(), &["check", &run, "--model", &model]);

@@ -117,14 +117,16 @@ fn a_log_may_have_no_heading() {
 #[test]
 fn rows_that_cannot_be_used_are_counted() {
     let csv = "t,x,y,phi,wheel_rate,yaw_rate\n\
-        0,0,0,0,1,0\n1,,0,0,1,0\n2,NaN,0,0,1,0\n3,0,0,0,null,0\n4,0,0,-inf,1,0\n\
+        0,0,0,0,1,0\n1,,0,0,1,0\n2,NaN,0,0,1,0\n3,0,0,0,null,0\n4,0,0,-inf,1,0\n4.5,inf,0,0,,0\n\
         5,0,0,0,1,0\n5,0,0,0,1,0\n6,0,0,0,1,0\n6,0,0,0,2,0\n7,0,0,0,1,0\n7,NA,0,0,9,0\n";
     let run = run(&model(MODEL), csv);
-    assert_eq!((run.time, run.rows_dropped, run.warnings.len()), (vec![0.0, 5.0, 7.0], 8, 0));
+    assert_eq!((run.time, run.rows_dropped, run.warnings.len()), (vec![0.0, 5.0, 7.0], 9, 0));
     let expect = [
         ("blank or NaN cell in column \"wheel_rate\"", 1),
         ("blank or NaN cell in column \"x\"", 3),
         ("infinite value in column \"phi\"", 1),
+        // The first reason of a row counts.
+        ("infinite value in column \"x\"", 1),
         ("repeated row", 1),
         ("repeated time with conflicting values", 2),
     ];

@@ -215,6 +215,10 @@ fn steps_of_all_spans_are_counted() {
         let i = Integrator { max_steps: 50, ..with(method, 1e-6) };
         fails(i.solve(swing, 0.0, &[1.0], &times), "50 steps were not enough");
     }
+    // As many as are allowed are enough.
+    let all = |max_steps| Integrator { method: Method::Rk4 { step: 0.25 }, max_steps, ..Integrator::default() };
+    assert!(all(4).solve(swing, 0.0, &[1.0], &[1.0]).is_ok());
+    fails(all(3).solve(swing, 0.0, &[1.0], &[1.0]), "3 steps were not enough");
 }
 
 /// A trial step may leave the domain where a shorter one does not: y′ = −2√y from 1 is (1 − t)².

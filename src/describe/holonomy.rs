@@ -49,7 +49,11 @@ impl Holonomy {
     pub(super) fn of(mechanism: &Mechanism, points: &[Point; 2]) -> Found<Self> {
         let at =
             |p: &Point| mechanism.nonholonomy(p, DEPTH).map_err(|e| e.message().to_string()).and_then(Self::settled);
-        let (first, second) = (at(&points[0])?, at(&points[1])?);
+        Self::agreed(at(&points[0])?, at(&points[1])?)
+    }
+
+    /// What two configurations say alike.
+    fn agreed(first: Self, second: Self) -> Found<Self> {
         match first.numbers() == second.numbers() {
             true => Ok(first),
             false => Err(format!(
@@ -111,5 +115,20 @@ mod tests {
         assert!(words.contains("of 4 independent constraints at least 0 and at most 2 are holonomic"), "{words}");
         let growth = Growth { is_final: true, ..found.growth.clone() };
         assert_eq!(Holonomy::settled(Nonholonomy { growth, ..found }).unwrap().holonomic, 2);
+    }
+
+    #[test]
+    fn configurations_that_differ_settle_nothing() {
+        let car = |growth: &[usize]| Holonomy {
+            rank: 2,
+            growth: growth.to_vec(),
+            degree: growth.len(),
+            holonomic: 0,
+            nonholonomic: 2,
+            integrals: vec![],
+        };
+        assert_eq!(Holonomy::agreed(car(&[2, 3, 4]), car(&[2, 3, 4])).unwrap().degree, 3);
+        let words = Holonomy::agreed(car(&[2, 3, 4]), car(&[2, 3, 3, 4])).unwrap_err();
+        assert!(words.contains("(2, 3, 4) and (2, 3, 3, 4)"), "{words}");
     }
 }

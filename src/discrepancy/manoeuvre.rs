@@ -195,3 +195,51 @@ impl Phase {
         format!("{} s {speed}, {path}", number(self.seconds))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::record::{Known, Record};
+    use crate::model::Model;
+    use crate::motion::{Signals, Timing};
+
+    /// What a vehicle was driven at: ahead and turning for five seconds, then straight back.
+    fn envelope(vehicle: &str, lengths: &[(&str, f64)], turning: [f64; 2], back: [f64; 2]) -> Envelope {
+        let model = Model::new(vehicle, lengths).unwrap();
+        let time: Vec<f64> = (0..100).map(|i| 0.1 * f64::from(i)).collect();
+        let input = |k: usize| time.iter().map(|t| if *t < 5.0 { turning[k] } else { back[k] }).collect::<Vec<_>>();
+        let signals = Signals::new(&time, &[input(0), input(1)], Timing::Sample);
+        let record = Record {
+            name: String::new(),
+            rows: 0..time.len(),
+            time,
+            columns: vec![],
+            has_heading: false,
+            signals,
+            trailers: 0,
+            known: Known::default(),
+        };
+        Envelope::of(&model, &[record]).unwrap()
+    }
+
+    #[test]
+    fn only_a_phase_that_goes_back_says_so() {
+        let lengths = [("wheel_radius", 0.1), ("track_width", 0.5)];
+        let envelope = envelope("differential-drive", &lengths, [7.0, 13.0], [-10.0; 2]);
+        let ways = |speed: f64| phase(30.0, steady(speed), LEFT).words(&envelope);
+        assert!(ways(-0.6).contains(" backwards at "), "{}", ways(-0.6));
+        assert!(ways(0.0).contains(" on the spot, turning left"), "{}", ways(0.0));
+        assert!(ways(1.0).contains("s at "), "{}", ways(1.0));
+        let backwards = |m: &Manoeuvre| m.sentence(&envelope).contains("backwards");
+        assert!(library(&envelope).any(&backwards));
+        assert!(library(&envelope).all(|m| backwards(m) == (m.needs == Needs::Reverse)));
+    }
+
+    #[test]
+    fn who_steers_is_told_an_angle() {
+        let car = envelope("car", &[("wheel_radius", 0.3), ("wheelbase", 2.7)], [0.2, 10.0], [0.0, 10.0]);
+        let words = phase(30.0, FAST, LEFT).words(&car);
+        assert!(words.contains("steering 0.20 rad"), "{words}");
+        assert!(library(&car).all(|m| !m.sentence(&car).contains("on the spot") && m.needs != Needs::Reverse));
+    }
+}

@@ -51,7 +51,7 @@ pub(super) fn measured_path(record: &Record, held_out: bool) -> PathPicture {
 /// Measured and predicted paths; the models are restarted so rarely that a gap shows, and at least once a picture.
 fn path(record: &Record, held_out: bool, before: &Predictor, after: &Predictor) -> PathPicture {
     let duration = record.time[record.rows.end - 1] - record.time[record.rows.start];
-    let horizon = if duration > 70.0 { 30.0 } else { (duration - 1.5).clamp(1.0, 30.0) };
+    let horizon = (duration - 1.5).clamp(1.0, 30.0);
     let pieces = |p: &Predictor| -> Vec<Vec<[f64; 2]>> {
         let xy = |y: Vec<f64>| [y[0], y[1]];
         let piece = |(from, to): (usize, usize)| p.outputs(from, to).into_iter().map(xy).collect();

@@ -248,3 +248,17 @@ fn data_lines(report: &Report) -> Vec<String> {
     }
     lines
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_as_full_as_they_may_be() {
+        let text = |first: usize| format!("{} {}", "a".repeat(first), "b".repeat(COLUMNS - first - 1));
+        // One blank, and to the column all that a line holds.
+        assert_eq!(wrapped(&text(60), 0, 9), [text(60)]);
+        assert_eq!(wrapped(&format!("{}c", text(60)), 0, 9), ["a".repeat(60), format!("  {}c", "b".repeat(19))]);
+        assert_eq!(wrapped("one two", 2, 9), ["  one two"]);
+    }
+}

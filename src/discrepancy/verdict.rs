@@ -213,3 +213,22 @@ pub(super) fn missed(candidates: &[Scored]) -> Option<&Scored> {
         BASIC.contains(&c.applied.effect.id.as_str()) && sizes.zip(&c.std).any(|(size, std)| 4.0 * std > size)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::{self, Applied};
+
+    #[test]
+    fn only_a_basic_effect_that_could_hide_is_missed() {
+        let scored = |id: &str, share: f64| {
+            let effect = effects::named(id).unwrap();
+            let std = effect.parameters.values().map(|p| share * p.size).collect();
+            Scored { applied: Applied::new(effect, None, vec![0.0]), std, delta_bic: 0.0 }
+        };
+        let known = [scored("rotation-creep", 0.2), scored("yaw-rate-bias", 0.01), scored("wheel-radius", 9.0)];
+        assert!(missed(&known).is_none(), "what is known to a quarter of its size would have been seen");
+        let open = [scored("rotation-creep", 0.2), scored("yaw-rate-scale", 0.3)];
+        assert_eq!(missed(&open).unwrap().applied.effect.id, "yaw-rate-scale");
+    }
+}

@@ -374,3 +374,19 @@ impl System {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_of_other_units_are_no_less_independent() {
+        let matrix = DMatrix::from_row_slice(2, 2, &[1.0, 1.0, 1e-20, -1e-20]);
+        let found = solution(matrix, &DVector::from_vec(vec![3.0, 1e-20]));
+        assert!((found[0] - 2.0).abs() < 1e-12 && (found[1] - 1.0).abs() < 1e-12, "{found}");
+        // A row of zeros asks for nothing, and the rest is of least size.
+        let matrix = DMatrix::from_row_slice(2, 2, &[1.0, 1.0, 0.0, 0.0]);
+        let found = solution(matrix, &DVector::from_vec(vec![2.0, 0.0]));
+        assert!((found[0] - 1.0).abs() < 1e-12 && (found[1] - 1.0).abs() < 1e-12, "{found}");
+    }
+}

@@ -166,4 +166,11 @@ mod tests {
         assert_eq!(covered(&inputs, &times), [1, 2, 5, 6]);
         assert!(covered(&[], &times).is_empty());
     }
+
+    /// A gap is told by the usual step, whatever the shortest ones are.
+    #[test]
+    fn a_gap_is_five_usual_steps() {
+        let slow: Vec<f64> = [0.0, 0.01, 0.02, 1.0, 2.0, 3.0, 7.0, 13.0].to_vec();
+        assert_eq!(covered(&slow, &[0.5, 2.5, 5.0, 10.0]), [0, 1, 2]);
+    }
 }

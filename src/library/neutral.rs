@@ -92,3 +92,14 @@ impl Situation<'_> {
         sign * size * if self.point < NEAR { 1.0 } else { 10.0 }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::close;
+
+    #[test]
+    fn rounding_near_zero_and_far_from_it_is_no_difference() {
+        assert!(close(0.1 + 0.2 - 0.3, 0.0) && close(1e9, 1e9 + 0.5) && close(0.3, 0.1 + 0.2));
+        assert!(!close(1.0, 1.0 + 1e-6) && !close(0.0, 1e-6));
+    }
+}

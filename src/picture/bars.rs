@@ -102,3 +102,17 @@ fn hatch([left, right]: [f64; 2], [top, bottom]: [f64; 2]) -> Element {
     }
     path("hatch", &points)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bar_fills_its_row_and_its_length() {
+        let drawn = body(Look::Solid, [100.0, 250.0], [20.0, 34.0])[0].to_string();
+        for part in ["x=\"100\"", "y=\"20\"", "width=\"150\"", "height=\"14\""] {
+            assert!(drawn.contains(part), "{part} in {drawn}");
+        }
+        assert_eq!(body(Look::Hatched, [0.0, 1.0], [0.0, 1.0]).len(), 2);
+    }
+}

@@ -234,6 +234,26 @@ pub const BAD_FILES: &[Case] = &[
         "6:20: \"q-2\" cannot name a parameter or a state; begin with a letter, go on with letters, digits and _; functions, it, id and trailer are taken",
     ),
     case(
+        "name with a letter of another alphabet",
+        &[(".q]", ".\"qλ\"]")],
+        "6:20: \"qλ\" cannot name a parameter or a state; begin with a letter, go on with letters, digits and _; functions, it, id and trailer are taken",
+    ),
+    case(
+        "name of two words",
+        &[(".q]", ".\"q r\"]")],
+        "6:20: \"q r\" cannot name a parameter or a state; begin with a letter, go on with letters, digits and _; functions, it, id and trailer are taken",
+    ),
+    case(
+        "name with two underscores",
+        &[(".q]", ".q__r]")],
+        "6:20: \"q__r\" cannot name a parameter or a state; begin with a letter, go on with letters, digits and _; functions, it, id and trailer are taken",
+    ),
+    case(
+        "name with an underscore at its end",
+        &[(".q]", ".q_]")],
+        "6:20: \"q_\" cannot name a parameter or a state; begin with a letter, go on with letters, digits and _; functions, it, id and trailer are taken",
+    ),
+    case(
         "parameter and state",
         &[(".q]", ".u]")],
         "16:16: u is both a parameter and a state; give one of them another name",

@@ -114,3 +114,17 @@ pub fn next_experiment(report: &Report) -> Option<Element> {
     let body = Element::new("aside").with("class", "next").child(holding("strong", "What to drive next"));
     Some(body.child(holding("p", &next.manoeuvre)).child(holding("p", &next.why)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::shrinkage;
+
+    #[test]
+    fn only_what_shrinks_is_said_to() {
+        assert_eq!(shrinkage(0.1, 0.005).as_deref(), Some("20× smaller"));
+        assert_eq!(shrinkage(0.106, 0.1).as_deref(), Some("1.1× smaller"));
+        for (before, after) in [(0.104, 0.1), (0.1, 0.2), (0.1, 0.0), (f64::NAN, 0.1)] {
+            assert_eq!(shrinkage(before, after), None);
+        }
+    }
+}

@@ -109,7 +109,7 @@ fn between<'a>(text: &'a str, from: &str, to: &str) -> &'a str {
 fn the_drawing_says_in_its_title_what_shrank() {
     let [page, svg] = check(&report(), &pictures());
     let title = between(&svg, "<title", "</title>");
-    let [gap] = [report().gap[1].held_out.clone().unwrap()];
+    let gap = report().gap[1].held_out.unwrap();
     let mm = |v: f64| creepage::picture::number::significant(1000.0 * v, 2);
     let shrank = format!(
         "Held-out position error after 5 s: {} → {} mm",

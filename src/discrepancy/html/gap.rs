@@ -153,3 +153,24 @@ fn shrink_arrow(panel: &mut Panel, report: &Report, curve: &GapCurve) {
     let text = format!("{times} at {} s", plain(gap.horizon_s));
     panel.note(label("strong", [x + 9.0, (top + tip) / 2.0 + 4.0], "start", text));
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn logarithmic_axes_span_the_values_in_their_unit() {
+        let curve = GapCurve {
+            horizon: vec![1.0, 10.0],
+            before: vec![0.05, 0.2],
+            after: vec![0.012, 0.03],
+            floor: vec![0.011, 0.011],
+        };
+        let panel = drawn(&curve, ("position RMS", "m"), Axes::Log, SIZE).unwrap().finish("gap", "Gap", "").to_string();
+        assert!(panel.contains(">100<") && panel.contains("mm"), "{panel}");
+        for far in [">0.01<", ">0.1<", ">1<", ">1000<"] {
+            // The horizon has a tick at 1 s.
+            assert!(panel.matches(far).count() <= usize::from(far == ">1<"), "{far} in {panel}");
+        }
+    }
+}

@@ -207,3 +207,27 @@ pub(super) fn groups(all: &[Candidate]) -> Vec<Vec<usize>> {
     let two = two.filter(|pair| !all[pair[0]].applied.same_as(&all[pair[1]].applied));
     std::iter::once(regular.clone()).filter(|g| !g.is_empty()).chain(beside).chain(two).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects;
+
+    #[test]
+    fn only_what_has_a_derivative_at_nothing_is_looked_at_from_there() {
+        let of = |id: &str| candidates_of(effects::named(id).unwrap(), None, None);
+        let size = |id: &str| effects::named(id).unwrap().parameters.values().map(|p| p.size).collect::<Vec<_>>();
+        let creep = of("rotation-creep");
+        assert!(creep.len() == 1 && creep[0].regular, "{creep:?}");
+        assert_eq!((&creep[0].applied.values, &creep[0].sizes), (&vec![0.0], &vec![size("rotation-creep")]));
+        // Two parameters that vanish by themselves are two directions.
+        let arm = of("lever-arm");
+        assert!(arm.len() == 1 && arm[0].regular && arm[0].sizes.len() == 2, "{arm:?}");
+        assert!(arm[0].sizes.iter().all(|s| s.iter().filter(|x| **x != 0.0).count() == 1), "{arm:?}");
+        // A time that must be positive, and a direction, which is nowhere zero: looked at where fits of it begin.
+        let relaxation = of("relaxation-length");
+        assert!(relaxation.iter().all(|c| !c.regular && c.sizes.len() == 1), "{relaxation:?}");
+        let slope = of("side-slope");
+        assert!(slope.len() > 1 && slope.iter().all(|c| !c.regular), "{slope:?}");
+    }
+}

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Builds paper/paper.pdf; with --pages DIR also every page as PNG. Fails on any warning of Typst.
+"""Builds paper/paper.pdf; with --pages DIR also every page as PNG. Fails on any warning of Typst but one: a font that this
+machine lacks, where the next of its list takes its place. The last of every list comes with Typst.
 
 Once: pip install -r paper/requirements.txt
 """
@@ -27,7 +28,8 @@ if arguments.pages:
     images = typst.compile(here / "paper.typ", root=here, format="png", ppi=110)
     for number, image in enumerate(images if isinstance(images, list) else [images], 1):
         (pages / f"page-{number}.png").write_bytes(image)
+lacking = [warning for warning in warnings if warning.message.startswith("unknown font family")]
 for warning in warnings:
     print(f"warning: {warning.message}", *getattr(warning, "hints", []), sep="\n  ", file=sys.stderr)
 print(f"{arguments.out}: {len(pdf)} bytes")
-sys.exit(1 if warnings else 0)
+sys.exit(1 if len(warnings) > len(lacking) else 0)

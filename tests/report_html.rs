@@ -99,16 +99,10 @@ fn every_picture_has_a_title_and_a_description() {
     }
 }
 
-/// The words of an element's beginning, up to its end.
-fn between<'a>(text: &'a str, from: &str, to: &str) -> &'a str {
-    let rest = &text[text.find(from).unwrap_or_else(|| panic!("no {from}")) + from.len()..];
-    &rest[..rest.find(to).unwrap()]
-}
-
 #[test]
 fn the_drawing_says_in_its_title_what_shrank() {
     let [page, svg] = check(&report(), &pictures());
-    let title = between(&svg, "<title", "</title>");
+    let (title, _) = svg.split_once("</title>").unwrap();
     let gap = report().gap[1].held_out.unwrap();
     let mm = |v: f64| creepage::picture::number::significant(1000.0 * v, 2);
     let shrank = format!(

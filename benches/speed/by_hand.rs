@@ -4,6 +4,7 @@ use super::cases::{headings, trailer_cases, wheel_cases};
 use super::harness::Harness;
 use super::{CREEPS, MANY, jacobian, rates, trailers, vector, wheel};
 use creepage::formula::Isa;
+use creepage::motion::Ensemble;
 use std::hint::black_box;
 
 /// Every comparison.
@@ -28,28 +29,28 @@ fn trailers_single(harness: &mut Harness) {
 }
 
 fn sweep(harness: &mut Harness) {
-    let (cases, steps) = wheel_cases();
-    let given: Vec<&[f64]> = cases.iter().map(|c| c.as_slice()).collect();
-    let e = wheel::ensemble();
-    let plan = e.plan(|i| cases[i].to_vec(), MANY).unwrap();
-    eprintln!("wheels: {steps} steps by hand, {plan:?}");
-    let mut out = vec![[0.0; 3]; MANY];
-    let ours = || drop(black_box(e.run(&plan, &given).unwrap()));
-    harness.compare("wheels, many at once", "vectors by hand, no check of the error", MANY, ours, || {
-        wheel::limit(&cases, steps, black_box(&mut out));
-    });
+    many(harness, "wheels, many at once", &wheel::ensemble(), wheel_cases(), wheel::limit);
 }
 
 fn trailers_sweep(harness: &mut Harness) {
-    let (cases, steps) = trailer_cases();
+    many(harness, "ten trailers, many at once", &trailers::ensemble(), trailer_cases(), trailers::limit);
+}
+
+/// An ensemble of cases beside a loop over vectors, in the fewest steps that are exact enough.
+fn many<const N: usize>(
+    harness: &mut Harness,
+    work: &str,
+    e: &Ensemble,
+    (cases, steps): (Vec<[f64; 2]>, usize),
+    limit: impl Fn(&[[f64; 2]], usize, &mut [[f64; N]]),
+) {
     let given: Vec<&[f64]> = cases.iter().map(|c| c.as_slice()).collect();
-    let e = trailers::ensemble();
     let plan = e.plan(|i| cases[i].to_vec(), MANY).unwrap();
-    eprintln!("ten trailers: {steps} steps by hand, {plan:?}");
-    let mut out = vec![[0.0; trailers::N]; MANY];
+    eprintln!("{work}: {steps} steps by hand, {plan:?}");
+    let mut out = vec![[0.0; N]; MANY];
     let ours = || drop(black_box(e.run(&plan, &given).unwrap()));
-    harness.compare("ten trailers, many at once", "vectors by hand, no check of the error", MANY, ours, || {
-        trailers::limit(&cases, steps, black_box(&mut out));
+    harness.compare(work, "vectors by hand, no check of the error", MANY, ours, || {
+        limit(&cases, steps, black_box(&mut out));
     });
 }
 

@@ -140,12 +140,25 @@ fn depth_and_length_are_bounded_with_an_error() {
 
 #[test]
 fn the_deepest_formula_allowed_can_be_read_printed_and_evaluated() {
-    for (open, close, depth) in [("(", ")", 399), ("sin(", ")", 399), ("-(", ")", 199), ("(1 + ", ")", 399)] {
-        let text = format!("{}x{}", open.repeat(depth), close.repeat(depth));
-        let e = Expr::parse(&text).unwrap();
+    let table = [
+        ("(", ")", 399),
+        ("sin(", ")", 399),
+        ("-(", ")", 399),
+        ("(1 + ", ")", 399),
+        ("2*(", ")", 399),
+        // Printed with a bracket at every sign but the outer one.
+        ("-", "", 399),
+        ("2*-(", ")", 199),
+        ("2 - -(", ")", 199),
+        ("2*-(1 + ", ")", 133),
+    ];
+    for (open, close, depth) in table {
+        let nested = |depth| Expr::parse(&format!("{}x{}", open.repeat(depth), close.repeat(depth)));
+        let e = nested(depth).unwrap();
         assert!(e.eval(&|_| 0.5).is_some());
         assert_eq!(Expr::parse(&e.to_string()).unwrap(), e);
         assert!(!e.derivative(&"x".into()).latex().is_empty());
+        assert!(nested(depth + 1).is_err_and(|e| e.message().contains("400 deep")), "{open}");
     }
 }
 

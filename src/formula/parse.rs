@@ -101,16 +101,13 @@ impl Parser<'_> {
     /// A minus sign stands for the whole product behind it: −a·b is −(a·b).
     fn product(&mut self) -> Result<Tall> {
         self.descend(|p| {
-            if p.take('-') {
-                let x = p.product()?;
-                return p.grown(Node::Neg(x.0), x.1);
-            }
+            let signs = p.signs();
             let mut left = p.power()?;
             loop {
                 let build = match p.peek() {
                     TokenKind::Mark('*') => Node::Mul,
                     TokenKind::Mark('/') => Node::Div,
-                    _ => return Ok(left),
+                    _ => return p.negated(left, signs),
                 };
                 p.advance();
                 let right = p.factor()?;
@@ -121,13 +118,21 @@ impl Parser<'_> {
 
     /// What stands behind `*` or `/`; a minus sign there binds to this factor alone.
     fn factor(&mut self) -> Result<Tall> {
-        self.descend(|p| {
-            if p.take('-') {
-                let x = p.factor()?;
-                return p.grown(Node::Neg(x.0), x.1);
-            }
-            p.power()
-        })
+        let signs = self.signs();
+        let x = self.power()?;
+        self.negated(x, signs)
+    }
+
+    /// Passes minus signs in a row, and counts them.
+    ///
+    /// They take no level of nesting, so brackets and functions alone do: no more of these stand around each other in what is
+    /// printed than the tree is tall, and what is printed can be read again.
+    fn signs(&mut self) -> usize {
+        std::iter::repeat_with(|| self.take('-')).take_while(|taken| *taken).count()
+    }
+
+    fn negated(&self, x: Tall, signs: usize) -> Result<Tall> {
+        (0..signs).try_fold(x, |x, _| self.grown(Node::Neg(x.0), x.1))
     }
 
     /// Goes one level deeper, within the bound on nesting.

@@ -3,6 +3,8 @@
 #[path = "support/cornering.rs"]
 mod cornering;
 mod models;
+#[path = "support/reviewed.rs"]
+mod reviewed;
 
 use creepage::claims::{self, Options, ledger};
 use creepage::discrepancy::summary::summary_text;
@@ -11,15 +13,7 @@ use creepage::figures::fixed;
 use creepage::formula::Expr;
 use creepage::model::Model;
 use creepage::motion::{Formulas, Integrator, simulate_model};
-use serde_json::Value;
-
-fn reviewed(name: &str, text: &str) {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(|| insta::assert_snapshot!(name, text));
-}
+use reviewed::{reviewed, rounded};
 
 /// What every claim earned; few cases, whose number stands in the text, are enough to see a status change.
 #[test]
@@ -46,19 +40,6 @@ fn a_report() {
         })
     });
     reviewed("report-patched-effects", &short.collect::<Vec<_>>().join("\n"));
-}
-
-/// Every number that is not whole with three digits, one too small to matter as zero.
-fn rounded(value: &mut Value) {
-    match value {
-        Value::Number(n) if !n.is_u64() && !n.is_i64() => {
-            let x = n.as_f64().unwrap();
-            *value = if x.abs() < 1e-12 { Value::from(0.0) } else { format!("{x:.2e}").parse::<f64>().unwrap().into() };
-        }
-        Value::Array(items) => items.iter_mut().for_each(rounded),
-        Value::Object(entries) => entries.values_mut().for_each(rounded),
-        _ => {}
-    }
 }
 
 /// Inputs of the reviewed drive, by the beginning of their role: smooth, turning to both sides, never alike.

@@ -66,6 +66,7 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &d
     let quick = limits::without_transients(library);
     let selection = Selection {
         problem,
+        model,
         library: &quick,
         size: model.applicable(&quick).len().max(1) as f64,
         given: before.variances,

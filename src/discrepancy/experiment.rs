@@ -100,7 +100,7 @@ fn between(problem: &Problem, choice: &Choice, relatives: &[Vec<Relative>]) -> R
     let Some((chosen, rivals)) = open.into_iter().find(|(_, r)| !r.is_empty()) else { return Ok(None) };
     let after = &choice.after;
     let fitted = |r: &&Relative| {
-        let model = without(&after.model, &chosen.applied).with_effect(r.applied.clone().freed());
+        let model = without(&after.model, &chosen.applied, &choice.before.model).with_effect(r.applied.clone().freed());
         problem.fit(&model, &after.starts, &after.variances, SCREEN)
     };
     let fits: Vec<Fit> =

@@ -60,6 +60,8 @@ struct Ranked {
 /// A search over a library.
 pub(super) struct Selection<'a> {
     pub problem: &'a Problem,
+    /// The model as given.
+    pub model: &'a Model,
     pub library: &'a [Effect],
     /// How many candidates the library has for the vehicle.
     pub size: f64,
@@ -73,9 +75,12 @@ pub(super) struct Selection<'a> {
     pub drops: bool,
 }
 
-pub(super) fn without(model: &Model, effect: &Applied) -> Model {
+/// A model without an effect that was found; one that the model as given has with a value of its own has it again.
+pub(super) fn without(model: &Model, effect: &Applied, given: &Model) -> Model {
     let mut smaller = model.clone();
     smaller.effects.retain(|e| !e.same_as(effect));
+    let given = given.effects.iter().filter(|e| !e.free && e.same_as(effect));
+    smaller.effects.extend(given.cloned());
     smaller
 }
 
@@ -240,7 +245,7 @@ impl Selection<'_> {
     pub fn reduced(&self, fit: &Fit, effect: &Applied) -> Result<Option<Fit>> {
         // From the jumps of the model as given: what an effect leaves unexplained is not found from zero jumps,
         // where the likelihood is flat.
-        self.problem.fit(&without(&fit.model, effect), &fit.starts, &self.given, FULL)
+        self.problem.fit(&without(&fit.model, effect, self.model), &fit.starts, &self.given, FULL)
     }
 
     /// Drops what is no longer needed: what is worth no more than a bar beyond BIC.
@@ -298,7 +303,7 @@ impl Selection<'_> {
     /// Fits with another effect in the place of a chosen one, best first, at the noise and jumps of the fit: those
     /// that promise a good part of what the chosen one gives.
     pub fn in_place_of(&self, fit: &Fit, effect: &Applied) -> Result<Vec<(Applied, Fit)>> {
-        let smaller = without(&fit.model, effect);
+        let smaller = without(&fit.model, effect, self.model);
         let Some(bare) = self.problem.fit(&smaller, &fit.starts, &fit.variances, SCREEN)? else { return Ok(vec![]) };
         let lost = bare.deviance - fit.deviance;
         let found =
@@ -315,7 +320,7 @@ pub(super) fn find(model: &Model, like: &Applied) -> Option<Applied> {
 
 /// Whether two models have the same effects free, whatever their values.
 fn same_effects(a: &Model, b: &Model) -> bool {
-    let within = |a: &Model, b: &Model| a.free_effects().all(|e| find(b, e).is_some());
+    let within = |a: &Model, b: &Model| a.free_effects().all(|e| b.free_effects().any(|o| o.same_as(e)));
     within(a, b) && within(b, a)
 }
 

@@ -8,6 +8,9 @@ use super::problem::Problem;
 use super::report::{NextExperiment, Verdict};
 use super::summary::{listed, listed_to};
 use super::unnamed;
+use crate::effects::Applied;
+use crate::model::Model;
+use crate::picture::number::significant;
 
 /// A verdict with what there is to say about it.
 pub struct Outcome {
@@ -26,6 +29,9 @@ const NAMED: usize = 3;
 const FEWEST_WINDOWS: usize = 5;
 /// A model that misses more than this share of the motion does not describe it.
 const HOPELESS: f64 = 0.5;
+
+/// A vehicle that turns less says nothing of how its model turns, rad/s, root mean square.
+const TURNING: f64 = 0.1;
 
 /// A violation this many times as large as what noise makes of none is seen without statistics.
 const VISIBLE: f64 = 2.0;
@@ -100,9 +106,13 @@ pub fn after_fitting(choice: &Choice, after: &[Violation], clocks: &[Drift]) -> 
         return Outcome { verdict, sentence, next_experiment: contradicted.then(|| settling(choice)) };
     }
     if contradicted || disagrees(&choice.after, after) {
-        let sentence =
-            "Model and measurement disagree, but not alike in all parts of these runs: nothing can be named.";
-        return outcome(Verdict::NotIdentifiable, sentence, Some(settling(choice)));
+        let why = if contradicted {
+            "but not alike in all parts of these runs"
+        } else {
+            "and neither an effect of the library nor a simple law explains it"
+        };
+        let sentence = format!("Model and measurement disagree, {why}: nothing can be named.");
+        return outcome(Verdict::NotIdentifiable, &sentence, Some(settling(choice)));
     }
     match missed(&choice.candidates) {
         Some(candidate) => {
@@ -142,10 +152,25 @@ pub(super) fn warning(choice: &Choice) -> Option<String> {
     contradiction(choice).map(|asked| format!("{asked}, so that is not named"))
 }
 
+/// Effects of the model file that the runs ask for with other values.
+pub(super) fn restated(choice: &Choice, given: &Model) -> Vec<String> {
+    let values = |a: &Applied| {
+        let each =
+            a.effect.parameters.keys().zip(&a.values).map(|(name, v)| format!("{name} = {}", significant(*v, 3)));
+        listed(each)
+    };
+    let both = |c: &Applied| given.effects.iter().find(|e| e.same_as(c)).cloned();
+    let found = choice.chosen.iter().filter_map(|c| Some((both(&c.applied)?, &c.applied)));
+    let told = |(old, new): (Applied, &Applied)| {
+        format!("the model has {} with {}; these runs ask for {} in its place", new.label(), values(&old), values(new))
+    };
+    found.map(told).collect()
+}
+
 /// What mends runs whose parts contradict each other: no manoeuvre can be thought through with a model that is wrong,
 /// but where speed and turn change by themselves a law shows as what it is.
 fn settling(choice: &Choice) -> NextExperiment {
-    let asked = contradiction(choice).unwrap_or_else(|| "parts of these runs contradict each other".into());
+    let asked = contradiction(choice).unwrap_or_else(|| "what disagrees in these runs has no name".into());
     drive(&format!("{asked}: where speed and turn vary together, one law imitates another"))
 }
 
@@ -161,21 +186,24 @@ fn disagrees(fit: &Fit, after: &[Violation]) -> bool {
     unnamed::remaining(fit).any(visible)
 }
 
-/// A model that misses most of the motion, whatever is added to it.
+/// A model that misses most of the motion or of the turning, whatever is added to it.
 fn hopeless(after: &[Violation]) -> Option<String> {
     let sums = after
         .iter()
         .map(Violation::against_motion)
         .fold([(0.0, 0.0); 2], |sum, v| [0, 1].map(|k| (sum[k].0 + v[k].0 * v[k].0, sum[k].1 + v[k].1 * v[k].1)));
-    let share = |(miss, motion): (f64, f64)| (miss / motion.max(f64::MIN_POSITIVE)).sqrt();
-    let position = share(sums[0]);
-    (position > HOPELESS).then(|| {
-        format!(
-            "The model misses {:.0} % of the motion over one second, whatever is added: clocks, columns or units do not \
-             match, or the wheels spin.",
-            100.0 * position.min(1.0)
-        )
-    })
+    let [position, yaw] = sums.map(|(miss, motion)| (miss / motion.max(f64::MIN_POSITIVE)).sqrt());
+    let turns = (sums[1].1 / after.len().max(1) as f64).sqrt() > TURNING;
+    let (what, share) = match (position > HOPELESS, yaw > HOPELESS && turns) {
+        (true, _) => ("motion", position),
+        (false, true) => ("turning", yaw),
+        (false, false) => return None,
+    };
+    Some(format!(
+        "The model misses {:.0} % of the {what} over one second, whatever is added: clocks, columns or units do not \
+         match, or the wheels spin.",
+        100.0 * share.min(1.0)
+    ))
 }
 
 /// A vehicle that slides: no coefficient of creep describes slip angles of tens of degrees.
@@ -217,7 +245,7 @@ pub(super) fn missed(candidates: &[Scored]) -> Option<&Scored> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::effects::{self, Applied};
+    use crate::effects;
 
     #[test]
     fn only_a_basic_effect_that_could_hide_is_missed() {

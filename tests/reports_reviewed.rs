@@ -3,6 +3,8 @@
 
 #[path = "support/reviewed.rs"]
 mod reviewed;
+#[path = "support/rounded.rs"]
+mod rounded;
 mod simulator;
 
 use creepage::discrepancy::discover::{Discovery, Request, discover};
@@ -13,7 +15,8 @@ use creepage::discrepancy::summary::summary_text;
 use creepage::effects;
 use creepage::files::{ModelFile, Run};
 use creepage::model;
-use reviewed::{reviewed, rounded};
+use reviewed::reviewed;
+use rounded::rounded;
 use simulator::{Hidden, Mounting, Noise, Outliers, Profile, Scenario, Signal, Timing, Tractor, Vehicle};
 use std::fmt::Write as _;
 

@@ -5,6 +5,8 @@ mod cornering;
 mod models;
 #[path = "support/reviewed.rs"]
 mod reviewed;
+#[path = "support/rounded.rs"]
+mod rounded;
 
 use creepage::claims::{self, Options, ledger};
 use creepage::discrepancy::summary::summary_text;
@@ -13,7 +15,8 @@ use creepage::figures::fixed;
 use creepage::formula::Expr;
 use creepage::model::Model;
 use creepage::motion::{Formulas, Integrator, simulate_model};
-use reviewed::{reviewed, rounded};
+use reviewed::reviewed;
+use rounded::rounded;
 
 /// What every claim earned; few cases, whose number stands in the text, are enough to see a status change.
 #[test]

@@ -6,6 +6,7 @@ use super::record::{Channel, Record};
 use super::smooth;
 use crate::error::Result;
 use crate::model::Model;
+use std::ops::Range;
 
 /// Windows over which the model takes the motion's own curvature out, s.
 const WINDOW: f64 = 2.0;
@@ -15,8 +16,10 @@ const GROSS: f64 = 8.0;
 const MOST: f64 = 0.05;
 /// Rounds in which the largest errors are taken out; a gross error hides its neighbours.
 const ROUNDS: usize = 6;
-/// Rows this close to the edge of a window are judged in the other windows, where a gross error beyond the edge is seen.
+/// Rows this close to a restart are judged in the other windows, where a gross error beyond the edge is seen.
 const EDGE: usize = 4;
+/// Rows that a row is compared with, and itself.
+const COMPARED: usize = 5;
 /// Errors from which a usual one is told.
 const FEWEST: usize = 20;
 /// Rows on either side within which only the largest is taken out in one round.
@@ -30,6 +33,8 @@ const NEAR: usize = 3;
 /// | error of a row | its residual minus the cubic through its four neighbours, over what unit noise makes of it |
 /// | gross | eight times the usual, by the median over the record |
 ///
+/// Where the log begins, ends or is interrupted the neighbours are those on the other side.
+///
 /// # Errors
 /// When the model's formulas are malformed.
 pub fn without_gross_errors(record: &Record, model: &Model) -> Result<(Record, usize)> {
@@ -37,8 +42,8 @@ pub fn without_gross_errors(record: &Record, model: &Model) -> Result<(Record, u
     let predictor = Predictor::new(model, &whole)?;
     let mut gross = vec![false; record.rows.end];
     // Twice, half a window apart: where the model restarts its residual jumps, and rows there cannot be judged.
-    for shift in [0, 1] {
-        let windows = windows(&predictor, shift);
+    for shift in [0.0, 0.5] {
+        let windows = windows(&whole, shift);
         for column in &residuals(&whole, &predictor, &windows) {
             mark(&record.time, column, &windows, &mut gross);
         }
@@ -56,19 +61,46 @@ pub fn without_gross_errors(record: &Record, model: &Model) -> Result<(Record, u
     Ok((Record { time: pick(&record.time), columns, rows: before..end, ..record.clone() }, dropped))
 }
 
-/// Windows of two halves each, beginning with the first half or the second.
-fn windows(predictor: &Predictor, shift: usize) -> Vec<(usize, usize)> {
-    let halves = predictor.windows(0.5 * WINDOW);
-    let whole = halves[shift.min(halves.len())..].chunks(2);
-    whole.filter(|w| w.len() < 2 || w[0].1 == w[1].0).map(|w| (w[0].0, w[w.len() - 1].1)).collect()
+/// Rows along which the model runs without a restart.
+#[derive(Clone, Debug, PartialEq)]
+struct Window {
+    rows: Range<usize>,
+    /// Whether the log begins with it, or goes on with it after an interruption.
+    first: bool,
+    /// Whether the log ends with it, or is interrupted after it.
+    last: bool,
+}
+
+/// Windows one behind the other through every stretch without a gap, the first one shorter by a share; what is left at the
+/// end belongs to the last.
+fn windows(record: &Record, shorter: f64) -> Vec<Window> {
+    let of_stretch = |rows: Range<usize>| {
+        let elapsed = |i: usize| (record.time[i] - record.time[rows.start]) / WINDOW + shorter;
+        let most = (elapsed(rows.end - 1) - 0.5) as usize;
+        let mut found: Vec<Window> = vec![];
+        for i in rows.clone() {
+            match found.last_mut() {
+                Some(w) if found_in(elapsed(i), most) == found_in(elapsed(w.rows.start), most) => w.rows.end = i + 1,
+                _ => found.push(Window { rows: i..i + 1, first: found.is_empty(), last: false }),
+            }
+        }
+        found.last_mut().into_iter().for_each(|w| w.last = true);
+        found
+    };
+    record.segments(0.0).into_iter().flat_map(of_stretch).collect()
+}
+
+/// The window of a row by the windows' lengths that have passed.
+fn found_in(elapsed: f64, most: usize) -> usize {
+    (elapsed as usize).min(most)
 }
 
 /// Measured minus modelled, column by column; nothing outside the windows.
-fn residuals(record: &Record, predictor: &Predictor, windows: &[(usize, usize)]) -> Vec<Vec<f64>> {
+fn residuals(record: &Record, predictor: &Predictor, windows: &[Window]) -> Vec<Vec<f64>> {
     let mut found = vec![vec![f64::NAN; record.rows.end]; record.columns.len()];
     let channels = record.channels();
-    for (from, to) in windows.iter().copied() {
-        for (i, y) in (from..to).zip(predictor.outputs(from, to)) {
+    for Window { rows, .. } in windows {
+        for (i, y) in rows.clone().zip(predictor.outputs(rows.start, rows.end - 1)) {
             for (c, column) in found.iter_mut().enumerate() {
                 let r = record.columns[c][i] - y[record.output_of(c)];
                 column[i] = if channels[c] == Channel::Position { r } else { wrapped(r) };
@@ -79,17 +111,16 @@ fn residuals(record: &Record, predictor: &Predictor, windows: &[(usize, usize)])
 }
 
 /// Marks the gross errors of one column.
-fn mark(time: &[f64], column: &[f64], windows: &[(usize, usize)], gross: &mut [bool]) {
-    let mut window = vec![0; column.len()];
-    windows.iter().enumerate().for_each(|(k, (from, to))| window[*from..*to].fill(k));
+fn mark(time: &[f64], column: &[f64], windows: &[Window], gross: &mut [bool]) {
     let mut own = gross.to_vec();
     for _ in 0..ROUNDS {
         let rows: Vec<usize> = (0..column.len()).filter(|i| !own[*i] && column[*i].is_finite()).collect();
-        let errors: Vec<f64> = (0..rows.len()).map(|k| error(time, column, &window, &rows, k)).collect();
+        let errors: Vec<f64> = (0..rows.len()).map(|k| error(time, column, windows, &rows, k)).collect();
         let Some(usual) = usual(&errors) else { return };
         let is_gross = |k: usize| {
             let near = k.saturating_sub(NEAR)..(k + NEAR + 1).min(rows.len());
-            errors[k] > GROSS * usual && errors[near].iter().all(|e| e.is_nan() || *e <= errors[k])
+            let is_largest = errors[near].iter().all(|e| e.is_nan() || *e <= errors[k]);
+            errors[k] > GROSS * usual && is_largest && !beside_restart(windows, &rows, k)
         };
         let found: Vec<usize> = (0..rows.len()).filter(|k| is_gross(*k)).map(|k| rows[k]).collect();
         if found.is_empty() {
@@ -97,7 +128,7 @@ fn mark(time: &[f64], column: &[f64], windows: &[(usize, usize)], gross: &mut [b
         }
         found.into_iter().for_each(|i| own[i] = true);
     }
-    readmit(time, column, &window, gross, &mut own);
+    readmit(time, column, windows, gross, &mut own);
     let marked = own.iter().filter(|g| **g).count();
     if (marked as f64) < MOST * column.len() as f64 {
         gross.copy_from_slice(&own);
@@ -105,10 +136,10 @@ fn mark(time: &[f64], column: &[f64], windows: &[(usize, usize)], gross: &mut [b
 }
 
 /// Takes back what fits the rows that were left: beside two gross errors a good row looks worst.
-fn readmit(time: &[f64], column: &[f64], window: &[usize], before: &[bool], own: &mut [bool]) {
+fn readmit(time: &[f64], column: &[f64], windows: &[Window], before: &[bool], own: &mut [bool]) {
     let is_good = |own: &[bool], i: usize| !own[i] && column[i].is_finite();
     let left: Vec<usize> = (0..column.len()).filter(|i| is_good(own, *i)).collect();
-    let errors: Vec<f64> = (0..left.len()).map(|k| error(time, column, window, &left, k)).collect();
+    let errors: Vec<f64> = (0..left.len()).map(|k| error(time, column, windows, &left, k)).collect();
     let Some(usual) = usual(&errors) else { return };
     for i in (0..column.len()).filter(|i| own[*i] && !before[*i]).collect::<Vec<usize>>() {
         // Only the nearest good rows are asked.
@@ -117,19 +148,31 @@ fn readmit(time: &[f64], column: &[f64], window: &[usize], before: &[bool], own:
         let k = rows.len();
         rows.push(i);
         rows.extend((i + 1..column.len()).filter(|j| is_good(own, *j)).take(EDGE));
-        if error(time, column, window, &rows, k) <= GROSS * usual {
+        if error(time, column, windows, &rows, k) <= GROSS * usual {
             own[i] = false;
         }
     }
 }
 
-/// |r_i − cubic through its neighbours| over the deviation that unit noise gives it; nothing at the ends or
-/// from one window to the next.
-fn error(time: &[f64], column: &[f64], window: &[usize], rows: &[usize], k: usize) -> f64 {
-    if k < EDGE || k + EDGE >= rows.len() || window[rows[k - EDGE]] != window[rows[k + EDGE]] {
-        return f64::NAN;
-    }
-    smooth::beside_cubic(time, column, rows[k], [rows[k - 2], rows[k - 1], rows[k + 1], rows[k + 2]])
+/// The window of the k-th of some rows, and which of the rows are in it.
+fn around<'a>(windows: &'a [Window], rows: &[usize], k: usize) -> Option<(&'a Window, Range<usize>)> {
+    let window = windows.get(windows.partition_point(|w| w.rows.end <= rows[k]))?;
+    let [first, end] = [window.rows.start, window.rows.end].map(|edge| rows.partition_point(|i| *i < edge));
+    Some((window, first..end))
+}
+
+/// |r_i − cubic through its neighbours| over the deviation that unit noise gives it.
+fn error(time: &[f64], column: &[f64], windows: &[Window], rows: &[usize], k: usize) -> f64 {
+    let Some((_, own)) = around(windows, rows, k).filter(|(_, own)| own.len() >= COMPARED) else { return f64::NAN };
+    let from = (k.max(own.start + COMPARED / 2) - COMPARED / 2).min(own.end - COMPARED);
+    let other = |j: usize| rows[from + j + usize::from(from + j >= k)];
+    smooth::beside_cubic(time, column, rows[k], [other(0), other(1), other(2), other(3)])
+}
+
+/// Whether the model restarts near the k-th of some rows.
+fn beside_restart(windows: &[Window], rows: &[usize], k: usize) -> bool {
+    around(windows, rows, k)
+        .is_none_or(|(w, own)| (k < own.start + EDGE && !w.first) || (k + EDGE >= own.end && !w.last))
 }
 
 /// The usual error, as a standard deviation; `None` with too few errors or none at all.
@@ -158,10 +201,10 @@ mod tests {
 
     #[test]
     fn gross_errors_are_found_and_nothing_else() {
-        for wrong in [vec![], vec![7], vec![50, 51, 200, 330]] {
+        for wrong in [vec![], vec![7], vec![50, 51, 200, 330], vec![0, 398], vec![2, 397, 399]] {
             let (time, y) = column(&wrong);
             let mut gross = vec![false; y.len()];
-            mark(&time, &y, &[(0, y.len())], &mut gross);
+            mark(&time, &y, &[Window { rows: 0..y.len(), first: true, last: true }], &mut gross);
             let found: Vec<usize> = (0..y.len()).filter(|i| gross[*i]).collect();
             assert_eq!(found, wrong);
         }
@@ -172,7 +215,7 @@ mod tests {
         let (time, mut y) = column(&[]);
         (0..400).step_by(7).for_each(|i| y[i] += 0.02);
         let mut gross = vec![false; y.len()];
-        mark(&time, &y, &[(0, y.len())], &mut gross);
+        mark(&time, &y, &[Window { rows: 0..y.len(), first: true, last: true }], &mut gross);
         assert!(!gross.contains(&true));
     }
 }

@@ -231,8 +231,15 @@ fn mismatched(clocks: &[Drift]) -> Option<String> {
 }
 
 /// Effects every vehicle has in one form or another: if one of plausible size could hide, silence means nothing.
-pub(super) const BASIC: [&str; 6] =
-    ["rotation-creep", "traverse-creep", "yaw-rate-bias", "yaw-rate-scale", "track-width", "steering-offset"];
+pub(super) const BASIC: [&str; 7] = [
+    "rotation-creep",
+    "traverse-creep",
+    "yaw-rate-bias",
+    "yaw-rate-scale",
+    "track-width",
+    "steering-offset",
+    "steering-gain",
+];
 
 /// A basic effect that would not have stood out at its plausible size.
 pub(super) fn missed(candidates: &[Scored]) -> Option<&Scored> {

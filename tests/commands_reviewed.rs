@@ -204,6 +204,7 @@ fn drawings() {
         &[],
         &[
             "figures fig1 fig2 fig3 fig4 fig5 fig6 --e-rc=-0.3 --e-tc=-0.2 --out negative",
+            "figures fig1 fig2 fig5 --e-rc 0 --e-tc 0 --out zero",
             "figures fig7 --reading B --out reading",
             "figures fig7 fig5 --reading C1 --e-tc 0.4 --out other",
         ],

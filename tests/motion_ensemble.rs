@@ -92,6 +92,24 @@ fn every_kind_of_model_moves_as_it_does_alone() {
 }
 
 #[test]
+fn a_plan_is_made_on_cases_from_the_first_on_spread_evenly() {
+    let s = subjects().swap_remove(0);
+    let e = Ensemble::new(&s.model, &inputs(&s).0, &[Varied::Initial(2)], &s.start, 0.0, &[0.0, 1.0], 1e-8).unwrap();
+    for total in [1, 3, 1000] {
+        let asked = std::sync::Mutex::new(vec![]);
+        let case = |i: usize| {
+            asked.lock().unwrap().push(i);
+            vec![0.1]
+        };
+        e.plan(case, total).unwrap();
+        let asked = asked.into_inner().unwrap();
+        let n = asked.len();
+        assert!(n == total.min(32), "{n} of {total}");
+        assert_eq!(asked, (0..n).map(|k| k * total / n).collect::<Vec<_>>());
+    }
+}
+
+#[test]
 fn logged_inputs_and_their_delays_are_followed() {
     let time: Vec<f64> = (0..40).map(|i| 0.1 * f64::from(i)).collect();
     let column = |f: &dyn Fn(f64) -> f64| time.iter().map(|t| f(*t)).collect::<Vec<f64>>();

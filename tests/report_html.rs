@@ -114,6 +114,21 @@ fn the_drawing_says_in_its_title_what_shrank() {
     assert!(page.contains(&shrank), "the page says it, too");
 }
 
+/// Candidates beyond the usual number are drawn where they are chosen or not told from what is.
+#[test]
+fn what_is_chosen_is_drawn_however_far_behind() {
+    let mut pictures = pictures();
+    let one = |i: usize| Candidate { id: format!("effect-{i}"), delta_bic: 50.0 - i as f64, ..Candidate::default() };
+    pictures.candidates = (0..20).map(one).collect();
+    pictures.candidates[0].chosen = true;
+    pictures.candidates[16].chosen = true;
+    pictures.candidates[18].rival = true;
+    let [page, _] = check(&report(), &pictures);
+    let is_drawn = |i: usize| page.contains(&format!("effect-{i}<"));
+    let drawn: Vec<usize> = (0..20).filter(|i| is_drawn(*i)).collect();
+    assert_eq!(drawn, (0..14).chain([16, 18]).collect::<Vec<_>>());
+}
+
 #[test]
 fn both_axes_of_a_path_have_one_scale() {
     let mut run = path_picture("line.csv", true, 0);

@@ -200,6 +200,17 @@ fn a_mast_without_a_heading() {
     drive.check("mast");
 }
 
+/// Nothing measures the heading of a vehicle that slides outwards.
+#[test]
+fn a_slide_without_a_heading() {
+    let s = Scenario {
+        logs_heading: false,
+        duration: 40.0,
+        ..drive(Tractor::Unicycle, &[Hidden::CorneringCreep { mass_over_bt: 0.12 }], 26)
+    };
+    Drive::of(&s).discover("slide-without-heading");
+}
+
 /// Of two trailers the second one is longer than its drawing says.
 #[test]
 fn a_train() {

@@ -73,6 +73,14 @@ fn every_bad_file_is_explained_at_its_place() {
 }
 
 #[test]
+fn a_range_of_exactly_one_turn_is_a_whole_turn() {
+    let turn = "periodic = true\nunit = \"rad\"\nrange = [-3.141592653589793, 3.141592653589793]";
+    let text = GOOD.replacen("unit = \"m*s\"\nrange = [-10.0, 10.0]", turn, 1).replacen("q*phi'^2", "0.1*q*phi'", 1);
+    let refused = library(text.as_bytes()).err();
+    assert!(refused.is_none_or(|why| !why.contains("a whole turn")));
+}
+
+#[test]
 fn files_that_are_no_text_are_refused() {
     assert_eq!(library(b"").unwrap_err(), " is empty; check that this is the file you meant");
     assert!(library(b"\x7fELF\0\0").unwrap_err().contains("is a binary file"));

@@ -146,3 +146,34 @@ fn jump(pose: &mut [f64], v: &Variances, duration: f64, random: &mut ChaCha8Rng)
 fn normal(random: &mut ChaCha8Rng) -> f64 {
     random.sample(StandardNormal)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Forward, to the left and in yaw, each by its own variance, whatever the heading.
+    #[test]
+    fn a_jump_is_along_the_axes_of_the_body() {
+        let jumps = |variances: [f64; 4], heading: f64| -> Vec<[f64; 4]> {
+            let mut random = ChaCha8Rng::seed_from_u64(1);
+            let v = Variances { noise: [0.0; 3], jump: variances };
+            let mut draw = || {
+                let mut pose = [3.0, -2.0, heading, heading];
+                jump(&mut pose, &v, 0.5, &mut random);
+                let (dx, dy, (sin, cos)) = (pose[0] - 3.0, pose[1] + 2.0, heading.sin_cos());
+                [dx * cos + dy * sin, dy * cos - dx * sin, pose[2] - heading, pose[3] - heading]
+            };
+            (0..4000).map(|_| draw()).collect()
+        };
+        for heading in [0.0, 0.9, 2.5, -1.7] {
+            let drawn = jumps([0.04, 0.09, 0.01, 0.16], heading);
+            for (c, std) in [0.2, 0.3, 0.1, 0.4].into_iter().enumerate() {
+                // Half a second of a variance per second.
+                let rms = (drawn.iter().map(|d| d[c] * d[c]).sum::<f64>() / 4000.0 / 0.5).sqrt();
+                assert!((rms / std - 1.0).abs() < 0.05, "{heading}: {c}: {rms} for {std}");
+            }
+            let alone = jumps([0.04, 0.0, 0.0, 0.0], heading);
+            assert!(alone.iter().all(|d| d[1].abs() < 1e-12 && d[2] == 0.0 && d[3] == 0.0));
+        }
+    }
+}

@@ -167,6 +167,28 @@ mod tests {
         assert!(covered(&[], &times).is_empty());
     }
 
+    /// What is left out for its time is counted with what was left out before, by its reason and altogether.
+    #[test]
+    fn poses_without_inputs_are_counted() {
+        let model = ModelFile::parse(
+            "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 1.0\n",
+            "model.toml",
+            &crate::model::known(crate::effects::all()),
+        );
+        let folder = tempfile::tempdir().unwrap();
+        let [inputs, poses] = ["in.csv", "poses.csv"].map(|name| folder.path().join(name));
+        let row = |i: i32, cells: &str| format!("{},{cells}\n", 0.1 * f64::from(i));
+        let rows = |range: std::ops::Range<i32>, cells: &str| range.map(|i| row(i, cells)).collect::<String>();
+        std::fs::write(&inputs, format!("time,wheel_rate,yaw_rate\n{}", rows(0..50, "1,0.5"))).unwrap();
+        std::fs::write(&poses, format!("time,x,y,heading\n{}99,,0,0\n", rows(-5..50, "0,0,0"))).unwrap();
+        let run = Run::read_apart(&inputs, &poses, &model.unwrap()).unwrap();
+        let aligned = run.aligned(&Clock { offset: 0.0, drift: 0.0, at: 0.0 });
+        assert_eq!((run.time.len(), run.rows_dropped), (55, 1));
+        assert_eq!((aligned.time.len(), aligned.rows_dropped), (50, 6));
+        assert_eq!(aligned.why_dropped.values().sum::<usize>(), 6);
+        assert_eq!(aligned.why_dropped[WITHOUT], 5);
+    }
+
     /// A gap is told by the usual step, whatever the shortest ones are.
     #[test]
     fn a_gap_is_five_usual_steps() {

@@ -213,3 +213,26 @@ impl<F: FnMut(f64, &[f64], &mut [f64]), J: Slopes> Padded<'_, F, J> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// x' = x², y' = x·y far from one: a step that is not in proportion would lose all digits.
+    #[test]
+    fn differences_are_slopes_whatever_the_size() {
+        let mut rates = |_: f64, y: &[f64], out: &mut [f64]| {
+            out[0] = y[0] * y[0];
+            out[1] = y[0] * y[1];
+        };
+        for size in [1e-3, 1.0, 1e6] {
+            let mut differences = Differences;
+            let padded = Padded { n: 2, parts: RefCell::new((&mut rates, &mut differences)) };
+            let (y, mut slopes) = ([3.0 * size, -size, 7.0], [0.0; 4]);
+            padded.differences(0.0, &y, &mut slopes);
+            for (found, expected) in slopes.iter().zip([6.0 * size, 0.0, -size, 3.0 * size]) {
+                assert!((found - expected).abs() < 1e-6 * size, "{slopes:?} at {size}");
+            }
+        }
+    }
+}

@@ -129,6 +129,13 @@ mod tests {
     }
 
     #[test]
+    fn small_letters_take_less_room() {
+        let plain = |text: &str, size: f64| crate::picture::svg::width_of(text, size);
+        let expected = plain("v", 10.0) + plain("max", SMALL * 10.0);
+        assert!((width_of("$v_{max}$", 10.0) - expected).abs() < 1e-9);
+    }
+
+    #[test]
     fn signs_outside_of_mathematics_are_text() {
         assert_eq!(runs("a_{b}")[0].text, "a_{b}");
     }

@@ -228,6 +228,16 @@ mod tests {
         assert!(s.finish().is_empty());
     }
 
+    /// Up the paper, moved to the left, whatever way it points.
+    #[test]
+    fn a_length_is_moved_aside_of_its_way() {
+        let mut s = Sketch::new([0.0, 0.0], 10.0);
+        s.length([0.0, 0.0], [0.0, 8.0], 20.0, "L");
+        let middle = s.at([-2.0, 4.0]);
+        let text: String = s.finish().iter().map(|e| format!("{e}")).collect();
+        assert!(text.contains(&format!("x=\"{}\"", middle[0])), "{text}");
+    }
+
     #[test]
     fn a_rounded_rectangle_keeps_its_sides() {
         let outline = rounded([0.0, 0.0], 0.0, [4.0, 2.0], 0.5);

@@ -209,6 +209,11 @@ pub const BAD_FILES: &[Case] = &[
         "16:12: a parameter cannot be both positive and periodic; remove one of the two",
     ),
     case(
+        "half a turn too short",
+        &[("unit = \"m*s\"\nrange = [-10.0, 10.0]", "periodic = true\nunit = \"rad\"\nrange = [-3.2, 3.1]")],
+        "9:9: the range of a periodic parameter must hold a whole turn; write range = [-3.2, 3.2]",
+    ),
+    case(
         "too short a turn",
         &[("unit = \"m*s\"\nrange = [-10.0, 10.0]", "periodic = true\nunit = \"rad\"\nrange = [-1.0, 1.0]")],
         "9:9: the range of a periodic parameter must hold a whole turn; write range = [-3.2, 3.2]",

@@ -121,3 +121,33 @@ fn pose_around(run: &Run, t: f64) -> Option<[f64; 2]> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects;
+    use crate::files::ModelFile;
+    use crate::model::known;
+
+    /// A circle at a speed, turning at 0.6 rad/s, positions alone.
+    fn circle(speed: f64) -> Run {
+        let model = "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 1.0\n";
+        let file = ModelFile::parse(model, "model.toml", &known(effects::all())).unwrap();
+        let (rate, mut text) = (0.6, String::from("time,x,y,wheel_rate,yaw_rate\n"));
+        for t in (0..100).map(|i| 0.05 * f64::from(i)) {
+            let (sin, cos) = (rate * t + 2.0_f64).sin_cos();
+            text += &format!("{t},{},{},{speed},{rate}\n", speed / rate * sin, -speed / rate * cos);
+        }
+        Run::parse("run.csv", &text, &file).unwrap()
+    }
+
+    #[test]
+    fn a_path_without_headings_turns_where_it_is_long_enough_to_have_a_direction() {
+        for speed in [0.06, 0.3, 2.0] {
+            let [way, turn] = pose_around(&circle(speed), 2.5).unwrap();
+            assert!((way / speed - 1.0).abs() < 0.02 && (turn - 0.6).abs() < 0.02, "{way} {turn} at {speed}");
+        }
+        let [way, turn] = pose_around(&circle(0.04), 2.5).unwrap();
+        assert!(way < STILL && turn == 0.0, "{way} {turn}");
+    }
+}

@@ -42,7 +42,7 @@ pub fn make(at: &Places) {
 
 /// `cargo` in the copy.
 pub fn cargo(at: &Places, arguments: &[&str]) -> Output {
-    let shared = ["--message-format=json", "--profile=schemata", "--quiet"];
+    let shared = ["--message-format=json", "--profile=schemata", "--quiet", "--all-features"];
     let mut command = Command::new("cargo");
     command.args(arguments).args(shared).current_dir(at.copy()).env("CARGO_TARGET_DIR", at.file("target"));
     command.env("RUSTFLAGS", "--cap-lints=allow").output().unwrap()

@@ -114,6 +114,18 @@ fn the_drawing_says_in_its_title_what_shrank() {
     assert!(page.contains(&shrank), "the page says it, too");
 }
 
+/// Where nothing can be said the warnings say why, before any picture; elsewhere they wait at the end.
+#[test]
+fn the_reason_for_no_answer_stands_at_the_top() {
+    for (verdict, at_the_top) in [(Verdict::UnusableData, true), (Verdict::NotIdentifiable, false)] {
+        let mut report = bare(verdict);
+        report.data.warnings = vec!["the log stands still".into()];
+        let [page, _] = check(&report, &pictures());
+        let (top, _) = page.split_once("<figure>").unwrap();
+        assert_eq!(top.contains("<li>the log stands still</li>"), at_the_top);
+    }
+}
+
 /// Candidates beyond the usual number are drawn where they are chosen or not told from what is.
 #[test]
 fn what_is_chosen_is_drawn_however_far_behind() {

@@ -209,6 +209,11 @@ fn what_a_file_gets_wrong_is_told_with_its_place() {
         ("duration = 3.0", "durations = 3.0", "spec.toml:2:1: unknown key \"durations\""),
         ("duration = 3.0", "", "spec.toml:1:1: key \"duration\" is missing"),
         ("duration = 3.0", "duration = -3.0", "spec.toml:2:12: duration"),
+        (
+            "uniform = [-3.0, 3.0]",
+            "log_uniform = [0.0, 3.0]",
+            "spec.toml:15:35: log_uniform [0.0, 3.0] has a bound that is not positive",
+        ),
         ("uniform", "triangle", "spec.toml:15:21: \"triangle\" is no distribution"),
         ("[-3.0, 3.0]", "[3.0, -3.0]", "begins above its end"),
         ("model.toml", "models.toml", "spec.toml:1:9: no file is at \"models.toml\""),

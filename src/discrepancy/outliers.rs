@@ -22,6 +22,8 @@ const EDGE: usize = 4;
 const COMPARED: usize = 5;
 /// Errors from which a usual one is told.
 const FEWEST: usize = 20;
+/// Rows on either side in which an error is to stand out.
+const AROUND: usize = 15;
 /// Rows on either side within which only the largest is taken out in one round.
 const NEAR: usize = 3;
 
@@ -31,7 +33,7 @@ const NEAR: usize = 3;
 /// |---|---|
 /// | residual | measured minus the model restarted every two seconds: smooth, whatever the model misses |
 /// | error of a row | its residual minus the cubic through its four neighbours, over what unit noise makes of it |
-/// | gross | eight times the usual, by the median over the record |
+/// | gross | eight times the usual, by the median over the record and by that over the rows around: hard driving is rough |
 ///
 /// Where the log begins, ends or is interrupted the neighbours are those on the other side.
 ///
@@ -120,7 +122,7 @@ fn mark(time: &[f64], column: &[f64], windows: &[Window], gross: &mut [bool]) {
         let is_gross = |k: usize| {
             let near = k.saturating_sub(NEAR)..(k + NEAR + 1).min(rows.len());
             let is_largest = errors[near].iter().all(|e| e.is_nan() || *e <= errors[k]);
-            errors[k] > GROSS * usual && is_largest && !beside_restart(windows, &rows, k)
+            errors[k] > GROSS * usual && is_largest && stands_out(&errors, k) && !beside_restart(windows, &rows, k)
         };
         let found: Vec<usize> = (0..rows.len()).filter(|k| is_gross(*k)).map(|k| rows[k]).collect();
         if found.is_empty() {
@@ -175,6 +177,12 @@ fn beside_restart(windows: &[Window], rows: &[usize], k: usize) -> bool {
         .is_none_or(|(w, own)| (k < own.start + EDGE && !w.first) || (k + EDGE >= own.end && !w.last))
 }
 
+/// Whether an error is gross beside those around it.
+fn stands_out(errors: &[f64], k: usize) -> bool {
+    let around = &errors[k.saturating_sub(AROUND)..(k + AROUND + 1).min(errors.len())];
+    usual(around).is_none_or(|usual| errors[k] > GROSS * usual)
+}
+
 /// The usual error, as a standard deviation; `None` with too few errors or none at all.
 fn usual(errors: &[f64]) -> Option<f64> {
     let mut known: Vec<f64> = errors.iter().copied().filter(|e| e.is_finite()).collect();
@@ -207,6 +215,22 @@ mod tests {
             mark(&time, &y, &[Window { rows: 0..y.len(), first: true, last: true }], &mut gross);
             let found: Vec<usize> = (0..y.len()).filter(|i| gross[*i]).collect();
             assert_eq!(found, wrong);
+        }
+    }
+
+    /// Hard driving leaves rough residuals, which are no gross errors; one that stands out of them is.
+    #[test]
+    fn a_rough_stretch_is_left_alone() {
+        let (time, mut y) = column(&[]);
+        let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(5);
+        let rough = rand_distr::Normal::new(0.0, 1.5e-3).unwrap();
+        y[150..185].iter_mut().for_each(|v| *v += random.sample(rough));
+        for wrong in [None, Some(170)] {
+            wrong.into_iter().for_each(|i: usize| y[i] += 0.1);
+            let mut gross = vec![false; y.len()];
+            mark(&time, &y, &[Window { rows: 0..y.len(), first: true, last: true }], &mut gross);
+            let found: Vec<usize> = (0..y.len()).filter(|i| gross[*i]).collect();
+            assert_eq!(found, wrong.into_iter().collect::<Vec<_>>());
         }
     }
 

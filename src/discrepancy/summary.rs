@@ -254,6 +254,22 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_clock_is_said_in_seconds_and_microseconds_a_second() {
+        let estimate = |value, std, unit: &str| Estimate { value, std: Some(std), unit: unit.into() };
+        let clock = RunClock {
+            run: "in.csv".into(),
+            truth: "poses.csv".into(),
+            held_out: false,
+            offset_s: estimate(-12.34567, 0.002, "s"),
+            drift: estimate(2.5e-5, 3e-6, "1"),
+            at_s: 100.0,
+            correlation: 0.99,
+            other_offset_s: None,
+        };
+        assert_eq!(clock_line(&clock), "clock of in.csv: offset −12.3457 ± 0.0020 s, drift 25.0 ± 3.0 µs/s");
+    }
+
+    #[test]
     fn lines_are_as_full_as_they_may_be() {
         let text = |first: usize| format!("{} {}", "a".repeat(first), "b".repeat(COLUMNS - first - 1));
         // One blank, and to the column all that a line holds.

@@ -138,6 +138,7 @@ mod tests {
         assert_eq!(at("\"\"\"  ab \"\"\"", "ab"), [5, 6, 7]);
         assert_eq!(at("\"a\\u0027 + b\"", "a' + b"), [1, 2, 8, 9, 10, 11, 12]);
         assert_eq!(at("\"a\\tb\"", "a\tb"), [0; 4], "not understood");
+        assert_eq!(at("\"a\\\"b\\\\c\"", "a\"b\\c"), [1, 2, 4, 5, 7, 8], "a quotation mark and a backslash");
         assert_eq!(at("\"a\\u00", "a"), [0; 2], "cut off");
     }
 }

@@ -65,3 +65,28 @@ impl Machine {
         self.definitions.iter().map(|(n, _)| n.clone()).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vehicles;
+
+    /// A column that may stand for an input stands in its place, and leaves the others where they are.
+    #[test]
+    fn one_input_is_logged_by_another_column() {
+        let mut seen = 0;
+        for vehicle in vehicles::all() {
+            let machines = Machine::of_vehicle(vehicle).unwrap();
+            let plain = &machines[0].model.inputs;
+            for machine in machines.iter().filter(|m| m.label.contains(" logged by ")) {
+                let (_, column) = machine.label.split_once(" logged by ").unwrap();
+                let changed: Vec<usize> = (0..plain.len()).filter(|i| plain[*i] != machine.model.inputs[*i]).collect();
+                let [i] = changed[..] else { panic!("{}: {:?}", machine.label, machine.model.inputs) };
+                assert_eq!(machine.model.inputs[i], column);
+                assert_eq!(vehicle.inputs[&plain[i]].instead.as_ref().unwrap().role, column);
+                seen += 1;
+            }
+        }
+        assert!(seen > 0);
+    }
+}

@@ -275,5 +275,7 @@ mod tests {
         assert!(placed.windows(2).all(|w| w[1] - w[0] > 16.9), "{placed:?}");
         assert!(placed[2] <= 110.0 && placed[0] >= 0.0, "{placed:?}");
         assert_eq!(apart(&[10.0, 90.0], 17.0, 0.0, 100.0), [10.0, 90.0]);
+        let low = apart(&[1.0, 2.0], 17.0, 0.0, 100.0);
+        assert!(low[0] >= 0.0 && low[1] - low[0] > 16.9, "{low:?}");
     }
 }

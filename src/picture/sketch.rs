@@ -232,8 +232,8 @@ mod tests {
     #[test]
     fn a_length_is_moved_aside_of_its_way() {
         let mut s = Sketch::new([0.0, 0.0], 10.0);
-        s.length([0.0, 0.0], [0.0, 8.0], 20.0, "L");
-        let middle = s.at([-2.0, 4.0]);
+        s.length([1.0, 3.0], [1.0, 11.0], 20.0, "L");
+        let middle = s.at([-1.0, 7.0]);
         let text: String = s.finish().iter().map(|e| format!("{e}")).collect();
         assert!(text.contains(&format!("x=\"{}\"", middle[0])), "{text}");
     }

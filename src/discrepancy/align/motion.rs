@@ -150,4 +150,18 @@ mod tests {
         let [way, turn] = pose_around(&circle(0.04), 2.5).unwrap();
         assert!(way < STILL && turn == 0.0, "{way} {turn}");
     }
+
+    /// Whether the hole in the poses is in the second, or right behind it.
+    #[test]
+    fn a_hole_in_the_poses_says_nothing_of_the_motion_in_it() {
+        let mut run = circle(0.5);
+        let keep: Vec<usize> = (0..run.time.len()).filter(|i| !(1.0..2.6).contains(&run.time[*i])).collect();
+        for column in [&mut run.time, &mut run.x, &mut run.y] {
+            *column = keep.iter().map(|i| column[*i]).collect();
+        }
+        let is_told = |t: f64| pose_around(&run, t).is_some();
+        assert_eq!([0.5, 0.6, 1.2, 1.8, 2.3, 2.5, 3.2].map(is_told), [false, false, false, false, false, false, true]);
+        let is_told = |t: f64| pose_around(&circle(0.5), t).is_some();
+        assert_eq!([0.3, 0.5, 0.6, 4.4, 4.6].map(is_told), [false, true, true, true, false]);
+    }
 }

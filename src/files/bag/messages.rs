@@ -167,6 +167,8 @@ mod tests {
             let rolled = [0.1f64.sin() * c, 0.1f64.sin() * s, s * 0.1f64.cos(), c * 0.1f64.cos()];
             assert!((yaw(rolled) - turn).abs() < 1e-12, "roll leaves it");
         }
+        // On its back, about one axis and the other.
+        assert_eq!([yaw([1.0, 0.0, 0.0, 0.0]), yaw([0.0, 1.0, 0.0, 0.0]).abs()], [0.0, std::f64::consts::PI]);
         assert!(yaw([0.0; 4]).is_nan());
     }
 }

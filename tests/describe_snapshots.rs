@@ -1,18 +1,14 @@
 //! Descriptions and lists as a person has read and accepted them.
 
 mod models;
+#[path = "support/reviewed.rs"]
+mod reviewed;
 
 use creepage::describe::{self, CreepLimits, Description};
 use creepage::effects;
 use creepage::model::Model;
 use creepage::vehicles;
-
-fn reviewed(run: impl FnOnce()) {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.bind(run);
-}
+use reviewed::reviewed;
 
 fn pretty(v: &serde_json::Value) -> String {
     format!("{v:#}")
@@ -22,7 +18,7 @@ fn pretty(v: &serde_json::Value) -> String {
 fn descriptions_as_text() {
     for (name, model) in models::reviewed() {
         let d = Description::of(&model).unwrap();
-        reviewed(|| insta::assert_snapshot!(format!("describe-{name}-text"), describe::text(&d)));
+        reviewed(&format!("describe-{name}-text"), &describe::text(&d));
     }
 }
 
@@ -30,7 +26,7 @@ fn descriptions_as_text() {
 fn descriptions_of_later_vehicles_as_text() {
     for (name, model) in models::reviewed_as_text() {
         let d = Description::of(&model).unwrap();
-        reviewed(|| insta::assert_snapshot!(format!("describe-{name}-text"), describe::text(&d)));
+        reviewed(&format!("describe-{name}-text"), &describe::text(&d));
     }
 }
 
@@ -43,12 +39,12 @@ fn regimes_in_every_format() {
     let model = spinning.with_effect(models::effect("traverse-creep", None, &[-0.05])).with_effect(sliding);
     let d = Description::of(&model).unwrap();
     let judged = d.clone().with_limits(limits);
-    reviewed(|| insta::assert_snapshot!("regimes-by-sign-text", constraints(&describe::text(&d))));
-    reviewed(|| insta::assert_snapshot!("regimes-text", constraints(&describe::text(&judged))));
-    reviewed(|| insta::assert_snapshot!("regimes-latex", constraints(&describe::latex(&judged))));
+    reviewed("regimes-by-sign-text", constraints(&describe::text(&d)));
+    reviewed("regimes-text", constraints(&describe::text(&judged)));
+    reviewed("regimes-latex", constraints(&describe::latex(&judged)));
     let json = describe::json(&judged);
     let told: Vec<_> = json["constraints"].as_array().unwrap().iter().map(|c| c["coefficient"].clone()).collect();
-    reviewed(|| insta::assert_snapshot!("regimes-json", pretty(&told.into())));
+    reviewed("regimes-json", &pretty(&told.into()));
 }
 
 /// The part of a description that speaks of the constraints.
@@ -61,7 +57,7 @@ fn constraints(text: &str) -> &str {
 fn descriptions_as_latex() {
     for (name, model) in models::reviewed() {
         let d = Description::of(&model).unwrap();
-        reviewed(|| insta::assert_snapshot!(format!("describe-{name}-latex"), describe::latex(&d)));
+        reviewed(&format!("describe-{name}-latex"), &describe::latex(&d));
     }
 }
 
@@ -69,25 +65,23 @@ fn descriptions_as_latex() {
 fn descriptions_as_json() {
     for (name, model) in models::reviewed() {
         let d = Description::of(&model).unwrap();
-        reviewed(|| insta::assert_snapshot!(format!("describe-{name}-json"), pretty(&describe::json(&d))));
+        reviewed(&format!("describe-{name}-json"), &pretty(&describe::json(&d)));
     }
 }
 
 #[test]
 fn the_list_of_vehicles() {
-    reviewed(|| insta::assert_snapshot!("vehicles-text", describe::vehicles_text(vehicles::all()).unwrap()));
+    reviewed("vehicles-text", &describe::vehicles_text(vehicles::all()).unwrap());
     let json = describe::vehicles_json(vehicles::all()).unwrap();
-    reviewed(|| insta::assert_snapshot!("vehicles-json", pretty(&json)));
+    reviewed("vehicles-json", &pretty(&json));
     assert_eq!(json["vehicles"].as_array().unwrap().len(), creepage::vehicles::all().len() + 1);
 }
 
 #[test]
 fn the_list_of_effects() {
-    reviewed(|| {
-        insta::assert_snapshot!("effects-text", describe::effects_text(vehicles::all(), effects::all()).unwrap())
-    });
+    reviewed("effects-text", &describe::effects_text(vehicles::all(), effects::all()).unwrap());
     let json = describe::effects_json(vehicles::all(), effects::all()).unwrap();
-    reviewed(|| insta::assert_snapshot!("effects-json", pretty(&json)));
+    reviewed("effects-json", &pretty(&json));
     let applies = |id: &str| {
         let entries = json["effects"].as_array().unwrap();
         let entry = entries.iter().find(|e| e["id"] == id).unwrap();

@@ -1,7 +1,11 @@
 //! Figures: their data against numbers this project did not make, against themselves as reviewed, and their files.
 
+#[path = "support/reviewed.rs"]
+mod reviewed;
+
 use creepage::figures::{self, Drawing, FIGURES, Options, Rig, readings};
 use creepage::motion::Reading;
+use reviewed::reviewed;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
@@ -10,14 +14,6 @@ static DRAWN: LazyLock<BTreeMap<&'static str, Drawing>> = LazyLock::new(|| {
     let drawn = figures::draw(&[], &Options::default(), &|_| {}).unwrap();
     drawn.into_iter().map(|(figure, drawing)| (figure.name, drawing)).collect()
 });
-
-fn reviewed(run: impl FnOnce()) {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots/figures"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(run);
-}
 
 fn one(name: &str, options: &Options) -> Drawing {
     figures::draw(&[name.into()], options, &|_| {}).unwrap().remove(0).1
@@ -41,7 +37,7 @@ fn figures_are_as_reviewed() {
                 true => text[text.find("</style>").unwrap()..].replace("><", ">\n<"),
                 false => thinned(&text),
             };
-            reviewed(|| insta::assert_snapshot!(file.replace('.', "-"), text));
+            reviewed(&format!("figures/{}", file.replace('.', "-")), &text);
         }
     }
 }
@@ -56,7 +52,7 @@ fn thinned(csv: &str) -> String {
 
 #[test]
 fn the_style_of_a_figure_is_as_reviewed() {
-    reviewed(|| insta::assert_snapshot!("style", creepage::picture::theme::figure()));
+    reviewed("figures/style", &creepage::picture::theme::figure());
 }
 
 /// End points of Fig. 7: x, y, phi, theta, distance, certified by quadrature with thirty digits.

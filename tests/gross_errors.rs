@@ -10,23 +10,13 @@ use creepage::discrepancy::record::Record;
 use creepage::effects;
 use creepage::model::Model;
 use read_back::read_back;
-use simulator::{Hidden, Log, Noise, Outliers, Scenario, Timing, Tractor};
+use simulator::{Hidden, Log, Noise, Scenario, Tractor};
 
-/// A log as they come, of a vehicle whose model misses something.
+/// A rough log of a vehicle whose model misses something.
 fn rough(seed: u64) -> Scenario {
-    Scenario {
-        hidden: vec![Hidden::WheelRadiusMismatch { scale: 0.03 }],
-        timing: Timing::IntervalMean,
-        duration: 30.0,
-        rate: 20.0,
-        noise: Noise::MOCAP,
-        outliers: Outliers { share: 0.02, size: 0.5 },
-        gaps: vec![(12.0, 14.5)],
-        dropouts: 0.05,
-        jitter: 0.3,
-        wrap_heading: true,
-        ..Scenario::new(Tractor::DifferentialDrive, seed)
-    }
+    let hidden = vec![Hidden::WheelRadiusMismatch { scale: 0.03 }];
+    let usual = Scenario::new(Tractor::DifferentialDrive, seed);
+    Scenario { hidden, duration: 30.0, rate: 20.0, noise: Noise::MOCAP, ..usual }.roughly_logged()
 }
 
 /// Whether the measured position of a row is off by more than ten deviations.

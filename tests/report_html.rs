@@ -1,10 +1,13 @@
 //! The page, the drawing for the README and the one-screen summary.
 
+#[path = "support/reviewed.rs"]
+mod reviewed;
 mod synthetic;
 
 use creepage::discrepancy::html::{gap_svg, html};
 use creepage::discrepancy::report::*;
 use creepage::discrepancy::summary::summary_text;
+use reviewed::reviewed;
 use synthetic::{bare, path_picture, pictures, report, residual};
 
 const VERDICTS: [Verdict; 5] = [
@@ -281,10 +284,7 @@ fn the_summary_fits_a_screen() {
 
 #[test]
 fn the_summary_is_as_reviewed() {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.bind(|| insta::assert_snapshot!("summary", summary_text(&report())));
+    reviewed("summary", &summary_text(&report()));
 }
 
 /// The same pictures with a far origin, a clock's epoch, long names and a small gap.

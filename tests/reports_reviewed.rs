@@ -17,7 +17,7 @@ use creepage::files::{ModelFile, Run};
 use creepage::model;
 use reviewed::reviewed;
 use rounded::rounded;
-use simulator::{Hidden, Mounting, Noise, Outliers, Profile, Scenario, Signal, Timing, Tractor, Vehicle};
+use simulator::{Hidden, Mounting, Noise, Profile, Scenario, Signal, Tractor, Vehicle};
 use std::fmt::Write as _;
 
 /// Runs as their user has them.
@@ -166,20 +166,12 @@ fn one_circle() {
     drive.check("one-circle");
 }
 
-/// A log as they come: rows lost and shifted, an interruption, wrapped headings, gross errors, means of intervals.
+/// A log as they come.
 #[test]
 fn a_rough_log() {
-    let rough = |hidden: &[Hidden], seed| Scenario {
-        timing: Timing::IntervalMean,
-        outliers: Outliers { share: 0.02, size: 0.5 },
-        gaps: vec![(12.0, 14.5)],
-        dropouts: 0.05,
-        jitter: 0.3,
-        wrap_heading: true,
-        ..drive(Tractor::DifferentialDrive, hidden, seed)
-    };
     let hidden = [Hidden::WheelRadiusMismatch { scale: 0.03 }];
-    let drive = Drive::of(&rough(&hidden, 2)).held_out(&rough(&hidden, 3)).at(&[2.0, 0.5, 10.0, 40.0]);
+    let rough = |seed| drive(Tractor::DifferentialDrive, &hidden, seed).roughly_logged();
+    let drive = Drive::of(&rough(2)).held_out(&rough(3)).at(&[2.0, 0.5, 10.0, 40.0]);
     drive.discover("rough-log");
     drive.check("rough-log");
 }

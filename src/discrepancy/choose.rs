@@ -66,17 +66,16 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &d
     let quick = limits::without_transients(library);
     let selection = Selection {
         problem,
-        model,
+        before: &before,
         library: &quick,
         size: model.applicable(&quick).len().max(1) as f64,
-        given: before.variances,
         most: MOST,
         exchanges: true,
         drops: true,
     };
     let named = limits::search(&selection, library, selection.grown(&before, progress)?)?;
-    let grown = unnamed::search(&selection, (model, &before), &named, &[], progress)?.unwrap_or(named);
-    let Stable { grown, unshared, scatter } = stable::search(&selection, (model, &before), grown, progress)?;
+    let grown = unnamed::search(&selection, &named, &[], progress)?.unwrap_or(named);
+    let Stable { grown, unshared, scatter } = stable::search(&selection, grown, progress)?;
     let chosen = selection.examined(&grown.fit, scatter.as_ref())?;
     let Grown { fit: after, steps, candidates } = grown;
     Ok(Some(Choice { before, after, chosen, steps, candidates, unshared }))

@@ -94,7 +94,7 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
     report.gap = judged.gaps(&horizons(request));
     report.data.warnings.extend(too_long(request, &report));
     report.data.warnings.extend(verdict::warning(&choice));
-    report.data.warnings.extend(verdict::restated(&choice, &model));
+    report.data.warnings.extend(verdict::restated(&choice));
     report.steps = judged.steps(&choice, &report.gap)?;
     report.summary = found.sentence.unwrap_or_else(|| summary::verdict_sentence(&report));
     let added = match report.verdict {

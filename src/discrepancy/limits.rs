@@ -32,9 +32,9 @@ fn in_place_of(selection: &Selection, named: &Grown, limit: &Applied, whole: &Ap
     if !whole.is_in_range() {
         return Ok(None);
     }
-    let model = without(&named.fit.model, limit, selection.model).with_effect(whole.clone().freed());
+    let model = without(&named.fit.model, limit, &selection.before.model).with_effect(whole.clone().freed());
     // From the jumps of the model as given, as where an effect is taken out.
-    let Some(fit) = selection.problem.fit(&model, &named.fit.starts, &selection.given, FULL)? else {
+    let Some(fit) = selection.problem.fit(&model, &named.fit.starts, &selection.before.variances, FULL)? else {
         return Ok(None);
     };
     let fit = selection.pruned(fit, selection.margin())?;

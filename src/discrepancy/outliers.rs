@@ -64,7 +64,6 @@ pub fn without_gross_errors(record: &Record, model: &Model) -> Result<(Record, u
 }
 
 /// Rows along which the model runs without a restart.
-#[derive(Clone, Debug, PartialEq)]
 struct Window {
     rows: Range<usize>,
     /// Whether the log begins with it, or goes on with it after an interruption.
@@ -76,25 +75,18 @@ struct Window {
 /// Windows one behind the other through every stretch without a gap, the first one shorter by a share; what is left at the
 /// end belongs to the last.
 fn windows(record: &Record, shorter: f64) -> Vec<Window> {
-    let of_stretch = |rows: Range<usize>| {
-        let elapsed = |i: usize| (record.time[i] - record.time[rows.start]) / WINDOW + shorter;
-        let most = (elapsed(rows.end - 1) - 0.5) as usize;
-        let mut found: Vec<Window> = vec![];
-        for i in rows.clone() {
-            match found.last_mut() {
-                Some(w) if found_in(elapsed(i), most) == found_in(elapsed(w.rows.start), most) => w.rows.end = i + 1,
-                _ => found.push(Window { rows: i..i + 1, first: found.is_empty(), last: false }),
-            }
-        }
-        found.last_mut().into_iter().for_each(|w| w.last = true);
-        found
+    let of_stretch = |stretch: Range<usize>| {
+        let elapsed = |i: usize| (record.time[i] - record.time[stretch.start]) / WINDOW + shorter;
+        let most = (elapsed(stretch.end - 1) - 0.5) as usize;
+        let number = |i: &usize| (elapsed(*i) as usize).min(most);
+        let rows: Vec<usize> = stretch.clone().collect();
+        let window = |w: &[usize]| {
+            let rows = w[0]..w[w.len() - 1] + 1;
+            Window { first: rows.start == stretch.start, last: rows.end == stretch.end, rows }
+        };
+        rows.chunk_by(|a, b| number(a) == number(b)).map(window).collect::<Vec<_>>()
     };
     record.segments(0.0).into_iter().flat_map(of_stretch).collect()
-}
-
-/// The window of a row by the windows' lengths that have passed.
-fn found_in(elapsed: f64, most: usize) -> usize {
-    (elapsed as usize).min(most)
 }
 
 /// Measured minus modelled, column by column; nothing outside the windows.
@@ -117,7 +109,7 @@ fn mark(time: &[f64], column: &[f64], windows: &[Window], gross: &mut [bool]) {
     let mut own = gross.to_vec();
     for _ in 0..ROUNDS {
         let rows: Vec<usize> = (0..column.len()).filter(|i| !own[*i] && column[*i].is_finite()).collect();
-        let errors: Vec<f64> = (0..rows.len()).map(|k| error(time, column, windows, &rows, k)).collect();
+        let errors = errors(time, column, windows, &rows);
         let Some(usual) = usual(&errors) else { return };
         let is_gross = |k: usize| {
             let near = k.saturating_sub(NEAR)..(k + NEAR + 1).min(rows.len());
@@ -141,8 +133,7 @@ fn mark(time: &[f64], column: &[f64], windows: &[Window], gross: &mut [bool]) {
 fn readmit(time: &[f64], column: &[f64], windows: &[Window], before: &[bool], own: &mut [bool]) {
     let is_good = |own: &[bool], i: usize| !own[i] && column[i].is_finite();
     let left: Vec<usize> = (0..column.len()).filter(|i| is_good(own, *i)).collect();
-    let errors: Vec<f64> = (0..left.len()).map(|k| error(time, column, windows, &left, k)).collect();
-    let Some(usual) = usual(&errors) else { return };
+    let Some(usual) = usual(&errors(time, column, windows, &left)) else { return };
     for i in (0..column.len()).filter(|i| own[*i] && !before[*i]).collect::<Vec<usize>>() {
         // Only the nearest good rows are asked.
         let mut rows: Vec<usize> = (0..i).rev().filter(|j| is_good(own, *j)).take(EDGE).collect();
@@ -150,7 +141,8 @@ fn readmit(time: &[f64], column: &[f64], windows: &[Window], before: &[bool], ow
         let k = rows.len();
         rows.push(i);
         rows.extend((i + 1..column.len()).filter(|j| is_good(own, *j)).take(EDGE));
-        if error(time, column, windows, &rows, k) <= GROSS * usual {
+        let fits = |near| error(time, column, &rows, near, k) <= GROSS * usual;
+        if around(windows, &rows, k).is_some_and(|(_, near)| fits(near)) {
             own[i] = false;
         }
     }
@@ -163,9 +155,25 @@ fn around<'a>(windows: &'a [Window], rows: &[usize], k: usize) -> Option<(&'a Wi
     Some((window, first..end))
 }
 
-/// |r_i − cubic through its neighbours| over the deviation that unit noise gives it.
-fn error(time: &[f64], column: &[f64], windows: &[Window], rows: &[usize], k: usize) -> f64 {
-    let Some((_, own)) = around(windows, rows, k).filter(|(_, own)| own.len() >= COMPARED) else { return f64::NAN };
+/// The error of every one of some rows, in one walk along the windows.
+fn errors(time: &[f64], column: &[f64], windows: &[Window], rows: &[usize]) -> Vec<f64> {
+    let mut found = vec![f64::NAN; rows.len()];
+    let mut end = 0;
+    for window in windows {
+        let until = |from: usize, edge: usize| from + rows[from..].iter().take_while(|i| **i < edge).count();
+        let first = until(end, window.rows.start);
+        end = until(first, window.rows.end);
+        (first..end).for_each(|k| found[k] = error(time, column, rows, first..end, k));
+    }
+    found
+}
+
+/// |r_i − cubic through its neighbours| over the deviation that unit noise gives it, for the k-th of some rows; `own` are
+/// those in its window.
+fn error(time: &[f64], column: &[f64], rows: &[usize], own: Range<usize>, k: usize) -> f64 {
+    if own.len() < COMPARED {
+        return f64::NAN;
+    }
     let from = (k.max(own.start + COMPARED / 2) - COMPARED / 2).min(own.end - COMPARED);
     let other = |j: usize| rows[from + j + usize::from(from + j >= k)];
     smooth::beside_cubic(time, column, rows[k], [other(0), other(1), other(2), other(3)])

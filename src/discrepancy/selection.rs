@@ -1,7 +1,6 @@
 //! Effects added to a model one or two at a time, asked again, exchanged and dropped.
 
 use super::bounds::vanishes;
-use super::chain::Variances;
 use super::evidence::{repeats, wald};
 use super::fit::{Effort, Fit};
 use super::problem::Problem;
@@ -60,13 +59,11 @@ struct Ranked {
 /// A search over a library.
 pub(super) struct Selection<'a> {
     pub problem: &'a Problem,
-    /// The model as given.
-    pub model: &'a Model,
+    /// The model as given, with its noise and jumps.
+    pub before: &'a Fit,
     pub library: &'a [Effect],
     /// How many candidates the library has for the vehicle.
     pub size: f64,
-    /// Noise and jumps of the model as given.
-    pub given: Variances,
     /// Most effects that are added.
     pub most: usize,
     /// Whether others are tried in the place of those chosen.
@@ -245,7 +242,8 @@ impl Selection<'_> {
     pub fn reduced(&self, fit: &Fit, effect: &Applied) -> Result<Option<Fit>> {
         // From the jumps of the model as given: what an effect leaves unexplained is not found from zero jumps,
         // where the likelihood is flat.
-        self.problem.fit(&without(&fit.model, effect, self.model), &fit.starts, &self.given, FULL)
+        let smaller = without(&fit.model, effect, &self.before.model);
+        self.problem.fit(&smaller, &fit.starts, &self.before.variances, FULL)
     }
 
     /// Drops what is no longer needed: what is worth no more than a bar beyond BIC.
@@ -303,7 +301,7 @@ impl Selection<'_> {
     /// Fits with another effect in the place of a chosen one, best first, at the noise and jumps of the fit: those
     /// that promise a good part of what the chosen one gives.
     pub fn in_place_of(&self, fit: &Fit, effect: &Applied) -> Result<Vec<(Applied, Fit)>> {
-        let smaller = without(&fit.model, effect, self.model);
+        let smaller = without(&fit.model, effect, &self.before.model);
         let Some(bare) = self.problem.fit(&smaller, &fit.starts, &fit.variances, SCREEN)? else { return Ok(vec![]) };
         let lost = bare.deviance - fit.deviance;
         let found =

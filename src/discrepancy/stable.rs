@@ -13,7 +13,6 @@ use super::unnamed::{self, is_term, remains, still_open};
 use super::windows::plan;
 use crate::effects::Applied;
 use crate::error::Result;
-use crate::model::Model;
 use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
@@ -98,12 +97,7 @@ pub(super) struct Stable {
 /// Keeps of what was found what parts of the data share, and looks again without the rest.
 ///
 /// Asked only where motion remains that the fit does not explain: where nothing remains the formal evidence holds.
-pub(super) fn search(
-    selection: &Selection,
-    given: (&Model, &Fit),
-    found: Grown,
-    progress: &dyn Fn(&str),
-) -> Result<Stable> {
+pub(super) fn search(selection: &Selection, found: Grown, progress: &dyn Fn(&str)) -> Result<Stable> {
     let mut stable = Stable { grown: found, unshared: vec![], scatter: None };
     for round in 1..=ROUNDS {
         if !stable.keep_shared(selection, progress)? || round == ROUNDS {
@@ -113,7 +107,7 @@ pub(super) fn search(
     }
     if !stable.unshared.is_empty() && !stable.grown.fit.model.free_effects().any(is_term) {
         let named = Grown { fit: stable.grown.fit.clone(), steps: vec![], candidates: vec![] };
-        if let Some(found) = unnamed::search(selection, given, &named, &stable.unshared, progress)? {
+        if let Some(found) = unnamed::search(selection, &named, &stable.unshared, progress)? {
             stable.go_on_with(found);
         }
         stable.keep_shared(selection, progress)?;

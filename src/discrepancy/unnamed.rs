@@ -46,7 +46,6 @@ pub(super) fn is_wanted(named: &Fit) -> bool {
 /// its place. What is given up, with or without a name, is not asked again.
 pub(super) fn search(
     selection: &Selection,
-    (model, before): (&Model, &Fit),
     named: &Grown,
     given_up: &[Applied],
     progress: &dyn Fn(&str),
@@ -55,6 +54,7 @@ pub(super) fn search(
         return Ok(None);
     }
     progress("looking for an equation of what has no name");
+    let model = &selection.before.model;
     let library = still_open(selection.library.iter().chain(&model.terms()?), given_up);
     let wider = Selection {
         library: &library,
@@ -65,7 +65,7 @@ pub(super) fn search(
     };
     // From what has a name on: what a term makes superfluous is dropped then.
     // Where nothing remains but much was needed, from the model as given: one term may do what several names did.
-    let from = if remains(&named.fit) { &named.fit } else { before };
+    let from = if remains(&named.fit) { &named.fit } else { selection.before };
     let mut found = wider.grown(from, progress)?;
     if remains(&found.fit) && named_effects(&found.fit) < named_effects(&named.fit) {
         // A term that leaves the rest unexplained is no reason to give a name up.

@@ -6,10 +6,10 @@ use super::fit::Fit;
 use super::locate::Violation;
 use super::problem::Problem;
 use super::report::{NextExperiment, Verdict};
+use super::selection::find;
 use super::summary::{listed, listed_to};
 use super::unnamed;
 use crate::effects::Applied;
-use crate::model::Model;
 use crate::picture::number::significant;
 
 /// A verdict with what there is to say about it.
@@ -153,18 +153,17 @@ pub(super) fn warning(choice: &Choice) -> Option<String> {
 }
 
 /// Effects of the model file that the runs ask for with other values.
-pub(super) fn restated(choice: &Choice, given: &Model) -> Vec<String> {
+pub(super) fn restated(choice: &Choice) -> Vec<String> {
     let values = |a: &Applied| {
-        let each =
-            a.effect.parameters.keys().zip(&a.values).map(|(name, v)| format!("{name} = {}", significant(*v, 3)));
-        listed(each)
+        let each = a.effect.parameters.keys().zip(&a.values);
+        listed(each.map(|(name, v)| format!("{name} = {}", significant(*v, 3))))
     };
-    let both = |c: &Applied| given.effects.iter().find(|e| e.same_as(c)).cloned();
-    let found = choice.chosen.iter().filter_map(|c| Some((both(&c.applied)?, &c.applied)));
-    let told = |(old, new): (Applied, &Applied)| {
-        format!("the model has {} with {}; these runs ask for {} in its place", new.label(), values(&old), values(new))
+    let told = |new: &Applied| {
+        let old = find(&choice.before.model, new)?;
+        let (label, old, new) = (new.label(), values(&old), values(new));
+        Some(format!("the model has {label} with {old}; these runs ask for {new} in its place"))
     };
-    found.map(told).collect()
+    choice.chosen.iter().filter_map(|c| told(&c.applied)).collect()
 }
 
 /// What mends runs whose parts contradict each other: no manoeuvre can be thought through with a model that is wrong,
@@ -194,11 +193,8 @@ fn hopeless(after: &[Violation]) -> Option<String> {
         .fold([(0.0, 0.0); 2], |sum, v| [0, 1].map(|k| (sum[k].0 + v[k].0 * v[k].0, sum[k].1 + v[k].1 * v[k].1)));
     let [position, yaw] = sums.map(|(miss, motion)| (miss / motion.max(f64::MIN_POSITIVE)).sqrt());
     let turns = (sums[1].1 / after.len().max(1) as f64).sqrt() > TURNING;
-    let (what, share) = match (position > HOPELESS, yaw > HOPELESS && turns) {
-        (true, _) => ("motion", position),
-        (false, true) => ("turning", yaw),
-        (false, false) => return None,
-    };
+    let missed = |(_, share, asked): &(&str, f64, bool)| *asked && *share > HOPELESS;
+    let (what, share, _) = [("motion", position, true), ("turning", yaw, turns)].into_iter().find(missed)?;
     Some(format!(
         "The model misses {:.0} % of the {what} over one second, whatever is added: clocks, columns or units do not \
          match, or the wheels spin.",

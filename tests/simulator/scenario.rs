@@ -104,6 +104,20 @@ impl Scenario {
         }
     }
 
+    /// The same drive logged as logs come: rows lost and shifted, an interruption, wrapped headings, gross errors, means of
+    /// intervals.
+    pub fn roughly_logged(self) -> Self {
+        Scenario {
+            timing: Timing::IntervalMean,
+            outliers: Outliers { share: 0.02, size: 0.5 },
+            gaps: vec![(12.0, 14.5)],
+            dropouts: 0.05,
+            jitter: 0.3,
+            wrap_heading: true,
+            ..self
+        }
+    }
+
     /// Drives and logs.
     pub fn run(&self) -> Log {
         let body = self.body();

@@ -29,7 +29,7 @@ impl Problem {
     /// in which the two differ at all.
     ///
     /// The parts are runs where there are four or more. Of fewer runs most cannot be asked for: there the parts are
-    /// blocks of windows, and the runs must be predicted better all together.
+    /// blocks of windows, and no run may be predicted worse from the others.
     ///
     /// # Errors
     /// When the model's formulas are malformed.
@@ -37,22 +37,41 @@ impl Problem {
         let runs = self.records.len();
         let part = if runs >= FEWEST_RUNS { Part::Run } else { Part::Blocks };
         let [new, old] = [self.linear(fit)?, self.linear(than)?];
-        let of = |fit: &Fit, linear: &Option<Along>, part: Part| self.deviances(fit, linear.as_ref()?, part);
-        // By how much each part is predicted better; `None` where a part leaves a parameter of the model open.
-        let gains = |part: Part| -> Option<Vec<f64>> {
-            let new = of(fit, &new, part)?;
-            let old = of(than, &old, part).unwrap_or_else(|| vec![f64::INFINITY; new.len()]);
-            Some(old.iter().zip(&new).map(|(old, new)| old - new).collect())
-        };
         // Parameters that are open without a part of the data are no finding.
-        let Some(gained) = gains(part) else { return Ok(false) };
-        let (better, worse): (Vec<&f64>, Vec<&f64>) = gained.iter().filter(|g| g.abs() > SAME).partition(|g| **g > 0.0);
-        if total(&gained) <= 0.0 || better.len() <= 2 * worse.len() {
+        let Some(gained) = self.gains([fit, than], [&new, &old], part, Share::predicted) else { return Ok(false) };
+        let (better, worse) = counts(&gained, SAME);
+        if total(&gained) <= 0.0 || better <= 2 * worse {
             return Ok(false);
         }
-        // A parameter that only one run shows cannot be asked of the others.
-        let between = if (2..FEWEST_RUNS).contains(&runs) { gains(Part::Run) } else { None };
-        Ok(between.is_none_or(|gained| total(&gained) > 0.0))
+        if !(2..FEWEST_RUNS).contains(&runs) {
+            return Ok(true);
+        }
+        // In the same units: a model that knows its noise better would gain by that alone, and be charged for what it
+        // leaves unexplained in another run. A parameter that only one run shows cannot be asked of the others.
+        let fit = &in_units_of(fit, than);
+        let between = self.gains([fit, than], [&new, &old], Part::Run, Share::predicted);
+        Ok(between.is_none_or(|gained| total(&gained) > 0.0 && counts(&gained, SAME * than.dependence()).1 == 0))
+    }
+
+    /// By how much of deviance a model whose values other parts give misses the parts less than another does: runs, or
+    /// blocks of windows of a single run.
+    ///
+    /// # Errors
+    /// When the model's formulas are malformed.
+    pub fn missed_less(&self, fit: &Fit, than: &Fit) -> Result<f64> {
+        let part = if self.records.len() > 1 { Part::Run } else { Part::Blocks };
+        let [new, old] = [self.linear(fit)?, self.linear(than)?];
+        let gained = self.gains([&in_units_of(fit, than), than], [&new, &old], part, Share::under);
+        Ok(gained.map_or(f64::NEG_INFINITY, |g| total(&g)))
+    }
+
+    /// By how much each part is predicted better by the first of two fits; `None` where a part leaves one of its
+    /// parameters open.
+    fn gains(&self, fits: [&Fit; 2], linear: [&Option<Along>; 2], part: Part, judge: Judge) -> Option<Vec<f64>> {
+        let of = |k: usize| self.deviances(fits[k], linear[k].as_ref()?, part, judge);
+        let new = of(0)?;
+        let old = of(1).unwrap_or_else(|| vec![f64::INFINITY; new.len()]);
+        Some(old.iter().zip(&new).map(|(old, new)| old - new).collect())
     }
 
     /// A fit's model along all windows, where it is defined.
@@ -61,13 +80,13 @@ impl Problem {
         Ok(linearise(&equations, &fit.p, &self.records, &self.plan, &fit.starts))
     }
 
-    /// For every part of the data its deviance under the values that the others give, to first order about the fit, so
-    /// that no part is fitted anew; its poses are its own. Smaller is better; differences between models of the same data
-    /// count. `None` where a part leaves a parameter open.
-    fn deviances(&self, fit: &Fit, linear: &Along, part: Part) -> Option<Vec<f64>> {
+    /// For every part of the data its deviance by what the others say, to first order about the fit, so that no part is
+    /// fitted anew; its poses are its own. Smaller is better; differences between models of the same data count. `None`
+    /// where a part leaves a parameter open.
+    fn deviances(&self, fit: &Fit, linear: &Along, part: Part, judge: Judge) -> Option<Vec<f64>> {
         let own = self.shares(fit, linear, part)?;
         let shares = own.iter().zip(others(&own, fit.p.len()));
-        shares.map(|(own, others)| own.under(&others)).collect()
+        shares.map(|(own, others)| judge(own, &others)).collect()
     }
 
     /// What each part of the data says of the values: whole runs, or neighbouring windows cut loose from one another.
@@ -107,6 +126,20 @@ fn total(gains: &[f64]) -> f64 {
     gains.iter().sum()
 }
 
+/// How many parts are predicted better and worse, those alike left out.
+fn counts(gains: &[f64], alike: f64) -> (usize, usize) {
+    let count = |sign: f64| gains.iter().filter(|g| sign * **g > alike).count();
+    (count(1.0), count(-1.0))
+}
+
+/// A fit with the noise and jumps of another.
+fn in_units_of(fit: &Fit, other: &Fit) -> Fit {
+    Fit { variances: other.variances, ..fit.clone() }
+}
+
+/// The deviance of a part by the form of all others.
+type Judge = fn(&Share, &DMatrix<f64>) -> Option<f64>;
+
 /// What a part of the data says of the values, its poses eliminated: twice the negative log likelihood.
 #[derive(Clone)]
 struct Share {
@@ -129,15 +162,43 @@ impl Share {
         Some(())
     }
 
-    /// The part's deviance where another part's form is least; `None` where that leaves a value open.
+    /// Twice the negative log of the density that the others predict the part with, their uncertainty included: what
+    /// hardly shows in the others is predicted vaguely, and not wrongly.
+    fn predicted(&self, others: &DMatrix<f64>) -> Option<f64> {
+        let (alone, together) = (Least::of(others)?, Least::of(&(others + &self.form))?);
+        Some(together.value - alone.value + together.log_determinant - alone.log_determinant + self.constant)
+    }
+
+    /// The part's deviance at the very values where the form of others is least.
     fn under(&self, others: &DMatrix<f64>) -> Option<f64> {
-        let p = others.nrows() - 1;
-        let delta = match p {
-            0 => DVector::zeros(0),
-            _ => -others.view((0, 0), (p, p)).into_owned().cholesky()?.solve(&others.view((0, p), (p, 1)).column(0)),
+        let at = Least::of(others)?.at;
+        Some(at.dot(&(&self.form * &at)) + self.constant)
+    }
+}
+
+/// The least value of a quadratic form in (δp, 1).
+struct Least {
+    /// Where it is.
+    at: DVector<f64>,
+    value: f64,
+    /// Of its second derivatives.
+    log_determinant: f64,
+}
+
+impl Least {
+    /// `None` where the form leaves a value open.
+    fn of(form: &DMatrix<f64>) -> Option<Self> {
+        let p = form.nrows() - 1;
+        let (delta, log_determinant) = match p {
+            // An empty matrix has no factors.
+            0 => (DVector::zeros(0), 0.0),
+            _ => {
+                let factors = form.view((0, 0), (p, p)).into_owned().cholesky()?;
+                (-factors.solve(&form.view((0, p), (p, 1)).column(0)), factors.ln_determinant())
+            }
         };
-        let one = delta.push(1.0);
-        Some(one.dot(&(&self.form * &one)) + self.constant)
+        let at = delta.push(1.0);
+        Some(Self { value: at.dot(&(form * &at)), at, log_determinant })
     }
 }
 
@@ -182,10 +243,45 @@ mod tests {
         assert!(close(judged[2], 2.0 * (16.0 + 25.0 + 7.0) + 0.5), "{judged:?}");
     }
 
+    /// −2 log of the density of N(mean, variance) at a.
+    fn density(a: f64, mean: f64, variance: f64) -> f64 {
+        (a - mean).powi(2) / variance + variance.ln()
+    }
+
+    /// (a − x)²/s², twice the negative log of the density of a under N(x, s²).
+    fn measured(a: f64, variance: f64) -> Share {
+        let form = DMatrix::from_row_slice(2, 2, &[1.0, -a, -a, a * a]) / variance;
+        Share { form, constant: variance.ln() }
+    }
+
+    #[test]
+    fn what_the_others_hardly_show_is_predicted_vaguely() {
+        let parts = [measured(5.0, 0.01), measured(1.0, 4.0), measured(3.0, 9.0)];
+        let judged: Vec<f64> =
+            parts.iter().zip(others(&parts, 1)).map(|(p, o)| p.predicted(&o).expect("told")).collect();
+        // The others' mean by their weights and its variance, to which the part's own is added.
+        let variance = 1.0 / (1.0 / 4.0 + 1.0 / 9.0);
+        let mean = variance * (1.0 / 4.0 + 3.0 / 9.0);
+        assert!(close(judged[0], density(5.0, mean, variance + 0.01)), "{judged:?}");
+        let variance = 1.0 / (100.0 + 1.0 / 9.0);
+        let mean = variance * (500.0 + 3.0 / 9.0);
+        assert!(close(judged[1], density(1.0, mean, variance + 4.0)), "{judged:?}");
+        // At the values alone it is wrong by forty deviations of its own.
+        let at = parts[0].under(&others(&parts, 1)[0]).expect("told");
+        assert!(at > 1000.0 && judged[0] < 10.0, "{at} {judged:?}");
+    }
+
+    #[test]
+    fn parts_alike_count_for_no_model() {
+        assert_eq!(counts(&[3.0, -3.0, 1.9, -1.9, 7.0], 2.0), (2, 1));
+        assert_eq!(counts(&[], 2.0), (0, 0));
+    }
+
     #[test]
     fn one_part_alone_leaves_the_values_open() {
         let alone = [share(1.0, 2.0, 0.0, 1.0)];
         assert_eq!(others(&alone, 2).iter().filter_map(|o| alone[0].under(o)).count(), 0);
+        assert_eq!(others(&alone, 2).iter().filter_map(|o| alone[0].predicted(o)).count(), 0);
         assert!(others(&[], 2).is_empty());
     }
 
@@ -193,5 +289,6 @@ mod tests {
     fn without_values_a_part_is_judged_as_it_is() {
         let part = Share { form: DMatrix::from_element(1, 1, 4.0), constant: -1.0 };
         assert_eq!(part.under(&DMatrix::zeros(1, 1)), Some(3.0));
+        assert_eq!(part.predicted(&DMatrix::zeros(1, 1)), Some(3.0));
     }
 }

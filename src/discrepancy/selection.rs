@@ -125,15 +125,35 @@ impl Selection<'_> {
         let independent = |fit: &Fit| worth(fit, base, base.sample_size.max(fit.sample_size)) > self.margin();
         let counts = |s: &Scored, fit: &Fit| s.delta_bic > bar(s) && independent(fit);
         let good = fitted.filter(|(s, fit)| counts(s, fit) && !vanishes(&s.applied) && repeats(fit, &s.applied));
-        let singles: Vec<(String, Fit)> = good.map(|(s, fit)| (s.applied.label(), fit)).collect();
+        let singles: Vec<(Scored, Fit)> = good.collect();
         let pair = self.pair(base, &ranked.pairs, singles.first().map(|(_, f)| f))?;
-        for (added, fit) in pair.into_iter().chain(singles) {
-            // What does not predict the data it was not fitted to is no finding.
-            if self.problem.predicts_better(&fit, base)? {
+        let singles = singles.into_iter().map(|(s, fit)| (s.applied.label(), fit, is_term(&s.applied)));
+        let all = pair.into_iter().map(|(added, fit)| (added, fit, false)).chain(singles);
+        self.predicting(base, all)
+    }
+
+    /// The first candidate that predicts the data it was not fitted to: what does not is no finding. Of terms the one
+    /// that misses them least: each stands for a law that it is not, and which of them comes closest along all the data
+    /// says little of other data.
+    fn predicting(
+        &self,
+        base: &Fit,
+        candidates: impl Iterator<Item = (String, Fit, bool)>,
+    ) -> Result<Option<(String, Fit)>> {
+        let mut best: Option<(f64, (String, Fit))> = None;
+        for (added, fit, is_term) in candidates {
+            if best.is_some() && !is_term || !self.problem.predicts_better(&fit, base)? {
+                continue;
+            }
+            if !is_term {
                 return Ok(Some((added, fit)));
             }
+            let gain = self.problem.missed_less(&fit, base)?;
+            if best.as_ref().is_none_or(|(most, _)| gain > *most) {
+                best = Some((gain, (added, fit)));
+            }
         }
-        Ok(None)
+        Ok(best.map(|(_, found)| found))
     }
 
     /// What a candidate must gain beyond BIC because the library is large.

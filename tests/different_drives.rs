@@ -4,7 +4,7 @@
 mod simulator;
 
 use creepage::discrepancy::discover::{Request, discover};
-use creepage::discrepancy::report::{Report, Verdict};
+use creepage::discrepancy::report::{Named, Report, Verdict};
 use creepage::effects;
 use creepage::files::{ModelFile, Run};
 use creepage::model;
@@ -69,6 +69,20 @@ fn creep_with_the_load_shows_where_it_turns() {
 #[test]
 fn the_gain_of_the_steering_shows_where_it_turns() {
     named(Tractor::Car, Hidden::SteeringGain { scale: 0.06 }, "scale", 0.06);
+}
+
+/// No way is gone of which most could be missed; wheels that creep alike turn as ones farther apart do.
+#[test]
+fn a_turn_on_the_spot_shows_the_track_width_or_creep() {
+    let turn = Signal::constant(0.9) + Signal::wave(0.3, 6.0, 0.0);
+    let profile = Profile { speed: Signal::constant(0.0), turn };
+    let hidden = [Hidden::TrackWidth { scale: 0.05 }];
+    let report = discovered(&[scenario(Tractor::DifferentialDrive, &hidden, profile, 50)]);
+    let named =
+        |e: &Named| [vec![e.id.clone()], e.indistinguishable_from.iter().map(|r| r.id.clone()).collect()].concat();
+    let all: Vec<Vec<String>> = report.effects.iter().map(named).collect();
+    assert_eq!((report.verdict, all.len()), (Verdict::MissingEffect, 1), "{}", report.summary);
+    assert!(["rotation-creep", "track-width"].iter().all(|id| all[0].iter().any(|a| a == id)), "{all:?}");
 }
 
 /// Gyros of opposite scale: each drive alone would name one, the other says it is not so.

@@ -258,3 +258,17 @@ fn what_cannot_move_is_an_error() {
     }
     assert!(weightless.clone().driven_by(&["wind"]).unwrap_err().to_string().contains("yaw_torque"));
 }
+
+/// The pose that is given is the sensor's, wherever on the body it sits and however it is turned.
+#[test]
+fn a_motion_begins_where_the_sensor_is_said_to_be() {
+    let mut model = Model::new("car", &CAR).unwrap();
+    model.sensor.lever_arm = [0.7, -0.3];
+    model.sensor.heading_offset = 0.2;
+    let masses = Masses { mass: 8.0, inertia: 6.0, wheels: [("theta'".into(), 0.2)].into(), ..Masses::default() };
+    let car = Dynamics::new(&model, &masses).unwrap().driven_by(&["wheel_torque"]).unwrap();
+    let begin = Start { pose: vec![4.0, -1.5, 0.9], speed: 1.0, ..Start::default() };
+    let table = simulate_dynamics(&car, &inputs(&["0.1", "0.2"]), &[0.0, 0.1], &begin, &Integrator::default()).unwrap();
+    let [x, y, heading] = ["x", "y", "heading"].map(|name| table.column(name).unwrap()[0]);
+    assert!((x - 4.0).abs() < 1e-12 && (y + 1.5).abs() < 1e-12 && (heading - 0.9).abs() < 1e-12, "{x} {y} {heading}");
+}

@@ -53,3 +53,17 @@ impl Drop for Progress {
         self.0.finish_and_clear();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bar_knows_how_far_it_is() {
+        let progress = Progress(ProgressBar::hidden());
+        for (done, all) in [(3, 10), (4, 10), (4, 12)] {
+            progress.at(done, all, 2);
+            assert_eq!((progress.0.position(), progress.0.length()), (done as u64, Some(all as u64)));
+        }
+    }
+}

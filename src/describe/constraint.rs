@@ -149,3 +149,22 @@ fn parts(constraint: &Constraint, order: &[Symbol]) -> Vec<Part> {
     });
     filled.collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_of_sums_and_products_of_products_are_one() {
+        let written = |text: &str| {
+            let twice = |s: &Symbol| (s.as_str() == "d").then(|| Expr::parse("p - q").unwrap());
+            in_place(&Expr::parse(text).unwrap(), &twice).to_string()
+        };
+        assert_eq!(written("a + (b - c)"), "a + b - c");
+        assert_eq!(written("a + (b + c)"), "a + b + c");
+        assert_eq!(written("a + d"), "a + p - q");
+        assert_eq!(written("a - d"), "a - (p - q)");
+        assert_eq!(written("a*(b*c)"), "a*b*c");
+        assert_eq!(written("a*d"), "a*(p - q)");
+    }
+}

@@ -151,6 +151,18 @@ fn normal(random: &mut ChaCha8Rng) -> f64 {
 mod tests {
     use super::*;
 
+    /// Half of the draws gain nothing, the others as χ²₂ with a mean of 4.
+    #[test]
+    fn beyond_the_largest_gain_chi_squared_goes_on() {
+        let chance = ChanceGains { k: 2, gains: vec![0.0, 0.0, 0.0, 2.0, 6.0, 4.0] };
+        assert_eq!((chance.share(), chance.scale()), (0.5, 2.0));
+        assert_eq!((chance.p_value(5.0), chance.p_value(3.0)), (2.0 / 7.0, 3.0 / 7.0));
+        // χ²₂ exceeds x with probability exp(-x/2).
+        assert!((chance.p_value(20.0) - 0.5 * (-5.0_f64).exp()).abs() < 1e-12);
+        // What no draw has reached is rarer than what one has.
+        assert_eq!(ChanceGains { k: 2, gains: vec![6.0; 6] }.p_value(6.1), 1.0 / 7.0);
+    }
+
     /// Forward, to the left and in yaw, each by its own variance, whatever the heading.
     #[test]
     fn a_jump_is_along_the_axes_of_the_body() {

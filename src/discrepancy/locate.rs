@@ -97,13 +97,18 @@ impl Violation {
         self.windows.first().map_or(0, |w| w.rates.len().min(4))
     }
 
-    /// Root mean square of the violated rates beyond their noise and of the measured motion: along and across in m/s,
-    /// yaw in rad/s.
-    pub fn against_motion(&self) -> [(f64, f64); 2] {
-        let beyond = |miss: f64, noise: f64| (miss * miss - noise * noise).max(0.0).sqrt();
-        let miss = beyond(self.rms_of(|w| w.rates[0].hypot(w.rates[1])), self.noise[0].hypot(self.noise[1]));
-        let yaw = beyond(self.rms_of(|w| w.rates[2]), self.noise[2]);
-        [(miss, self.rms_of(|w| w.speed)), (yaw, self.rms_of(|w| w.yaw))]
+    /// Mean squares of the violated rates beyond their noise, of the measured motion and of the noise: along and across
+    /// in m²/s², yaw in rad²/s².
+    pub fn against_motion(&self) -> [[f64; 3]; 2] {
+        let squares = |miss: f64, motion: f64, noise: f64| {
+            let [miss, motion, noise] = [miss, motion, noise].map(|rms| rms * rms);
+            [(miss - noise).max(0.0), motion, noise]
+        };
+        let missed = self.rms_of(|w| w.rates[0].hypot(w.rates[1]));
+        [
+            squares(missed, self.rms_of(|w| w.speed), self.noise[0].hypot(self.noise[1])),
+            squares(self.rms_of(|w| w.rates[2]), self.rms_of(|w| w.yaw), self.noise[2]),
+        ]
     }
 
     /// The longest stretch in which the vehicle moves sideways of where its model says by more than a share of its

@@ -30,6 +30,9 @@ const FEWEST_WINDOWS: usize = 5;
 /// A model that misses more than this share of the motion does not describe it.
 const HOPELESS: f64 = 0.5;
 
+/// Motion less than this many times what noise makes of none is none.
+const OUT_OF_NOISE: f64 = 5.0;
+
 /// A vehicle that turns less says nothing of how its model turns, rad/s, root mean square.
 const TURNING: f64 = 0.1;
 
@@ -187,14 +190,14 @@ fn disagrees(fit: &Fit, after: &[Violation]) -> bool {
 
 /// A model that misses most of the motion or of the turning, whatever is added to it.
 fn hopeless(after: &[Violation]) -> Option<String> {
-    let sums = after
-        .iter()
-        .map(Violation::against_motion)
-        .fold([(0.0, 0.0); 2], |sum, v| [0, 1].map(|k| (sum[k].0 + v[k].0 * v[k].0, sum[k].1 + v[k].1 * v[k].1)));
-    let [position, yaw] = sums.map(|(miss, motion)| (miss / motion.max(f64::MIN_POSITIVE)).sqrt());
-    let turns = (sums[1].1 / after.len().max(1) as f64).sqrt() > TURNING;
-    let missed = |(_, share, asked): &(&str, f64, bool)| *asked && *share > HOPELESS;
-    let (what, share, _) = [("motion", position, true), ("turning", yaw, turns)].into_iter().find(missed)?;
+    let squares = after.iter().map(Violation::against_motion);
+    let sums = squares.fold([[0.0; 3]; 2], |sum, of| [0, 1].map(|k| [0, 1, 2].map(|i| sum[k][i] + of[k][i])));
+    // What turns on the spot goes no way of which a share could be missed.
+    let moves = sums[0][1] > OUT_OF_NOISE.powi(2) * sums[0][2];
+    let turns = sums[1][1] > TURNING.powi(2) * after.len() as f64;
+    let share = |[miss, motion, _]: [f64; 3]| (miss / motion.max(f64::MIN_POSITIVE)).sqrt();
+    let asked = [("motion", moves, share(sums[0])), ("turning", turns, share(sums[1]))];
+    let (what, _, share) = asked.into_iter().find(|(_, asked, share)| *asked && *share > HOPELESS)?;
     Some(format!(
         "The model misses {:.0} % of the {what} over one second, whatever is added: clocks, columns or units do not \
          match, or the wheels spin.",

@@ -184,3 +184,21 @@ fn still(model: &Model) -> Model {
     let fixed = |e: &Applied| Applied { free: false, ..e.clone() };
     Model { effects: model.effects.iter().map(fixed).collect(), ..model.clone() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Poses from 10 s to 30 s and inputs that end when the poses' clock reads 32.27 s.
+    #[test]
+    fn the_offset_is_stated_for_the_middle_of_what_both_have() {
+        let text = "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 1.0\n";
+        let file = ModelFile::parse(text, "model.toml", &crate::model::known(crate::effects::all())).expect("a model");
+        let log = "time,x,y,heading,wheel_rate,yaw_rate\n10,0,0,0,1,0\n20,1,0,0,1,0\n30,2,0,0,1,0\n";
+        let run = Run::parse("run.csv", log, &file).expect("a run");
+        let clock = Clock { offset: 2.0, drift: 0.01, at: 3.0 };
+        let stated = middle(&run, clock);
+        assert!((clock.of(stated.at) - 0.5 * (12.07 + 30.0)).abs() < 1e-12, "{stated:?}");
+        assert!((stated.of(17.0) - clock.of(17.0)).abs() < 1e-12 && stated.drift == clock.drift);
+    }
+}

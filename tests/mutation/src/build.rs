@@ -42,10 +42,16 @@ pub fn make(at: &Places) {
 
 /// `cargo` in the copy.
 pub fn cargo(at: &Places, arguments: &[&str]) -> Output {
-    let shared = ["--message-format=json", "--profile=schemata", "--quiet", "--all-features"];
+    command(at, arguments).arg("--message-format=json").output().unwrap()
+}
+
+/// How `cargo` is called in the copy.
+pub fn command(at: &Places, arguments: &[&str]) -> Command {
     let mut command = Command::new("cargo");
-    command.args(arguments).args(shared).current_dir(at.copy()).env("CARGO_TARGET_DIR", at.file("target"));
-    command.env("RUSTFLAGS", "--cap-lints=allow").output().unwrap()
+    command.args(arguments).args(["--profile=schemata", "--quiet", "--all-features"]).current_dir(at.copy());
+    command.env("CARGO_TARGET_DIR", at.file("target"));
+    command.env("RUSTFLAGS", "--cap-lints=allow").env("RUSTDOCFLAGS", "--cap-lints=allow");
+    command
 }
 
 /// The files of the package as they stand, not those of this tool.

@@ -1,7 +1,7 @@
 //! Which test meets which mutants, and how long it takes.
 
 use crate::Places;
-use crate::units::{CLAIM, End, ONE_IN, binaries, claims, is_below, run, tests};
+use crate::units::{CLAIM, DOCTESTS, End, ONE_IN, binaries, claims, doctests, run, tests};
 use std::collections::BTreeSet;
 
 /// One test.
@@ -27,9 +27,11 @@ pub fn measure(at: &Places, only: &[&str]) {
         (binary, path, names)
     };
     let mut all: Vec<_> = binaries(at, only).into_iter().map(tested).collect();
-    if only.is_empty() && is_below(at) || only.contains(&CLAIM) {
-        let (path, ids) = claims(at);
-        all.push((CLAIM.into(), path, ids));
+    for (what, made) in [(DOCTESTS, doctests as fn(&Places) -> (String, Vec<String>)), (CLAIM, claims)] {
+        if only.is_empty() || only.contains(&what) {
+            let (path, names) = made(at);
+            all.push((what.into(), path, names));
+        }
     }
     for (binary, path, names) in all {
         for name in names {

@@ -1,8 +1,10 @@
 //! The tests that were built, and how one process with some of them is run.
 
 use crate::Places;
-use crate::build::cargo;
+use crate::build::{cargo, command};
 use serde_json::Value;
+use std::fs::Permissions;
+use std::os::unix::fs::PermissionsExt;
 use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::process::{Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
@@ -23,14 +25,17 @@ const LEFT_OUT: [&str; 9] = [
     "unnamed",
 ];
 
-/// The same for the layers above: what concerns those below, and what takes minutes.
-const LEFT_OUT_ABOVE: [&str; 5] = ["claims_", "cost_of_trailers", "formula_", "mechanism_", "trust_small"];
+/// The same for the layers above: what takes minutes.
+const LEFT_OUT_ABOVE: [&str; 3] = ["claims_ledger", "cost_of_trailers", "trust_small"];
 
 /// The variable that says which share of its cases a property tries.
 pub const ONE_IN: &str = "MUTATION_ONE_IN";
 
 /// What stands for a binary of tests where a claim is verified: `creepage verify` exits as the ledger's test does.
 pub const CLAIM: &str = "claim";
+
+/// What stands for a binary of tests where the examples of the documentation are run, and for all of them.
+pub const DOCTESTS: &str = "doctests";
 
 /// The tests beside what they test.
 const LIBRARY: &str = "creepage";
@@ -57,6 +62,10 @@ pub fn binaries(at: &Places, only: &[&str]) -> Vec<(String, String)> {
         .collect();
     names.sort();
     wanted.extend(names.iter().map(|name| format!("--test={name}")));
+    if wanted.len() == 2 {
+        // Without a name cargo would build them all.
+        return vec![];
+    }
     let made = cargo(at, &wanted.iter().map(String::as_str).collect::<Vec<_>>());
     let lines = String::from_utf8(made.stdout).unwrap();
     assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
@@ -74,7 +83,7 @@ fn is_asked(at: &Places, name: &str) -> bool {
 }
 
 /// Whether only layers are mutated that the claims are about.
-pub fn is_below(at: &Places) -> bool {
+fn is_below(at: &Places) -> bool {
     at.files.iter().all(|f| BELOW.iter().any(|b| f.starts_with(b)))
 }
 
@@ -87,6 +96,26 @@ pub fn claims(at: &Places) -> (String, Vec<String>) {
     (path, listed.iter().map(|c| c["id"].as_str().unwrap().to_string()).collect())
 }
 
+/// The examples of the documentation in one program, kept instead of run.
+///
+/// Keeping it is unstable; the variable that allows it is for rustdoc alone, else all that is below would be built anew.
+pub fn doctests(at: &Places) -> (String, Vec<String>) {
+    let (script, folder) = (at.file("rustdoc"), at.file(DOCTESTS));
+    let text = format!(
+        "#!/bin/sh\nRUSTC_BOOTSTRAP=1 exec rustdoc \"$@\" -Zunstable-options --no-run --persist-doctests '{}'\n",
+        folder.display()
+    );
+    std::fs::write(&script, text).unwrap();
+    std::fs::set_permissions(&script, Permissions::from_mode(0o755)).unwrap();
+    std::fs::create_dir_all(&folder).unwrap();
+    let made = command(at, &["test", "--doc"]).env("RUSTDOC", script).output().unwrap();
+    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+    // Those that could not be in one program with the others would lie beside it.
+    let programs: Vec<_> = std::fs::read_dir(folder).unwrap().map(|f| f.unwrap().path().join("rust_out")).collect();
+    assert_eq!(programs.len(), 1, "{programs:?}");
+    (programs[0].to_str().unwrap().to_string(), vec!["all".into()])
+}
+
 /// The tests of a binary that are not ignored.
 pub fn tests(at: &Places, path: &str) -> Vec<String> {
     let made = Command::new(path).args(["--list", "--format=terse"]).current_dir(at.copy()).output().unwrap();
@@ -96,7 +125,11 @@ pub fn tests(at: &Places, path: &str) -> Vec<String> {
 
 /// Runs some tests of a binary or verifies claims, with a limit of processor time in seconds; says how long it took.
 pub fn run(at: &Places, path: &str, tests: &[&str], variables: &[(&str, &str)], seconds: u64) -> (End, Duration) {
-    let how: &[&str] = if path.ends_with("/creepage") { &AS_IN_THE_LEDGER_TEST } else { &["--exact"] };
+    let (how, tests): (&[&str], &[&str]) = match path {
+        _ if path.ends_with("/creepage") => (&AS_IN_THE_LEDGER_TEST, tests),
+        _ if path.ends_with("/rust_out") => (&[], &[]),
+        _ => (&["--exact"], tests),
+    };
     // Limits of memory (KiB) and processor time: what loops for ever is stopped, on a busy machine no earlier.
     let limits = format!("ulimit -v 4000000; ulimit -t {seconds}; exec \"$@\"");
     let mut command = Command::new("sh");

@@ -77,7 +77,8 @@ fn a_turn_on_the_spot_shows_the_track_width_or_creep() {
     let turn = Signal::constant(0.9) + Signal::wave(0.3, 6.0, 0.0);
     let profile = Profile { speed: Signal::constant(0.0), turn };
     let hidden = [Hidden::TrackWidth { scale: 0.05 }];
-    let report = discovered(&[scenario(Tractor::DifferentialDrive, &hidden, profile, 50)]);
+    let drive = Scenario { rate: 50.0, ..scenario(Tractor::DifferentialDrive, &hidden, profile, 53) };
+    let report = discovered(&[drive]);
     let named =
         |e: &Named| [vec![e.id.clone()], e.indistinguishable_from.iter().map(|r| r.id.clone()).collect()].concat();
     let all: Vec<Vec<String>> = report.effects.iter().map(named).collect();

@@ -40,7 +40,7 @@ fn discovered(drives: &[Scenario]) -> Report {
 #[track_caller]
 fn named(tractor: Tractor, hidden: Hidden, parameter: &str, truth: f64) {
     for others in 1..=3 {
-        let hidden = [hidden.clone()];
+        let hidden = [hidden];
         let ahead = (0..others).map(|seed| scenario(tractor, &hidden, straight(), 10 + seed));
         let drives: Vec<Scenario> = ahead.chain([scenario(tractor, &hidden, curved(), 20)]).collect();
         let report = discovered(&drives);

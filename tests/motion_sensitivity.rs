@@ -3,7 +3,9 @@
 use creepage::effects::{self, Applied};
 use creepage::formula::{Dual, Expr, Graph, Program, Scalar, Symbol};
 use creepage::model::{Equations, Model, Trailer};
-use creepage::motion::{Drive, Formulas, Integrator, Signals, Timing, initial_hidden, simulate, with_sensitivities};
+use creepage::motion::{
+    Arc, Drive, Formulas, Integrator, Signals, Stepper, Timing, initial_hidden, simulate, with_sensitivities,
+};
 use nalgebra::DMatrix;
 use num_dual::Dual64;
 
@@ -359,4 +361,26 @@ fn hidden_states_begin_where_their_rates_vanish() {
     assert_eq!(initial_hidden(&relaxed, &[], &[0.0, 0.0], &[0.0; 3]), vec![0.0]);
     let moving = initial_hidden(&relaxed, &[], &[4.0, 0.0], &[0.0; 3]);
     assert!((moving[0] - 0.12).abs() < 1e-12, "{moving:?}");
+}
+
+/// A time constant far below the time between rows: the vehicle follows the law's limit, and the fixed steps of the fit
+/// neither blow up nor swing around it.
+#[test]
+fn short_time_constants_are_followed_through_rows_far_apart() {
+    let still = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+    let time: Vec<f64> = (0..5).map(f64::from).collect();
+    let inputs = [time.iter().map(|t| 2.0 + t).collect(), vec![0.0; 5]];
+    let signals = Signals::new(&time, &inputs, Timing::Sample);
+    for time_constant in [0.05, 0.01, 0.004, 0.001] {
+        let slips = still.clone().with_effect(effect("traction-creep", &[time_constant]));
+        let equations = slips.equations(&[]).unwrap();
+        let mut stepper = Stepper::new(&equations, &signals, &[]);
+        let mut arc = Arc { z: vec![0.0; equations.n()], s: vec![] };
+        // From rest: v lags the wheel's r·(2 + t) by r·τ once r·(2 − τ)·exp(−t/τ) is forgotten.
+        arc.z[3] = 0.0;
+        (0..4).for_each(|i| stepper.advance(&mut arc, time[i], time[i + 1]));
+        let (r, tau) = (0.5, time_constant);
+        let way = r * (2.0 * 4.0 + 8.0) - r * tau * 4.0 - r * (2.0 - tau) * tau;
+        assert!((arc.z[0] - way).abs() < 1e-4 * way, "{} instead of {way} with {tau} s", arc.z[0]);
+    }
 }

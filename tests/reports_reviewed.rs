@@ -17,7 +17,7 @@ use creepage::files::{ModelFile, Run};
 use creepage::model;
 use reviewed::reviewed;
 use rounded::rounded;
-use simulator::{Hidden, Mounting, Noise, Profile, Scenario, Signal, Tractor, Vehicle};
+use simulator::{Hidden, Mounting, Noise, Profile, Scenario, Signal, Timing, Tractor, Vehicle};
 use std::fmt::Write as _;
 
 /// Runs as their user has them.
@@ -332,6 +332,88 @@ fn inputs_that_do_not_belong_to_the_poses() {
     };
     joined(&|k| other.rows[10 * k][poses..].to_vec()).discover("other-inputs");
     joined(&|k| log.rows[(10.3 * k as f64) as usize][poses..].to_vec()).discover("two-clocks");
+}
+
+/// Runs enough to be compared with each other.
+#[test]
+fn five_runs() {
+    let run = |seed| Scenario {
+        duration: 20.0,
+        ..drive(
+            Tractor::DifferentialDrive,
+            &[Hidden::TrackWidth { scale: 0.03 }, Hidden::InputDelay { delay: 0.04 }],
+            seed,
+        )
+    };
+    let first = Drive::of(&run(30)).held_out(&run(35));
+    let all = (31..35).fold(first, |drive, seed| drive.and(&run(seed)));
+    let found = all.discover("five-runs");
+    page("five-runs", &found);
+    all.check("five-runs");
+    // Exactly as many as are compared with each other.
+    let four = (37..40).fold(Drive::of(&run(36)), |drive, seed| drive.and(&run(seed)));
+    four.check("four-runs");
+}
+
+/// A law of turns to one side only; a creep of a steered and driven wheel that grows with its speed: of the body's speed
+/// it is one of v² and, as the wheel's way is longer in a turn, one of the yaw rate.
+#[test]
+fn more_laws_without_a_name() {
+    let left = |seed| drive(Tractor::Unicycle, &[Hidden::LeftTurnSlip { q: 0.12 }], seed);
+    (42..45).fold(Drive::of(&left(41)), |drive, seed| drive.and(&left(seed))).discover("left-turns");
+    let spun = |seed| drive(Tractor::Tricycle, &[Hidden::SpeedRotationCreep { per_speed: 0.04 }], seed);
+    Drive::of(&spun(49)).and(&spun(50)).discover("speed-creep");
+}
+
+/// Inputs that are means over the intervals; a slope.
+#[test]
+fn means_over_intervals() {
+    let hidden = [Hidden::SideSlope { rate: 0.03, direction: 0.7 }];
+    let s = |seed| Scenario {
+        timing: Timing::IntervalMean,
+        rate: 5.0,
+        duration: 60.0,
+        ..drive(Tractor::Unicycle, &hidden, seed)
+    };
+    let drive = Drive::of(&s(51)).held_out(&s(52)).at(&[0.2, 3.0]);
+    drive.discover("means");
+    drive.check("means");
+}
+
+/// A sensor that is turned and sits elsewhere than its user believes; only relatives of it can be told.
+#[test]
+fn a_sensor_in_the_wrong_place() {
+    let hidden = [Hidden::HeadingMisalignment { offset: 0.05 }, Hidden::LeverArm { a: 0.12, b: 0.04 }];
+    let s = |seed| drive(Tractor::Tricycle, &hidden, seed);
+    let drive = Drive::of(&s(53)).and(&s(54));
+    drive.discover("wrong-place");
+    drive.check("wrong-place");
+}
+
+/// The trailer creeps and is hitched elsewhere; only positions of the tractor have a heading beside them.
+#[test]
+fn a_trailer_that_creeps() {
+    let behind = |hidden: &[Hidden], seed| {
+        let vehicle =
+            Vehicle::NTrailer { tractor: Tractor::DifferentialDrive, lengths: vec![1.2], hitch_offsets: vec![0.25] };
+        drive(vehicle, hidden, seed)
+    };
+    let creep =
+        [Hidden::TrailerTraverseCreep { trailer: 1, e_tc: 0.06 }, Hidden::HitchOffset { trailer: 1, offset: 0.05 }];
+    let drive = Drive::of(&behind(&creep, 55)).and(&behind(&creep, 56));
+    drive.discover("trailer-creep");
+    drive.check("trailer-creep");
+}
+
+/// Straight runs and a curved one: what the curved one tells, the straight ones do not contradict.
+#[test]
+fn drives_that_are_not_alike() {
+    let hidden = [Hidden::TrackWidth { scale: 0.04 }];
+    let s = |seed, turn| with(drive(Tractor::DifferentialDrive, &hidden, seed), Signal::constant(0.7), turn);
+    let straight = |seed| s(seed, Signal::constant(0.0));
+    let mixed = Drive::of(&straight(57)).and(&straight(58)).and(&s(59, Signal::wave(0.9, 12.0, 0.2)));
+    mixed.discover("not-alike");
+    mixed.check("not-alike");
 }
 
 /// The page without its style, one element a line, long paths thinned.

@@ -72,6 +72,30 @@ fn every_bad_file_is_explained_at_its_place() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
+/// A file of effects on the same definition, each with this change of it.
+fn stacked(effects: usize, change: &str) -> String {
+    let one = |i: usize| {
+        format!(
+            "[[effect]]\nid = \"stacked-{i}\"\nwhere = \"a\"\nsays = \"b\"\n[effect.parameters.c]\nunit = \"1\"\n\
+             range = [-1, 1]\nsize = 0.1\n[effect.changes]\nv_t = \"{change}\"\n"
+        )
+    };
+    (0..effects).map(one).collect()
+}
+
+/// Each way in which short formulas become large together: by nesting, by size, by powers.
+#[test]
+fn effects_that_grow_beyond_all_bounds_are_refused() {
+    let nested = format!("it{}", "+c*v_l".repeat(65));
+    let long = "it + c*(it - it + it)";
+    let powers = "it + c*it*(it/v_l)^15";
+    for (effects, change) in [(6, nested.as_str()), (8, long), (3, powers)] {
+        let refused = library(stacked(effects, change).as_bytes()).unwrap_err();
+        let expect = "with all effects together the formula of v_t grows beyond all bounds on unicycle";
+        assert!(refused.contains(expect), "{change}: {refused}");
+    }
+}
+
 #[test]
 fn a_range_of_exactly_one_turn_is_a_whole_turn() {
     let turn = "periodic = true\nunit = \"rad\"\nrange = [-3.141592653589793, 3.141592653589793]";

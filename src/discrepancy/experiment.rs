@@ -118,7 +118,7 @@ fn between(problem: &Problem, choice: &Choice, relatives: &[Vec<Relative>]) -> R
     };
     let names: Vec<String> = rivals.iter().take(MOST_RIVALS).map(|r| r.applied.label()).collect();
     let pair = format!("{} from {}", chosen.applied.label(), names.join(" or "));
-    Ok(thought.best(worth).map(|(m, worth)| thought.advice(m, worth, &pair)))
+    Ok(thought.best(worth).map(|(m, worth)| advice(m.sentence(&thought.envelope), worth, &pair)))
 }
 
 /// The manoeuvre that would show an effect of plausible size that the runs at hand would not have shown.
@@ -140,6 +140,26 @@ fn revealing(problem: &Problem, choice: &Choice, missed: &Scored) -> Option<Next
         significant(worth, 2)
     );
     (worth > ENOUGH).then(|| NextExperiment { why, manoeuvre: m.sentence(&thought.envelope) })
+}
+
+/// What to say of a manoeuvre that is expected to be worth so much.
+fn advice(sentence: String, worth: f64, pair: &str) -> NextExperiment {
+    let expected = significant(worth.max(0.0), 2);
+    let times = (ENOUGH / worth.max(1e-9)).ceil();
+    let (manoeuvre, why) = match times {
+        t if t <= 1.0 => (sentence, format!("the minute is expected to do so with a ΔBIC of {expected}")),
+        t if t <= 30.0 => (
+            format!("{sentence}; repeat it {t} times"),
+            format!("a minute is expected to give a ΔBIC of {expected} only"),
+        ),
+        _ => (
+            "no manoeuvre within these speeds and turns separates them in reasonable time; measure the parameter \
+             itself instead"
+                .to_string(),
+            format!("a minute is expected to give a ΔBIC of {expected} at best"),
+        ),
+    };
+    NextExperiment { why: format!("these runs do not tell {pair}; {why}"), manoeuvre }
 }
 
 /// The relatives that a run is to tell apart: those that agree to first order only where there are no others, for they
@@ -169,26 +189,6 @@ impl<'a> Thought<'a> {
         let worths: Vec<Option<f64>> = all.par_iter().map(|m| worth(m)).collect();
         let most = worths.iter().flatten().copied().fold(f64::NEG_INFINITY, f64::max);
         all.into_iter().zip(worths).find_map(|(m, w)| w.filter(|w| *w >= ALIKE * most).map(|w| (m, w)))
-    }
-
-    fn advice(&self, m: &Manoeuvre, worth: f64, pair: &str) -> NextExperiment {
-        let sentence = m.sentence(&self.envelope);
-        let expected = significant(worth.max(0.0), 2);
-        let times = (ENOUGH / worth.max(1e-9)).ceil();
-        let (manoeuvre, why) = match times {
-            t if t <= 1.0 => (sentence, format!("the minute is expected to do so with a ΔBIC of {expected}")),
-            t if t <= 30.0 => (
-                format!("{sentence}; repeat it {t} times"),
-                format!("a minute is expected to give a ΔBIC of {expected} only"),
-            ),
-            _ => (
-                "no manoeuvre within these speeds and turns separates them in reasonable time; measure the parameter \
-                 itself instead"
-                    .to_string(),
-                format!("a minute is expected to give a ΔBIC of {expected} at best"),
-            ),
-        };
-        NextExperiment { why: format!("these runs do not tell {pair}; {why}"), manoeuvre }
     }
 
     /// By how much the BIC of `other` is expected to exceed that of `truth` after a manoeuvre.
@@ -254,5 +254,28 @@ impl<'a> Thought<'a> {
             }
         }
         record.columns.iter().flatten().all(|x| x.is_finite()).then_some(record)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is worth the evidence in one minute is driven once, what needs a few as often as that; below there is none.
+    #[test]
+    fn a_manoeuvre_is_repeated_until_it_is_worth_enough() {
+        let of = |worth: f64| advice("drive a circle".into(), worth, "a from b");
+        for (worth, manoeuvre, expected) in [
+            (30.0, "drive a circle", "expected to do so with a ΔBIC of 30"),
+            (25.0, "drive a circle", "expected to do so with a ΔBIC of 25"),
+            (24.0, "drive a circle; repeat it 2 times", "ΔBIC of 24 only"),
+            (25.0 / 30.0, "drive a circle; repeat it 30 times", "ΔBIC of 0.83 only"),
+            (0.8, "no manoeuvre within these speeds", "ΔBIC of 0.80 at best"),
+            (-3.0, "no manoeuvre within these speeds", "ΔBIC of 0 at best"),
+        ] {
+            let said = of(worth);
+            assert!(said.manoeuvre.starts_with(manoeuvre) && said.why.contains(expected), "{said:?}");
+            assert_eq!(said.manoeuvre.contains("repeat"), manoeuvre.contains("repeat"));
+        }
     }
 }

@@ -10,8 +10,8 @@ use crate::model::{Equations, Workspace};
 const TURN_PER_STEP: f64 = 0.1;
 /// Largest step in units of the shortest time constant.
 const STEP_PER_TIME_CONSTANT: f64 = 0.35;
-/// Most steps between two rows.
-const MAX_STEPS: f64 = 64.0;
+/// Most steps between two rows: a time constant of a millisecond is followed through rows a second apart.
+const MAX_STEPS: f64 = 4096.0;
 
 /// Integrates [`Equations`] along [`Signals`] by the classical Runge–Kutta scheme of order four, L states beside their
 /// sensitivities S = ∂z/∂(visible start, p) by the variational equations.

@@ -162,3 +162,28 @@ fn beside(path: &Path, suffix: &str) -> PathBuf {
 fn unwritable(path: &Path, why: &io::Error) -> Error {
     crate::files::unwritable(path, why)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What was counted before a kill is counted after it.
+    #[test]
+    fn counts_add_up_over_kills() {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("table.csv");
+        let mut cases = 0;
+        for (rows, troubles) in [("a\nb\nc\n", [1, 2]), ("d\n", [0, 1]), ("e\nf\n", [2, 0])] {
+            let mut journal = Journal::open(&out, "this sweep", b"header\n").unwrap();
+            assert_eq!((journal.found, journal.cases()), (cases, cases));
+            cases += rows.lines().count();
+            journal.append(rows.as_bytes(), rows.lines().count(), troubles).unwrap();
+            journal.note().unwrap();
+        }
+        let last = Journal::open(&out, "this sweep", b"header\n").unwrap();
+        assert_eq!((last.cases(), last.troubles()), (6, [3, 3]));
+        drop(last);
+        let other = Journal::open(&out, "another sweep", b"header\n").unwrap();
+        assert_eq!((other.cases(), other.troubles()), (0, [0, 0]));
+    }
+}

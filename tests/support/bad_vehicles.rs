@@ -172,6 +172,16 @@ pub const BAD_VEHICLES: &[Case] = &[
         "10:21: \"my-load\" cannot name a parameter or an input; begin with a letter, go on with letters, digits and _; functions, it, and time, heading, tractor and other keys of model files are taken",
     ),
     case(
+        "digit parameter",
+        &[("parameters.load", "parameters.2nd_load")],
+        "10:21: \"2nd_load\" cannot name a parameter or an input; begin with a letter, go on with letters, digits and _; functions, it, and time, heading, tractor and other keys of model files are taken",
+    ),
+    case(
+        "long parameter",
+        &[("parameters.load", "parameters.lllllllllllllllllllllllllllllllllllllllllllllllllllllllllllll")],
+        "10:21: \"llllllllllllllllllllllllllllllllllllllll…\" cannot name a parameter or an input; begin with a letter, go on with letters, digits and _; functions, it, and time, heading, tractor and other keys of model files are taken",
+    ),
+    case(
         "twice",
         &[("parameters.load", "parameters.steering_angle")],
         "18:17: steering_angle is declared twice, first at line 10; parameters, inputs and defined symbols share one set of names; give one of them another",

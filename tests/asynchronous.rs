@@ -8,7 +8,7 @@ use creepage::discrepancy::identifiable::Checked;
 use creepage::discrepancy::report::{Report, RunClock, Verdict};
 use creepage::files::{ModelFile, Run};
 use creepage::{effects, model};
-use simulator::{Hidden, Log, Noise, Scenario, Timing, Tractor};
+use simulator::{Hidden, Log, Noise, Profile, Scenario, Signal, Timing, Tractor};
 use std::path::Path;
 use std::process::Command;
 
@@ -155,6 +155,33 @@ fn files_of_two_drives_do_not_fit() {
     let request = Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[], seed: 0 };
     let report = discover_aligned(&request, None, &|_| ()).unwrap().report;
     assert_eq!(report.verdict, Verdict::UnusableData, "{}", report.summary);
+}
+
+/// The same bend again and again: every offset by a whole number of bends does as well, and that is said.
+#[test]
+fn a_drive_that_repeats_itself_leaves_its_clock_open() {
+    let bend = 12.0;
+    let profile = Profile { speed: Signal::constant(0.8), turn: Signal::wave(0.6, bend, 0.3) };
+    let found = report(&Scenario { profile, ..drive(Tractor::Unicycle, vec![], 62) }, SKEW);
+    let clock = &found.data.clocks[0];
+    let bends = (clock.other_offset_s.unwrap() - clock.offset_s.value) / bend;
+    assert!(bends.round() != 0.0 && (bends - bends.round()).abs() < 0.02, "{clock:?}");
+    let doubt = "fits nearly as well as";
+    assert!(found.data.warnings.iter().any(|w| w.contains(doubt)), "{:?}", found.data.warnings);
+}
+
+#[test]
+fn runs_in_one_file_and_in_two_do_not_mix() {
+    let folder = tempfile::tempdir().unwrap();
+    let scenario = drive(Tractor::Unicycle, vec![], 74);
+    write(folder.path(), "a", &scenario, SKEW);
+    let (file, apart) = read(folder.path(), "a");
+    let whole = Run::parse("whole.csv", &scenario.run().to_csv(9), &file).unwrap();
+    let runs = [apart, whole];
+    let request = Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[], seed: 0 };
+    let Err(refused) = discover_aligned(&request, None, &|_| ()) else { panic!("accepted") };
+    let refused = refused.to_string();
+    assert!(refused.starts_with("whole.csv: has its poses in itself") && refused.contains("--truth"), "{refused}");
 }
 
 /// Times in nanoseconds would be a file of years: an answer, and no memory for it.

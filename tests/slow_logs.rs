@@ -12,8 +12,13 @@ use simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
 
 /// What a robot logged that often says, turning slowly enough for rows a second apart.
 fn answer(rate: f64, hidden: &[Hidden], seed: u64) -> Report {
+    driven([11.0, 17.0], rate, hidden, seed)
+}
+
+/// The same with other periods of speed and turn.
+fn driven([speed, turn]: [f64; 2], rate: f64, hidden: &[Hidden], seed: u64) -> Report {
     let usual = Scenario::new(Tractor::DifferentialDrive, seed);
-    let profile = Profile { speed: Signal::wave(0.9, 11.0, 0.4), turn: Signal::wave(0.7, 17.0, 1.0) };
+    let profile = Profile { speed: Signal::wave(0.9, speed, 0.4), turn: Signal::wave(0.7, turn, 1.0) };
     let s = Scenario { profile, hidden: hidden.to_vec(), duration: 100.0, rate, noise: Noise::MOCAP, ..usual };
     let file = ModelFile::parse(&s.model_toml(), "model.toml", &model::known(effects::all())).unwrap();
     let run = Run::parse("run.csv", &s.run().to_csv(9), &file).unwrap();
@@ -51,4 +56,44 @@ fn what_is_missing_is_named_and_nothing_beside_it() {
         assert!((scale.value - 0.05).abs() < 0.002, "{rate} Hz: {scale:?}");
         at_the_floor(&report, rate);
     }
+}
+
+/// Inputs that change faster than they are logged: what the interpolation misses is no effect, and the report says what to do.
+#[test]
+fn what_comes_with_the_interpolation_is_not_named() {
+    for periods in [[10.0, 13.0], [6.0, 7.0], [5.0, 6.0]] {
+        let report = driven(periods, 1.0, &[], 90);
+        assert_eq!(report.verdict, Verdict::NotIdentifiable, "{periods:?}: {}", report.summary);
+        assert!(report.effects.is_empty() && report.unnamed.is_empty());
+        let warned = &report.data.warnings[0];
+        assert!(
+            warned.starts_with("with every second row of the inputs left out these runs ask for other"),
+            "{warned}"
+        );
+        assert!(report.next_experiment.unwrap().manoeuvre.starts_with("log the inputs several times as often"));
+    }
+}
+
+/// What is there does not come with the interpolation, and stays while what comes goes.
+#[test]
+fn what_is_there_stays_where_inputs_are_logged_too_seldom() {
+    for (periods, moved) in [([10.0, 13.0], 0.001), ([6.0, 7.0], 0.004)] {
+        let report = driven(periods, 1.0, &[Hidden::TrackWidth { scale: 0.05 }], 190);
+        assert_eq!(report.verdict, Verdict::MissingEffect, "{periods:?}: {}", report.summary);
+        let ids: Vec<&str> = report.effects.iter().map(|e| e.id.as_str()).collect();
+        assert_eq!((ids, report.unnamed.len()), (vec!["track-width"], 0), "{periods:?}: {}", report.summary);
+        let scale = &report.effects[0].parameters["scale"];
+        assert!((scale.value - 0.05).abs() < moved, "{periods:?}: {scale:?}");
+        let left_out = report.data.warnings.iter().any(|w| w.contains("every second row of the inputs left out"));
+        assert_eq!(left_out, periods[0] == 6.0, "{:?}", report.data.warnings);
+    }
+}
+
+/// Four rows a turn: what is measured is taken for scatter, but the vehicle is not said to stand.
+#[test]
+fn poses_too_far_apart_are_not_called_a_vehicle_that_stands() {
+    let report = driven([4.0, 5.0], 1.0, &[], 90);
+    assert_eq!(report.verdict, Verdict::UnusableData, "{}", report.summary);
+    assert!(report.summary.starts_with("The inputs say that the vehicle moves"), "{}", report.summary);
+    assert!(report.next_experiment.unwrap().manoeuvre.starts_with("log the poses several times as often"));
 }

@@ -5,6 +5,7 @@ use super::evidence::tail;
 use super::fit::Fit;
 use super::limits;
 use super::problem::Problem;
+use super::sampled::keep_sampled;
 use super::selection::{FINALISTS, FULL, Grown, MOST, Selection, bic, find, worth};
 use super::stable::{self, Scatter, Stable};
 use super::unnamed;
@@ -52,6 +53,8 @@ pub struct Choice {
     pub candidates: Vec<Scored>,
     /// Effects and terms that the whole data ask for, and parts of them with other values, so that they are not kept.
     pub unshared: Vec<Applied>,
+    /// Effects and terms that come and go with how often the inputs are logged, so that they are not kept.
+    pub unsampled: Vec<Applied>,
 }
 
 /// Adds effects of the library until nothing is left above the noise.
@@ -75,10 +78,13 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &d
     };
     let named = limits::search(&selection, library, selection.grown(&before, progress)?)?;
     let grown = unnamed::search(&selection, &named, &[], progress)?.unwrap_or(named);
-    let Stable { grown, unshared, scatter } = stable::search(&selection, grown, progress)?;
+    let Stable { mut grown, unshared, scatter } = stable::search(&selection, grown, progress)?;
+    let unsampled = keep_sampled(&selection, &mut grown, progress)?;
+    // Where something went, the values no longer stand where they stood.
+    let scatter = scatter.filter(|_| unsampled.is_empty());
     let chosen = selection.examined(&grown.fit, scatter.as_ref())?;
     let Grown { fit: after, steps, candidates } = grown;
-    Ok(Some(Choice { before, after, chosen, steps, candidates, unshared }))
+    Ok(Some(Choice { before, after, chosen, steps, candidates, unshared, unsampled }))
 }
 
 impl Selection<'_> {

@@ -21,10 +21,21 @@ pub(super) fn neutral_at_zero(fit: &Fit, effect: &Applied) -> Vec<(usize, f64)> 
 
 /// Squared distance of an effect from neutral in units of a covariance; zero when that is not known.
 fn distance(fit: &Fit, covariance: Option<&nalgebra::DMatrix<f64>>, effect: &Applied) -> f64 {
+    distance_of(fit, covariance, effect, &|_, v| v)
+}
+
+/// The squared length of a vector in units of a covariance, made of an effect's values and where they stand among the free
+/// ones; zero when the covariance is not known.
+pub(super) fn distance_of(
+    fit: &Fit,
+    covariance: Option<&nalgebra::DMatrix<f64>>,
+    effect: &Applied,
+    of: &dyn Fn(usize, f64) -> f64,
+) -> f64 {
     let own = neutral_at_zero(fit, effect);
     let Some(c) = covariance else { return 0.0 };
     let block = nalgebra::DMatrix::from_fn(own.len(), own.len(), |i, j| c[(own[i].0, own[j].0)]);
-    let v = nalgebra::DVector::from_iterator(own.len(), own.iter().map(|(_, v)| *v));
+    let v = nalgebra::DVector::from_iterator(own.len(), own.iter().map(|(i, v)| of(*i, *v)));
     block.cholesky().map_or(0.0, |c| v.dot(&c.solve(&v)))
 }
 

@@ -2,12 +2,13 @@
 
 use super::choose::{Choice, Scored};
 use super::clock::Drift;
+use super::contested::{oftener, partly, settling, too_seldom};
 use super::fit::Fit;
 use super::locate::Violation;
 use super::problem::Problem;
 use super::report::{NextExperiment, Verdict};
 use super::selection::find;
-use super::summary::{listed, listed_to};
+use super::summary::listed;
 use super::unnamed;
 use crate::effects::Applied;
 use crate::picture::number::significant;
@@ -21,9 +22,6 @@ pub struct Outcome {
     /// What to drive next.
     pub next_experiment: Option<NextExperiment>,
 }
-
-/// Names in a sentence.
-const NAMED: usize = 3;
 
 /// Windows that a statement about effects needs at least.
 const FEWEST_WINDOWS: usize = 5;
@@ -46,6 +44,15 @@ const LONG_SLIDE: f64 = 1.5;
 
 /// Unusable or too short before anything is fitted.
 pub fn before_fitting(problem: &Problem) -> Option<Outcome> {
+    if !moves(problem) && driven(problem) {
+        let sentence = "The inputs say that the vehicle moves in these runs, but the poses show no more than their scatter \
+                        from row to row, so nothing can be said about its model.";
+        let next = NextExperiment {
+            why: "between two rows of poses more happens than from one end of the run to the other".into(),
+            manoeuvre: "log the poses several times as often, and check the units of their columns".into(),
+        };
+        return Some(outcome(Verdict::UnusableData, sentence, Some(next)));
+    }
     if !moves(problem) {
         let sentence = "The vehicle does not move in these runs, so nothing can be said about its model.";
         return Some(outcome(Verdict::UnusableData, sentence, Some(drive("a model is tested by motion"))));
@@ -75,7 +82,7 @@ fn outcome(verdict: Verdict, sentence: &str, next_experiment: Option<NextExperim
     Outcome { verdict, sentence: Some(sentence.into()), next_experiment }
 }
 
-fn drive(why: &str) -> NextExperiment {
+pub(super) fn drive(why: &str) -> NextExperiment {
     NextExperiment {
         why: why.into(),
         manoeuvre: "drive at least 60 s at changing speed with turns to both sides, such as figures of eight".into(),
@@ -96,6 +103,18 @@ fn moves(problem: &Problem) -> bool {
     })
 }
 
+/// Whether any input is ever other than zero.
+fn driven(problem: &Problem) -> bool {
+    problem.records.iter().any(|r| {
+        let mut value = vec![0.0; r.signals.channels()];
+        let mut slope = value.clone();
+        r.signals.knots().iter().any(|t| {
+            r.signals.at(*t, &mut value, &mut slope);
+            value.iter().any(|v| *v != 0.0)
+        })
+    })
+}
+
 /// The verdict after the choice.
 pub fn after_fitting(choice: &Choice, after: &[Violation], clocks: &[Drift]) -> Outcome {
     if let Some(sentence) = hopeless(after).or_else(|| sliding(after)).or_else(|| mismatched(clocks)) {
@@ -107,6 +126,10 @@ pub fn after_fitting(choice: &Choice, after: &[Violation], clocks: &[Drift]) -> 
         let verdict = if without_name { Verdict::UnnamedEffect } else { Verdict::MissingEffect };
         let sentence = (!without_name && contradicted).then(|| partly(choice));
         return Outcome { verdict, sentence, next_experiment: contradicted.then(|| settling(choice)) };
+    }
+    if let Some(asked) = too_seldom(choice).filter(|_| !contradicted) {
+        let sentence = "The inputs change faster than they are logged, so nothing can be named.";
+        return outcome(Verdict::NotIdentifiable, sentence, Some(oftener(&asked)));
     }
     if contradicted || disagrees(&choice.after, after) {
         let why = if contradicted {
@@ -132,29 +155,6 @@ pub fn after_fitting(choice: &Choice, after: &[Violation], clocks: &[Drift]) -> 
     }
 }
 
-/// That parts of the data ask for something differently; `None` where they agree.
-fn contradiction(choice: &Choice) -> Option<String> {
-    let mut names: Vec<String> = Vec::new();
-    for effect in &choice.unshared {
-        let name = match unnamed::is_term(effect) {
-            true => format!("a law without name at the {}", effect.effect.place),
-            false => effect.label(),
-        };
-        if !names.contains(&name) {
-            names.push(name);
-        }
-    }
-    // The last one takes no more room than its number.
-    let most = if names.len() == NAMED + 1 { NAMED + 1 } else { NAMED };
-    let names = (!names.is_empty()).then(|| listed_to(&names, most));
-    names.map(|names| format!("parts of these runs ask for other values of {names}"))
-}
-
-/// What the report warns of where parts of the data contradict each other.
-pub(super) fn warning(choice: &Choice) -> Option<String> {
-    contradiction(choice).map(|asked| format!("{asked}, so that is not named"))
-}
-
 /// Effects of the model file that the runs ask for with other values.
 pub(super) fn restated(choice: &Choice) -> Vec<String> {
     let values = |a: &Applied| {
@@ -167,19 +167,6 @@ pub(super) fn restated(choice: &Choice) -> Vec<String> {
         Some(format!("the model has {label} with {old}; these runs ask for {new} in its place"))
     };
     choice.chosen.iter().filter_map(|c| told(&c.applied)).collect()
-}
-
-/// What mends runs whose parts contradict each other: no manoeuvre can be thought through with a model that is wrong,
-/// but where speed and turn change by themselves a law shows as what it is.
-fn settling(choice: &Choice) -> NextExperiment {
-    let asked = contradiction(choice).unwrap_or_else(|| "what disagrees in these runs has no name".into());
-    drive(&format!("{asked}: where speed and turn vary together, one law imitates another"))
-}
-
-/// What is named where more remains that is not.
-fn partly(choice: &Choice) -> String {
-    let names = listed(choice.chosen.iter().map(|c| c.applied.label()));
-    format!("The model misses {names}; what else remains differs between parts of these runs and is not named.")
 }
 
 /// Whether what a fit leaves of a constraint is more than chance, and stands out of the noise to the eye.

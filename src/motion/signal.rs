@@ -39,6 +39,7 @@ impl From<InputTiming> for Timing {
 #[derive(Clone, Debug)]
 pub struct Signals {
     knots: Arc<[f64]>,
+    timing: Timing,
     channels: usize,
     /// Polynomial coefficients, interval by interval, channel by channel; copies share them.
     pieces: Arc<[[f64; 4]]>,
@@ -56,7 +57,48 @@ impl Signals {
             };
             of_channel.into_iter().enumerate().for_each(|(i, p)| pieces[i * columns.len() + c] = p);
         }
-        Self { knots: time.into(), channels: columns.len(), pieces: pieces.into() }
+        Self { knots: time.into(), timing, channels: columns.len(), pieces: pieces.into() }
+    }
+
+    /// The signals of the same log with every second row left out, where rows follow each other evenly; `None` where fewer
+    /// than four are left.
+    ///
+    /// ```
+    /// use creepage::motion::{Signals, Timing};
+    /// let t: Vec<f64> = (0..9).map(f64::from).collect();
+    /// let u = |t: f64| t * t - 3.0 * t;
+    /// let s = Signals::new(&t, &[t.iter().map(|t| u(*t)).collect()], Timing::Sample).thinned().unwrap();
+    /// assert_eq!(s.knots(), [0.0, 2.0, 4.0, 6.0, 8.0]);
+    /// let (mut value, mut slope) = ([0.0], [0.0]);
+    /// s.at(5.0, &mut value, &mut slope);
+    /// assert!((value[0] - u(5.0)).abs() < 1e-12);
+    /// ```
+    pub fn thinned(&self) -> Option<Self> {
+        let kept = every_second(&self.knots);
+        if kept.len() < 4 {
+            return None;
+        }
+        let time: Vec<f64> = kept.iter().map(|i| self.knots[*i]).collect();
+        let column = |c: usize| -> Vec<f64> {
+            let piece = |i: usize| self.pieces[i * self.channels + c];
+            match self.timing {
+                Timing::Sample => kept.iter().map(|i| self.value_at_knot(*i, c)).collect(),
+                Timing::IntervalMean => {
+                    let way = |i: usize| integral(&piece(i), self.knots[i + 1] - self.knots[i]);
+                    let mean = |w: &[usize]| (w[0]..w[1]).map(way).sum::<f64>() / (self.knots[w[1]] - self.knots[w[0]]);
+                    std::iter::once(0.0).chain(kept.windows(2).map(mean)).collect()
+                }
+            }
+        };
+        let columns: Vec<Vec<f64>> = (0..self.channels).map(column).collect();
+        Some(Self::new(&time, &columns, self.timing))
+    }
+
+    fn value_at_knot(&self, i: usize, channel: usize) -> f64 {
+        let last = self.knots.len() - 2;
+        let [a, b, d, e] = self.pieces[i.min(last) * self.channels + channel];
+        let s = if i > last { self.knots[i] - self.knots[last] } else { 0.0 };
+        a + s * (b + s * (d + s * e))
     }
 
     /// The signals as a clock would give them that runs faster by a rate, about the middle of the log.
@@ -75,6 +117,7 @@ impl Signals {
         let piece = |[a, b, d, e]: &[f64; 4]| [*a, b / by, d / by.powi(2), e / by.powi(3)];
         Self {
             knots: self.knots.iter().map(|t| middle + (t - middle) * by).collect(),
+            timing: self.timing,
             channels: self.channels,
             pieces: self.pieces.iter().map(piece).collect(),
         }
@@ -148,6 +191,30 @@ fn cubics(t: &[f64], y: &[f64]) -> Vec<[f64; 4]> {
     (0..t.len().saturating_sub(1)).map(piece).collect()
 }
 
+/// The integral of a piece over an interval of this length.
+fn integral([a, b, d, e]: &[f64; 4], h: f64) -> f64 {
+    h * (a + h * (b / 2.0 + h * (d / 3.0 + h * e / 4.0)))
+}
+
+/// Rows without every second one; beside an interruption all stay.
+fn every_second(time: &[f64]) -> Vec<usize> {
+    let mut steps: Vec<f64> = time.windows(2).map(|w| w[1] - w[0]).collect();
+    if steps.is_empty() {
+        return (0..time.len()).collect();
+    }
+    let middle = steps.len() / 2;
+    let usual = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let mut kept = vec![0];
+    for i in 1..time.len() {
+        let before = kept[kept.len() - 1];
+        let spare = before + 1 == i && time.get(i + 1).is_some_and(|next| next - time[before] < 3.0 * usual);
+        if !spare {
+            kept.push(i);
+        }
+    }
+    kept
+}
+
 fn slope([_, b, d, e]: &[f64; 4]) -> [f64; 4] {
     [*b, 2.0 * d, 3.0 * e, 0.0]
 }
@@ -204,6 +271,22 @@ mod tests {
             let simpson = (value(&s, a) + 4.0 * value(&s, (a + b) / 2.0) + value(&s, b - 1e-15)) / 6.0;
             assert!((simpson - mean[i]).abs() < 1e-9, "{simpson} instead of {}", mean[i]);
         }
+    }
+
+    /// Means over pairs of intervals are kept; rows beside an interruption stay.
+    #[test]
+    fn every_second_row_is_left_out() {
+        let t = [0.0, 1.0, 2.0, 3.0, 4.0, 10.0, 11.0, 12.0, 13.0];
+        let mean = vec![9.0, 1.0, -2.0, 0.5, 3.0, 2.0, 1.0, 0.0, 5.0];
+        let s = Signals::new(&t, std::slice::from_ref(&mean), Timing::IntervalMean).thinned().unwrap();
+        assert_eq!(s.knots(), [0.0, 2.0, 4.0, 10.0, 12.0, 13.0]);
+        for (w, expected) in s.knots().windows(2).zip([-0.5, 1.75, 2.0, 0.5, 5.0]) {
+            let found = (value(&s, w[0]) + 4.0 * value(&s, (w[0] + w[1]) / 2.0) + value(&s, w[1] - 1e-12)) / 6.0;
+            assert!((found - expected).abs() < 1e-6, "{found} instead of {expected}");
+        }
+        let samples = Signals::new(&t, &[mean], Timing::Sample).thinned().unwrap();
+        assert_eq!([0.0, 4.0, 12.0, 13.0].map(|t| value(&samples, t)), [9.0, 3.0, 0.0, 5.0]);
+        assert!(Signals::new(&t[..4], &[vec![0.0; 4]], Timing::Sample).thinned().is_none());
     }
 
     #[test]

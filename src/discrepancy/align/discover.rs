@@ -20,6 +20,8 @@ use rayon::prelude::*;
 const GRID: f64 = 0.1;
 /// Deviance that tells one offset from another beyond doubt.
 const SURE: f64 = 40.0;
+/// Deviations of what differs by chance that are no chance.
+const CHANCE: f64 = 5.0;
 /// Longest file whose clock is looked for, s: what is tried grows with it.
 const LONGEST: f64 = 2e5;
 /// Motions that agree less are not of one drive.
@@ -168,7 +170,10 @@ fn settled(first: Fitted, rival: Option<Fitted>) -> (Fitted, Option<f64>) {
     let Some(rival) = rival else { return (first, None) };
     let (good, bad) = if rival.misfit < first.misfit { (rival, first) } else { (first, rival) };
     // Misfits are deviances a row; rows that are alike count once.
-    let told = (bad.misfit - good.misfit) * good.rows / good.dependence > SURE;
+    let apart = (bad.misfit - good.misfit) * good.rows / good.dependence;
+    // Rows that only one of both has differ by chance, too: a value's deviance has a variance of two.
+    let chance = (2.0 * (good.alone(&bad) + bad.alone(&good)) / good.dependence).sqrt();
+    let told = apart > SURE + CHANCE * chance;
     (good, (!told).then_some(bad.clock.offset))
 }
 

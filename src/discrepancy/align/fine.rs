@@ -35,6 +35,8 @@ pub struct Fitted {
     pub misfit: f64,
     /// Measured values.
     pub rows: f64,
+    /// The first and the last time of the poses that are in it, s.
+    pub covers: [f64; 2],
     /// How many of them in a row are alike.
     pub dependence: f64,
 }
@@ -50,8 +52,15 @@ pub fn refined(run: &Run, model: &Model, file: &ModelFile, clock: Clock) -> Resu
     model.effects.retain(|e| e.effect.id != DELAY);
     let model = model.with_effect(Applied::new(delay, None, vec![0.0]).freed());
     let clock = middle(run, clock);
-    let mut found =
-        Fitted { clock, offset_std: None, drift_std: None, misfit: f64::INFINITY, rows: 0.0, dependence: 1.0 };
+    let mut found = Fitted {
+        clock,
+        offset_std: None,
+        drift_std: None,
+        misfit: f64::INFINITY,
+        rows: 0.0,
+        covers: [0.0; 2],
+        dependence: 1.0,
+    };
     for _ in 0..ROUNDS {
         let Some(round) = Round::at(run, &model, file, found.clock)? else { return Ok(None) };
         let drift = round.drift()?;
@@ -61,6 +70,8 @@ pub fn refined(run: &Run, model: &Model, file: &ModelFile, clock: Clock) -> Resu
         found.clock.drift += step;
         found.offset_std = round.offset_std;
         found.rows = round.problem.records.iter().map(|r| (r.time.len() * r.columns.len()) as f64).sum();
+        let time = &round.problem.records[0].time;
+        found.covers = [time[0], time[time.len() - 1]];
         found.misfit = round.fit.deviance / found.rows;
         found.dependence = round.fit.dependence();
         found.drift_std = drift.and_then(|(_, std)| std);
@@ -70,6 +81,15 @@ pub fn refined(run: &Run, model: &Model, file: &ModelFile, clock: Clock) -> Resu
         }
     }
     Ok(Some(found))
+}
+
+impl Fitted {
+    /// How many of the measured values another clock's fit has not.
+    pub(super) fn alone(&self, other: &Self) -> f64 {
+        let [from, to] = self.covers;
+        let common = (to.min(other.covers[1]) - from.max(other.covers[0])).max(0.0);
+        if to > from { self.rows * (1.0 - common / (to - from)) } else { 0.0 }
+    }
 }
 
 /// A clock whose offset is stated for the middle of the poses: there it is independent of the drift.

@@ -1,0 +1,70 @@
+//! In words: effects that the runs ask for, but not all of their parts, or not with the inputs logged half as often.
+
+use super::choose::Choice;
+use super::report::NextExperiment;
+use super::summary::{listed, listed_to};
+use super::unnamed;
+use super::verdict::drive;
+use crate::effects::Applied;
+
+/// Names in a sentence.
+const NAMED: usize = 3;
+
+/// That parts of the data ask for something differently; `None` where they agree.
+fn contradiction(choice: &Choice) -> Option<String> {
+    let names = named(&choice.unshared);
+    names.map(|names| format!("parts of these runs ask for other values of {names}"))
+}
+
+/// That something would have another value, were the inputs logged half as often; `None` where nothing would.
+pub(super) fn too_seldom(choice: &Choice) -> Option<String> {
+    let names = named(&choice.unsampled);
+    names
+        .map(|names| format!("with every second row of the inputs left out these runs ask for other values of {names}"))
+}
+
+/// Effects in words, terms by their place.
+fn named(effects: &[Applied]) -> Option<String> {
+    let mut names: Vec<String> = Vec::new();
+    for effect in effects {
+        let name = match unnamed::is_term(effect) {
+            true => format!("a law without name at the {}", effect.effect.place),
+            false => effect.label(),
+        };
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    // The last one takes no more room than its number.
+    let most = if names.len() == NAMED + 1 { NAMED + 1 } else { NAMED };
+    (!names.is_empty()).then(|| listed_to(&names, most))
+}
+
+/// What the report warns of where parts of the data contradict each other, or rows too far apart.
+pub(super) fn warnings(choice: &Choice) -> impl Iterator<Item = String> {
+    let both = [contradiction(choice), too_seldom(choice)];
+    both.into_iter().flatten().map(|asked| format!("{asked}, so that is not named"))
+}
+
+/// What mends runs whose parts contradict each other: no manoeuvre can be thought through with a model that is wrong,
+/// but where speed and turn change by themselves a law shows as what it is.
+pub(super) fn settling(choice: &Choice) -> NextExperiment {
+    let asked = contradiction(choice).unwrap_or_else(|| "what disagrees in these runs has no name".into());
+    drive(&format!("{asked}: where speed and turn vary together, one law imitates another"))
+}
+
+/// What mends inputs that change between their rows.
+pub(super) fn oftener(why: &str) -> NextExperiment {
+    NextExperiment {
+        why: why.into(),
+        manoeuvre: "log the inputs several times as often, or as means over the time between rows (input_timing = \
+                    \"interval-mean\"), or drive with speeds and turns that change more slowly"
+            .into(),
+    }
+}
+
+/// What is named where more remains that is not.
+pub(super) fn partly(choice: &Choice) -> String {
+    let names = listed(choice.chosen.iter().map(|c| c.applied.label()));
+    format!("The model misses {names}; what else remains differs between parts of these runs and is not named.")
+}

@@ -1,0 +1,59 @@
+//! Effects asked of inputs of which every second row is left out.
+//!
+//! Between rows the inputs are taken to be smooth. Where they change faster than they are logged, what the interpolation
+//! misses looks like an effect. It grows at least with the square of the time between rows; what is there keeps its value.
+//! So of what a value moves by when the time between rows is doubled, a third is missed at most before.
+
+use super::evidence::distance_of;
+use super::fit::Fit;
+use super::problem::Problem;
+use super::record::Record;
+use super::selection::{FULL, Grown, Selection};
+use super::summary::listed;
+use crate::effects::Applied;
+use crate::error::Result;
+
+/// An effect of which more than this share may be what the interpolation misses is none.
+const MOST: f64 = 0.5;
+
+/// What is missed at twice the time between rows, less what is missed at the time itself, in units of the latter.
+const GROWTH: f64 = 3.0;
+
+/// Drops what comes and goes with how often the inputs are logged, worst first, and returns it.
+pub(super) fn keep_sampled(selection: &Selection, grown: &mut Grown, progress: &dyn Fn(&str)) -> Result<Vec<Applied>> {
+    let mut dropped = Vec::new();
+    if grown.fit.p.is_empty() {
+        return Ok(dropped);
+    }
+    let Some(coarse) = with_half_the_inputs(selection.problem) else { return Ok(dropped) };
+    while !grown.fit.p.is_empty() {
+        progress("asking every second row of the inputs for the same effects");
+        let Some(half) = coarse.fit(&grown.fit.model, &grown.fit.starts, &grown.fit.variances, FULL)? else { break };
+        let moved = grown.fit.model.free_effects().map(|e| (share_missed(&grown.fit, &half, e), e));
+        let Some((share, worst)) = moved.max_by(|a, b| a.0.total_cmp(&b.0)) else { break };
+        if share <= MOST {
+            break;
+        }
+        let worst = worst.clone();
+        let Some(smaller) = selection.reduced(&grown.fit, &worst)? else { break };
+        let step = (listed(smaller.model.free_effects().map(Applied::label)), smaller.model.clone());
+        grown.steps = if smaller.p.is_empty() { vec![] } else { vec![step] };
+        grown.fit = smaller;
+        dropped.push(worst);
+    }
+    Ok(dropped)
+}
+
+/// The same poses with inputs logged half as often; `None` where there are too few to leave any out.
+fn with_half_the_inputs(problem: &Problem) -> Option<Problem> {
+    let of = |r: &Record| Some(Record { signals: r.signals.thinned()?, ..r.clone() });
+    let records = problem.records.iter().map(of).collect::<Option<Vec<_>>>()?;
+    Some(Problem { records, ..problem.clone() })
+}
+
+/// How much of the distance of an effect's values from neutral the interpolation may make up.
+fn share_missed(fit: &Fit, half: &Fit, effect: &Applied) -> f64 {
+    let by = |p: &dyn Fn(usize, f64) -> f64| distance_of(fit, fit.covariance.as_ref(), effect, p);
+    let far = by(&|_, v| v);
+    if far > 0.0 { (by(&|i, v| half.p[i] - v) / far).sqrt() / GROWTH } else { 0.0 }
+}

@@ -144,6 +144,30 @@ fn clocks_far_apart_are_found() {
     }
 }
 
+/// The recorder of the poses was begun late and ended late: three fifths of each file are common.
+#[test]
+fn files_that_overlap_in_part_are_enough() {
+    let folder = tempfile::tempdir().unwrap();
+    let skew = Skew { offset: 0.8, drift: 0.0 };
+    write(folder.path(), "run", &Scenario { duration: 84.0, ..drive(Tractor::Unicycle, vec![], 61) }, skew);
+    let only = |name: &str, wanted: &dyn Fn(f64) -> bool| {
+        let path = folder.path().join(name);
+        let text = std::fs::read_to_string(&path).unwrap();
+        let time = |line: &&str| line.split(',').next().unwrap().parse().ok();
+        let kept: Vec<&str> = text.lines().filter(|line| time(line).is_none_or(wanted)).collect();
+        std::fs::write(&path, kept.join("\n")).unwrap();
+    };
+    only("run.csv", &|t| t < 60.0);
+    only("run_poses.csv", &|t| t > 24.0);
+    let (file, run) = read(folder.path(), "run");
+    let runs = [run];
+    let request = Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[], seed: 0 };
+    let report = discover_aligned(&request, None, &|_| ()).unwrap().report;
+    let clock = &report.data.clocks[0];
+    let [offset, _] = errors(clock, skew);
+    assert!(offset.abs() < 5.0 && clock.other_offset_s.is_none(), "{offset} {clock:?}");
+}
+
 #[test]
 fn files_of_two_drives_do_not_fit() {
     let folder = tempfile::tempdir().unwrap();

@@ -132,6 +132,17 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_run_lasts_as_long_whenever_its_clock_begins() {
+        let time: Vec<f64> = (0..8).map(|i| 1.7e9 + f64::from(i)).collect();
+        let columns = vec![vec![0.0; 8]; 3];
+        let timing = crate::motion::Timing::Sample;
+        let mut record = Record::new("run.csv", time, columns, true, &[vec![1.0; 8]], timing);
+        assert_eq!(duration(&record), 7.0);
+        record.rows = 2..6;
+        assert_eq!(duration(&record), 3.0);
+    }
+
+    #[test]
     fn clocks_are_blamed_for_long_drifts_that_explain_what_remains() {
         let drift = |total, gain, explained| Drift { run: "run.csv".into(), total, gain, explained, step: 0.02 };
         assert!(drift(0.3, 90.0, 0.9).is_mismatch());

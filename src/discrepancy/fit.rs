@@ -234,15 +234,19 @@ fn misfit(linear: &[Vec<Linear>], v: &Variances) -> f64 {
     linear.iter().flatten().map(of_window).sum()
 }
 
-/// The number of values that count as independent: all of them where noise is white and nothing jumps, one a
-/// window and coordinate where jumps dominate.
+/// The number of values that count as independent in a fit.
 fn sample_size(linear: &[Vec<Linear>], e: &Eliminated) -> f64 {
     let windows = linear.iter().map(Vec::len).sum::<usize>() as f64;
     let coordinates = linear.iter().flatten().map(|w| w.axes.nrows()).max().unwrap_or(1) as f64;
     let values = linear.iter().flatten().flat_map(|w| w.count).sum::<usize>() as f64;
-    let bound = windows * coordinates;
-    let white = (-e.jump_determinant / bound.max(1.0)).exp();
-    bound + (values - bound).max(0.0) * white
+    independent(values, windows * coordinates, e.jump_determinant)
+}
+
+/// How many of some values count as independent: all of them where noise is white and nothing jumps, one a window and
+/// coordinate where jumps dominate.
+fn independent(values: f64, jumps: f64, jump_determinant: f64) -> f64 {
+    let white = (-jump_determinant / jumps.max(1.0)).exp();
+    jumps + (values - jumps).max(0.0) * white
 }
 
 /// The inverse of an information matrix, unless a direction is as good as open.
@@ -278,4 +282,19 @@ fn promised(e: &Eliminated, delta: &DVector<f64>) -> f64 {
 fn moved(starts: &Starts, by: &[Vec<DVector<f64>>], share: f64) -> Starts {
     let add = |(z, d): (&Vec<f64>, &DVector<f64>)| z.iter().zip(d.iter()).map(|(z, d)| z + share * d).collect();
     starts.iter().zip(by).map(|(s, b)| s.iter().zip(b).map(add).collect()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_jumps_counts_once_a_window() {
+        assert_eq!(independent(900.0, 60.0, 0.0), 900.0);
+        assert!((independent(900.0, 60.0, 60.0 * 50.0) - 60.0).abs() < 1e-9);
+        // Jumps as large as the noise, say: each makes half of what is beyond one a window worthless.
+        assert!((independent(900.0, 60.0, 60.0 * 2.0_f64.ln()) - 480.0).abs() < 1e-9);
+        // Fewer values than jumps say no less than one each.
+        assert_eq!(independent(40.0, 60.0, 0.0), 60.0);
+    }
 }

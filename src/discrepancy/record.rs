@@ -183,3 +183,25 @@ impl Record {
         smooth::slope_weights(&self.time, 0..self.rows.end, i)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn record(columns: Vec<Vec<f64>>, has_heading: bool) -> Record {
+        let time: Vec<f64> = (0..5).map(|i| 100.0 + f64::from(i)).collect();
+        Record::new("run.csv", time, columns, has_heading, &[vec![1.0; 5]], Timing::Sample)
+    }
+
+    #[test]
+    fn a_row_is_compared_in_the_order_of_the_outputs() {
+        let column = |from: f64| (0..5).map(|i| from + f64::from(i)).collect::<Vec<f64>>();
+        let whole = record(vec![column(10.0), column(20.0), column(30.0), column(40.0)], true);
+        assert_eq!(whole.measured(2), [12.0, 22.0, 32.0, 42.0]);
+        let places = record(vec![column(10.0), column(20.0)], false);
+        assert_eq!(places.measured(3), [13.0, 23.0, 0.0]);
+        let towed = record(vec![column(10.0), column(20.0), column(40.0)], false);
+        assert_eq!(towed.measured(1), [11.0, 21.0, 0.0, 41.0]);
+        assert_eq!([2, 1].map(|c| towed.output_of(c)), [3, 1]);
+    }
+}

@@ -124,6 +124,22 @@ mod tests {
         }
     }
 
+    /// Of a cubic from seven rows on, of a line from three on; of fewer nothing.
+    #[test]
+    fn slopes_are_those_of_what_few_rows_can_tell() {
+        let time: Vec<f64> = (0..20).map(|i| 0.2 * f64::from(i) + 0.03 * f64::from(i % 3)).collect();
+        let cubic: Vec<f64> = time.iter().map(|t| 1.0 + t - 2.0 * t * t + t.powi(3)).collect();
+        let slope = |t: f64| 1.0 - 4.0 * t + 3.0 * t * t;
+        let found = value(&cubic, &slope_weights(&time, 0..20, 9).unwrap());
+        assert!((found - slope(time[9])).abs() < 1e-9, "{found}");
+        let slow: Vec<f64> = (0..20).map(|i| 0.9 * f64::from(i)).collect();
+        let line: Vec<f64> = slow.iter().map(|t| 3.0 - 0.4 * t).collect();
+        let few = slope_weights(&slow, 0..20, 9).unwrap();
+        assert_eq!(few.len(), 3);
+        assert!((value(&line, &few) + 0.4).abs() < 1e-12);
+        assert!(slope_weights(&slow, 0..20, 0).is_none());
+    }
+
     #[test]
     fn noise_is_estimated_despite_outliers() {
         use rand::{Rng, SeedableRng};

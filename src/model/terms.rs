@@ -264,3 +264,20 @@ fn unit(metres: i32, seconds: i32) -> String {
     let below: String = all.iter().filter(|(_, n)| *n < 0).map(|(u, n)| format!("/{}", power(u, -*n))).collect();
     if above.is_empty() { format!("1{below}") } else { format!("{}{below}", above.join("*")) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_hangs_on_speed_is_written_out_and_the_rest_keeps_its_name() {
+        let mut known = Definitions::default();
+        for (name, formula) in [("slow", "k*v_l^2"), ("slower", "1 + slow"), ("k", "4*load"), ("still", "k + 1")] {
+            known.define(name, Expr::parse(formula).unwrap());
+        }
+        let hangs = |text: &str| hangs_on_speed(&Expr::parse(text).unwrap(), &known);
+        assert_eq!(["v_l", "slower*k", "k", "still*v_t"].map(hangs), [true, true, false, false]);
+        let out = written_out(&Expr::parse("slower*still").unwrap(), "v_d", &known);
+        assert_eq!(out.to_string(), Expr::parse("(1 + k*v_d^2)*still").unwrap().to_string());
+    }
+}

@@ -15,8 +15,10 @@ const HALF_WIDTHS: [f64; 3] = [1.0, 3.0, 9.0];
 const LONG_ENOUGH: f64 = 20.0;
 /// Headings that differ by more do not agree, rad.
 const AGREEMENT: f64 = 0.5;
-/// Rounds; more than one because drift and slopes know where north is.
-const ROUNDS: usize = 3;
+/// Turn that shows what a heading moves, rad.
+const TRIED: f64 = 1e-3;
+/// Rounds; more than one because what an effect does may hang on where the vehicle is.
+const ROUNDS: usize = 2;
 
 /// A row with what errors of its x and y do to a heading.
 pub type Weight = (usize, f64, f64);
@@ -26,13 +28,19 @@ pub type Weight = (usize, f64, f64);
 pub struct Course {
     /// The measured heading at the row, as a sensor would give it, rad.
     pub heading: f64,
-    /// How far the points that tell it reach, m: the root of the sum of squares about their mean.
+    /// How far the points that tell it reach, m: the root of the sum of squares about their mean of what turning the
+    /// vehicle by a radian would move them by. What moves them whichever way it heads, a slope or a current, tells nothing.
     pub reach: f64,
     /// δheading = Σ (a·δx + b·δy) over rows: (row, a, b).
     pub weights: Vec<Weight>,
 }
 
 impl Course {
+    /// Whether the path tells the heading, and not the noise of its points.
+    pub fn is_told(&self, record: &Record) -> bool {
+        self.reach > LONG_ENOUGH * record.position_noise()
+    }
+
     /// What errors of the positions do to the heading.
     pub fn error(&self, of: impl Fn(usize) -> [f64; 2]) -> f64 {
         self.weights.iter().map(|(i, a, b)| [*a, *b].iter().zip(of(*i)).map(|(w, e)| w * e).sum::<f64>()).sum()
@@ -41,15 +49,15 @@ impl Course {
 
 /// The heading at a row: the model's own motion around it, turned until it lies best on the measured path.
 ///
-/// θ = atan2(Σ p×m, Σ p·m) with the modelled points p and the measured points m about their means. Reversing, sliding
-/// and a tracked point off the axle are in the motion, which a direction of travel alone does not know.
+/// θ = atan2(Σ p×m, Σ p·m) with the modelled points p and the measured points m about their means, both less what a
+/// slope or a current does to them. Reversing, sliding and a tracked point off the axle are in the motion, which a
+/// direction of travel alone does not know.
 pub fn heading_at(equations: &Equations, record: &Record, row: usize) -> Course {
-    let noise = record.position_noise();
     let mut best = Course { heading: record.smoothed(row)[2], ..Course::default() };
     for half in HALF_WIDTHS {
         let Some(course) = laid_on(equations, record, row, half, best.heading) else { continue };
         best = course;
-        if best.reach > LONG_ENOUGH * noise {
+        if best.is_told(record) {
             break;
         }
     }
@@ -66,11 +74,12 @@ fn laid_on(equations: &Equations, record: &Record, row: usize, half: f64, guess:
     let mut begin = guess;
     let mut course = None;
     for _ in 0..ROUNDS {
-        let path = path(equations, record, rows.clone(), begin)?;
-        let here = path[row - rows.start][2];
-        let (turn, found, length) = turned(record, rows.start, &path)?;
-        begin += turn;
-        course = Some(Course { heading: here + turn, reach: length, weights: found });
+        let here = path(equations, record, rows.clone(), begin)?;
+        let beside = path(equations, record, rows.clone(), begin + TRIED)?;
+        let heading = here[row - rows.start][2];
+        let found = Turned::of(record, rows.start, &here, &beside)?;
+        begin += found.turn;
+        course = Some(Course { heading: heading + found.turn, reach: found.reach, weights: found.weights });
     }
     course
 }
@@ -104,29 +113,44 @@ fn path(equations: &Equations, record: &Record, rows: Range<usize>, heading: f64
     found.iter().flatten().all(|v| v.is_finite()).then_some(found)
 }
 
-/// The turn that lays a path on the measured one, the weights of the measured points in it, and the path's extent.
-fn turned(record: &Record, first: usize, path: &[[f64; 3]]) -> Option<(f64, Vec<Weight>, f64)> {
-    let n = path.len() as f64;
-    let mean = |f: &dyn Fn(usize) -> f64| (0..path.len()).map(f).sum::<f64>() / n;
-    let measured = |k: usize| [record.columns[0][first + k], record.columns[1][first + k]];
-    let centre = [mean(&|k| path[k][0]), mean(&|k| path[k][1])];
-    let target = [mean(&|k| measured(k)[0]), mean(&|k| measured(k)[1])];
-    let (mut dot, mut cross, mut square) = (0.0, 0.0, 0.0);
-    for (k, point) in path.iter().enumerate() {
-        let p = Vector2::new(point[0] - centre[0], point[1] - centre[1]);
-        let m = Vector2::new(measured(k)[0] - target[0], measured(k)[1] - target[1]);
-        dot += p.dot(&m);
-        cross += p.perp(&m);
-        square += p.norm_squared();
+/// What lays a path on the measured one.
+struct Turned {
+    turn: f64,
+    weights: Vec<Weight>,
+    reach: f64,
+}
+
+impl Turned {
+    /// From a path and the one that begins turned by a little: what lies between them turns with the vehicle, and the
+    /// rest of the path stays where it is.
+    fn of(record: &Record, first: usize, path: &[[f64; 3]], beside: &[[f64; 3]]) -> Option<Self> {
+        // A vector that turns moves by itself, a quarter turned.
+        let arm = |(a, b): (&[f64; 3], &[f64; 3])| Vector2::new(b[1] - a[1], a[0] - b[0]) / TRIED;
+        let arms = centred(path.iter().zip(beside).map(arm).collect());
+        let points = centred(path.iter().map(|p| Vector2::new(p[0], p[1])).collect());
+        let at = |k: usize| Vector2::new(record.columns[0][first + k], record.columns[1][first + k]);
+        let measured = centred((0..path.len()).map(at).collect());
+        let (mut dot, mut cross, mut square) = (0.0, 0.0, 0.0);
+        for ((arm, point), measured) in arms.iter().zip(&points).zip(&measured) {
+            let turned = measured - (point - arm);
+            dot += arm.dot(&turned);
+            cross += arm.perp(&turned);
+            square += arm.norm_squared();
+        }
+        let turn = cross.atan2(dot);
+        let turning = Rotation2::new(turn);
+        let weight = |(k, arm): (usize, &Vector2<f64>)| {
+            let p = turning * arm;
+            (first + k, -p.y / square, p.x / square)
+        };
+        let weights = arms.iter().enumerate().map(weight).collect();
+        (square > 0.0 && turn.is_finite()).then_some(Self { turn, weights, reach: square.sqrt() })
     }
-    let turn = cross.atan2(dot);
-    let turning = Rotation2::new(turn);
-    let weight = |(k, point): (usize, &[f64; 3])| {
-        let p = turning * Vector2::new(point[0] - centre[0], point[1] - centre[1]);
-        (first + k, -p.y / square, p.x / square)
-    };
-    let found: Vec<Weight> = path.iter().enumerate().map(weight).collect();
-    (square > 0.0 && turn.is_finite()).then(|| (turn, found, square.sqrt()))
+}
+
+fn centred(points: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
+    let mean = points.iter().sum::<Vector2<f64>>() / points.len() as f64;
+    points.iter().map(|p| p - mean).collect()
 }
 
 /// Poses at the starts of windows. Headings that nothing measures follow each other by the model's own turning from

@@ -17,6 +17,9 @@ pub const CONSTRAINTS: [(&str, &str); 4] = [
     ("trailer constraint", "rad/s"),
 ];
 
+/// A stretch shorter than this share of the longest one is no motion to take a heading from.
+const HARDLY: f64 = 0.1;
+
 /// What one window says.
 #[derive(Clone, Debug)]
 struct Window {
@@ -57,8 +60,12 @@ impl Violation {
         let linear = windows::linearise(&equations, &[], std::slice::from_ref(record), &plan, &starts);
         let mut found = Self { run: record.name.clone(), ..Self::default() };
         let Some(linear) = linear else { return Ok(found) };
+        // Along and across a vehicle that shows no heading is nowhere.
+        let shown = headings_shown(&equations, record, &plan);
         for ((segment, lines), measured) in plan.iter().zip(&linear).zip(&measured) {
-            for (k, line) in lines.iter().enumerate().filter(|(_, l)| !l.mismatch.is_empty()) {
+            let told: Vec<bool> = segment.windows.iter().map(|w| shown(w.start)).collect();
+            let judged = |k: usize, l: &Linear| !l.mismatch.is_empty() && told[k] && told[k + 1];
+            for (k, line) in lines.iter().enumerate().filter(|(k, l)| judged(*k, l)) {
                 let t = |k: usize| record.time[segment.windows[k].start];
                 found.windows.push(window(line, [t(k), t(k + 1)], &measured[k], &measured[k + 1]));
             }
@@ -162,6 +169,17 @@ impl Violation {
     /// Sum of squared violations of each constraint in units of their noise.
     fn energy(&self, c: usize) -> f64 {
         self.windows.iter().map(|w| (w.rates[c] / self.noise[c]).powi(2)).sum()
+    }
+}
+
+/// At which rows a heading is measured, or told by the path: not where the vehicle hardly moves against the rest of the run.
+fn headings_shown<'a>(equations: &'a Equations, record: &'a Record, plan: &[Segment]) -> impl Fn(usize) -> bool + 'a {
+    let reach = |row: usize| heading_at(equations, record, row).reach;
+    let rows = plan.iter().filter(|_| !record.has_heading).flat_map(|s| s.windows.iter().map(|w| w.start));
+    let far = rows.map(reach).fold(0.0, f64::max);
+    move |row| {
+        let here = || heading_at(equations, record, row);
+        record.has_heading || Some(here()).is_some_and(|h| h.is_told(record) && h.reach > HARDLY * far)
     }
 }
 

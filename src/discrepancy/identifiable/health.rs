@@ -52,7 +52,7 @@ impl Health {
             let n = significant(fit.colour, 2);
             self.say("coloured-noise", format!("the pose's noise is alike over {n} rows: a filtered or smoothed pose"));
         }
-        let places = ["along the vehicle", "across it", "in yaw", "of trailers"];
+        let places = ["along the vehicle", "across the vehicle", "in yaw", "of trailers"];
         let most = (0..4).max_by(|a, b| fit.unexplained[*a].total_cmp(&fit.unexplained[*b])).unwrap_or(0);
         if fit.unexplained[most] > NOTICEABLE {
             self.say(

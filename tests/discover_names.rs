@@ -100,6 +100,20 @@ fn track_width_of_a_differential_drive() {
     named(&s, &[("track-width", &[("scale", 0.04)])]);
 }
 
+/// A diameter in the place of a radius, say: it is named, and the report says that nothing wears so far.
+#[test]
+fn what_no_vehicle_has_is_warned_of() {
+    let warned = |scale: f64| {
+        let hidden = vec![Hidden::TrackWidth { scale }];
+        let report = discovery(&drive(Tractor::DifferentialDrive, hidden, 30)).report;
+        assert_eq!(report.effects[0].id, "track-width", "{}", report.summary);
+        report.data.warnings.into_iter().filter(|w| w.contains("far beyond the usual")).collect::<Vec<_>>()
+    };
+    assert_eq!(warned(0.2), [""; 0]);
+    let [warning] = &warned(1.0)[..] else { panic!("one warning") };
+    assert!(warning.starts_with("track-width scale = 1.0") && warning.contains("model file"), "{warning}");
+}
+
 #[test]
 fn wheel_radius_mismatch_of_a_differential_drive() {
     let s = drive(Tractor::DifferentialDrive, vec![Hidden::WheelRadiusMismatch { scale: 0.02 }], 19);

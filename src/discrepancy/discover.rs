@@ -9,7 +9,7 @@ use super::problem::Problem;
 use super::relatives::{self, Relative, relatives};
 use super::remaining::remaining;
 use super::report::*;
-use super::{contested, experiment, picture, summary, unnamed, verdict};
+use super::{contested, experiment, implausible, picture, summary, unnamed, verdict};
 use crate::effects::Effect;
 use crate::error::{Error, Result};
 use crate::files::{EffectEntry, ModelFile, Run};
@@ -95,6 +95,7 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
     report.data.warnings.extend(too_long(request, &report));
     report.data.warnings.extend(contested::warnings(&choice));
     report.data.warnings.extend(verdict::restated(&choice));
+    report.data.warnings.extend(implausible::warnings(&choice));
     report.steps = judged.steps(&choice, &report.gap)?;
     report.summary = found.sentence.unwrap_or_else(|| summary::verdict_sentence(&report));
     let added = match report.verdict {

@@ -35,6 +35,7 @@ pub mod gap;
 pub mod html;
 pub mod identifiable;
 pub mod identity;
+mod implausible;
 mod judged;
 mod limits;
 pub mod locate;

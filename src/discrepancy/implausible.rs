@@ -1,0 +1,52 @@
+//! Effects that the runs ask for far beyond what vehicles have: right numbers for a wrong reason, as a rule.
+
+use super::choose::Choice;
+use crate::effects::Applied;
+use crate::picture::number::significant;
+
+/// A share this many times as large as a plausible one is none that wear, load or a careless measurement explain.
+const FAR: f64 = 10.0;
+
+/// What the report warns of where a share that was chosen is far beyond a plausible one.
+///
+/// Lengths, times and rates are left alone: what is usual of them depends on the vehicle's size.
+pub(super) fn warnings(choice: &Choice) -> impl Iterator<Item = String> {
+    choice.chosen.iter().filter_map(|c| warning(&c.applied))
+}
+
+fn warning(applied: &Applied) -> Option<String> {
+    let parameters = applied.effect.parameters.iter().zip(&applied.values);
+    let (name, value, size) = parameters
+        .filter(|(named, _)| named.1.unit == "1")
+        .map(|((name, p), v)| (name, *v, p.size))
+        .find(|(_, v, size)| v.abs() > FAR * size)?;
+    Some(format!(
+        "{} {name} = {} is far beyond the usual {}: check numbers and units of model file and log, or it imitates another \
+         effect",
+        applied.label(),
+        significant(value, 3),
+        significant(size, 2),
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects;
+
+    #[test]
+    fn a_share_is_warned_of_and_a_length_is_not() {
+        let said = |id: &str, times: f64| {
+            let effect = effects::named(id).unwrap();
+            let values = effect.parameters.values().map(|p| times * p.size).collect();
+            warning(&Applied::new(effect, None, values))
+        };
+        assert_eq!(said("track-width", 9.0), None);
+        assert_eq!(said("track-width", -9.0), None);
+        for (times, value) in [(11.0, "0.330"), (-11.0, "−0.330")] {
+            let said = said("track-width", times).unwrap();
+            assert!(said.contains(&format!("track-width scale = {value} is far beyond the usual 0.030:")), "{said}");
+        }
+        assert_eq!(said("lever-arm", 11.0), None);
+    }
+}

@@ -5,7 +5,7 @@ use super::evidence::tail;
 use super::fit::Fit;
 use super::limits;
 use super::problem::Problem;
-use super::sampled::keep_sampled;
+use super::sampled::{Sampled, keep_sampled};
 use super::selection::{FINALISTS, FULL, Grown, MOST, Selection, bic, find, worth};
 use super::stable::{self, Scatter, Stable};
 use super::unnamed;
@@ -79,17 +79,19 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &d
     let named = limits::search(&selection, library, selection.grown(&before, progress)?)?;
     let grown = unnamed::search(&selection, &named, &[], progress)?.unwrap_or(named);
     let Stable { mut grown, unshared, scatter } = stable::search(&selection, grown, progress)?;
-    let unsampled = keep_sampled(&selection, &mut grown, progress)?;
+    let Sampled { dropped: unsampled, missed } = keep_sampled(&selection, &mut grown, progress)?;
     // Where something went, the values no longer stand where they stood.
     let scatter = scatter.filter(|_| unsampled.is_empty());
-    let chosen = selection.examined(&grown.fit, scatter.as_ref())?;
+    let chosen = selection.examined(&grown.fit, scatter.as_ref(), &missed)?;
     let Grown { fit: after, steps, candidates } = grown;
     Ok(Some(Choice { before, after, chosen, steps, candidates, unshared, unsampled }))
 }
 
 impl Selection<'_> {
     /// Evidence, deviations and rivals of every chosen effect.
-    fn examined(&self, fit: &Fit, scatter: Option<&Scatter>) -> Result<Vec<Chosen>> {
+    ///
+    /// `missed` is what the interpolation of the inputs may make up of each value; an offset no rows average out.
+    fn examined(&self, fit: &Fit, scatter: Option<&Scatter>, missed: &[f64]) -> Result<Vec<Chosen>> {
         let mut at = 0;
         let mut found = Vec::new();
         for applied in fit.model.free_effects().cloned() {
@@ -97,8 +99,9 @@ impl Selection<'_> {
             // What runs scatter by counts where it is more than their noise, and what hangs together in it, explains.
             let runs = |i: usize| fit.between_runs.as_ref().map_or(0.0, |c| c[(i, i)].sqrt());
             let between = |i: usize| scatter.map_or(0.0, |s| s.std[i]).max(runs(i));
-            let spread =
+            let chance =
                 |i: usize| fit.covariance.as_ref().map(|c| (c[(i, i)] * fit.dependence()).sqrt().max(between(i)));
+            let spread = |i: usize| chance(i).map(|std| missed.get(i).map_or(std, |e| std.hypot(*e)));
             let std = (at..at + k).map(spread).collect();
             at += k;
             let Some(smaller) = self.reduced(fit, &applied)? else { continue };

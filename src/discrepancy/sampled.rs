@@ -19,19 +19,29 @@ const MOST: f64 = 0.5;
 /// What is missed at twice the time between rows, less what is missed at the time itself, in units of the latter.
 const GROWTH: f64 = 3.0;
 
-/// Drops what comes and goes with how often the inputs are logged, worst first, and returns it.
-pub(super) fn keep_sampled(selection: &Selection, grown: &mut Grown, progress: &dyn Fn(&str)) -> Result<Vec<Applied>> {
-    let mut dropped = Vec::new();
+/// What a fit is worth where its inputs are logged half as often.
+#[derive(Default)]
+pub(super) struct Sampled {
+    /// What came and went with how often the inputs are logged, worst first, and was dropped.
+    pub dropped: Vec<Applied>,
+    /// What the interpolation may make up of each value that stays; nothing where that could not be asked.
+    pub missed: Vec<f64>,
+}
+
+/// Drops what comes and goes with how often the inputs are logged, and says how far the rest may be off for it.
+pub(super) fn keep_sampled(selection: &Selection, grown: &mut Grown, progress: &dyn Fn(&str)) -> Result<Sampled> {
+    let mut found = Sampled::default();
     if grown.fit.p.is_empty() {
-        return Ok(dropped);
+        return Ok(found);
     }
-    let Some(coarse) = with_half_the_inputs(selection.problem) else { return Ok(dropped) };
+    let Some(coarse) = with_half_the_inputs(selection.problem) else { return Ok(found) };
     while !grown.fit.p.is_empty() {
         progress("asking every second row of the inputs for the same effects");
         let Some(half) = coarse.fit(&grown.fit.model, &grown.fit.starts, &grown.fit.variances, FULL)? else { break };
         let moved = grown.fit.model.free_effects().map(|e| (share_missed(&grown.fit, &half, e), e));
         let Some((share, worst)) = moved.max_by(|a, b| a.0.total_cmp(&b.0)) else { break };
         if share <= MOST {
+            found.missed = grown.fit.p.iter().zip(&half.p).map(|(all, half)| (half - all).abs() / GROWTH).collect();
             break;
         }
         let worst = worst.clone();
@@ -39,9 +49,9 @@ pub(super) fn keep_sampled(selection: &Selection, grown: &mut Grown, progress: &
         let step = (listed(smaller.model.free_effects().map(Applied::label)), smaller.model.clone());
         grown.steps = if smaller.p.is_empty() { vec![] } else { vec![step] };
         grown.fit = smaller;
-        dropped.push(worst);
+        found.dropped.push(worst);
     }
-    Ok(dropped)
+    Ok(found)
 }
 
 /// The same poses with inputs logged half as often; `None` where there are too few to leave any out.

@@ -103,6 +103,19 @@ fn the_text_holds_every_formula_in_readable_lines() {
 }
 
 #[test]
+fn the_formulas_of_every_constraint_are_among_those_of_the_description() {
+    for (name, d) in described() {
+        let all: BTreeSet<String> = d.formulas().iter().map(Expr::to_string).collect();
+        for c in &d.constraints {
+            let parts = c.parts.iter().map(|p| p.formula.clone());
+            let rows = c.rows().map(|(_, row)| row);
+            let each = parts.chain(rows).chain([c.generic.clone()]).chain(c.singular.clone());
+            each.for_each(|f| assert!(all.contains(&f.to_string()), "{name}, {}: {f}", c.name));
+        }
+    }
+}
+
+#[test]
 fn every_symbol_is_in_the_table_with_a_unit_and_a_meaning_and_no_two_look_alike() {
     for (name, d) in described() {
         let used: BTreeSet<Symbol> = d.formulas().iter().flat_map(Expr::symbols).collect();

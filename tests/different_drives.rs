@@ -4,10 +4,13 @@
 mod simulator;
 
 use creepage::discrepancy::discover::{Request, discover};
+use creepage::discrepancy::fit::Effort;
+use creepage::discrepancy::problem::Problem;
+use creepage::discrepancy::record::Record;
 use creepage::discrepancy::report::{Named, Report, Verdict};
-use creepage::effects;
+use creepage::effects::{self, Applied};
 use creepage::files::{ModelFile, Run};
-use creepage::model;
+use creepage::model::{self, Model};
 use simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
 
 /// Straight ahead but for what no driver can help: 4 mrad/s, or 4 mrad of steering.
@@ -93,6 +96,30 @@ fn what_the_drives_contradict_is_not_named() {
     let report = discovered(&[turn(0.05, 1), turn(-0.03, 2)]);
     let ids: Vec<&str> = report.effects.iter().map(|e| e.id.as_str()).collect();
     assert_eq!((report.verdict, &ids[..]), (Verdict::NotIdentifiable, &[][..]));
+}
+
+/// By how much less deviance each of two runs is missed with the scale of a gyro as the other run gives it.
+fn missed_less(scales: [f64; 2]) -> f64 {
+    let drive = |(seed, scale)| scenario(Tractor::Unicycle, &[Hidden::YawRateScale { scale }], curved(), seed);
+    let drives = [(1, scales[0]), (2, scales[1])].map(drive);
+    let file = ModelFile::parse(&drives[0].model_toml(), "model.toml", &model::known(effects::all())).unwrap();
+    let runs = drives.map(|s| Run::parse("run.csv", &s.run().to_csv(9), &file).unwrap());
+    let model = Model::from_file(&file, effects::all(), &runs[0].roles).unwrap();
+    let problem = Problem::new(runs.iter().map(|r| Record::of_run(r, file.input_timing, 0)).collect(), None, None);
+    let fit = |model: &Model| {
+        let effort = Effort { passes: 20, enough: 1e-4, variances: true };
+        problem.fit(model, &problem.starts(model).unwrap(), &problem.variances, effort).unwrap().unwrap()
+    };
+    let scale = Applied::new(effects::named("yaw-rate-scale").unwrap(), None, vec![0.0]).freed();
+    let without = fit(&model);
+    problem.missed_less(&fit(&model.with_effect(scale)), &without).unwrap()
+}
+
+/// Two runs are parts of their own: blocks of both would tell each what it says itself.
+#[test]
+fn a_run_is_asked_what_the_other_says() {
+    let (alike, unlike) = (missed_less([0.05, 0.05]), missed_less([0.05, 0.01]));
+    assert!(alike > 100.0 && unlike < 0.0, "{alike} {unlike}");
 }
 
 #[test]

@@ -165,6 +165,19 @@ fn nothing(tractor: Tractor, seeds: [u64; 2]) {
     }
 }
 
+/// Where nothing remains no equation is looked for: it would cost as much as all names together.
+#[test]
+fn no_equation_is_sought_where_nothing_remains() {
+    let scenario = drive(Tractor::Unicycle, vec![], 31);
+    let (file, run) = read_back(&scenario.model_toml(), &scenario.run().to_csv(9));
+    let runs = [run];
+    let request = Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[], seed: 7 };
+    let said = std::sync::Mutex::new(vec![]);
+    discover(&request, &|step| said.lock().unwrap().push(step.to_string())).unwrap();
+    let said = said.into_inner().unwrap();
+    assert!(!said.is_empty() && said.iter().all(|s| !s.contains("no name")), "{said:?}");
+}
+
 #[test]
 fn nothing_hidden_in_a_unicycle() {
     nothing(Tractor::Unicycle, [31, 32]);

@@ -6,11 +6,13 @@ mod simulator;
 
 use creepage::discrepancy::carry;
 use creepage::discrepancy::chain::{Variances, eliminate};
+use creepage::discrepancy::fit::Effort;
 use creepage::discrepancy::problem::{Problem, pose_of};
 use creepage::discrepancy::record::{Channel, Record};
 use creepage::discrepancy::variances;
 use creepage::discrepancy::windows::{Linear, Starts, linearise};
 use creepage::effects::{self, Applied};
+use creepage::formula::{Expr, Symbol};
 use creepage::model::{Equations, Model};
 use creepage::motion::{Arc, Stepper};
 use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen};
@@ -354,5 +356,34 @@ fn a_pose_is_found_from_what_the_sensor_measures() {
         let measured = fixed.outputs(&mut w, &z)[..3].to_vec();
         let found = pose_of(&fixed, &measured);
         (0..3).for_each(|i| near("pose", found[i], z[i], 1e-3));
+    }
+}
+
+/// How much noise there is does not hang on the unit of a parameter.
+#[test]
+fn variances_are_the_same_in_any_unit() {
+    let scenario = unicycle();
+    let (file, run) = read_back(&scenario.model_toml(), &scenario.run().to_csv(9));
+    let model = Model::from_file(&file, effects::all(), &run.roles).unwrap();
+    let problem = Problem::new(vec![Record::of_run(&run, file.input_timing, 0)], None, None);
+    let fitted = |unit: f64| {
+        let mut effect = effects::named("traverse-creep").unwrap().clone();
+        let smaller = |f: &mut Expr| {
+            *f = f.substitute(&|s: &Symbol| {
+                (s.as_str() == "e_tc").then(|| Expr::parse(&format!("e_tc*{unit:e}")).unwrap())
+            });
+        };
+        effect.changes.values_mut().for_each(smaller);
+        let parameter = effect.parameters.get_mut("e_tc").unwrap();
+        (parameter.range, parameter.size) = (parameter.range.map(|r| r / unit), parameter.size / unit);
+        let model = model.clone().with_effect(Applied::new(&effect, None, vec![0.0]).freed());
+        let effort = Effort { passes: 30, enough: 1e-9, variances: true };
+        problem.fit(&model, &problem.starts(&model).unwrap(), &problem.variances, effort).unwrap().unwrap()
+    };
+    let [usual, tiny] = [1.0, 1e-9].map(fitted);
+    assert!((tiny.p[0] * 1e-9 / usual.p[0] - 1.0).abs() < 1e-4, "{:?} {:?}", usual.p, tiny.p);
+    let of = |v: &Variances| [v.noise[0], v.noise[1], v.jump[0], v.jump[1], v.jump[2]];
+    for (a, b) in of(&usual.variances).into_iter().zip(of(&tiny.variances)) {
+        assert!((a / b - 1.0).abs() < 1e-4, "{:?} {:?}", usual.variances, tiny.variances);
     }
 }

@@ -207,6 +207,20 @@ fn what_cannot_be_integrated_is_an_error() {
     }
 }
 
+/// Where an integration ended is said in the time of who asked, forward and back.
+#[test]
+fn the_place_of_a_failure_is_a_time() {
+    for method in [Method::Dopri5, Method::Dop853, Method::Radau5, Method::Rk4 { step: 0.01 }] {
+        let short = Integrator { max_steps: 5, ..with(method, 1e-9) };
+        for (from, to) in [(-1.0, 100.0), (1.0, -100.0), (3.0, 100.0)] {
+            let e = short.solve(swing, from, &[1.0], &[to]).unwrap_err();
+            let place = e.message().rsplit("t = ").next().and_then(|t| t.parse::<f64>().ok());
+            let way = place.map(|t| (t - from) / (to - from));
+            assert!(way.is_some_and(|s| (0.0..0.5).contains(&s)), "{method:?} from {from}: {e}");
+        }
+    }
+}
+
 /// The bound on steps is for the whole call and not for each span.
 #[test]
 fn steps_of_all_spans_are_counted() {

@@ -84,3 +84,22 @@ impl Coefficient {
         said
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mechanism::constraint_types;
+
+    #[test]
+    fn a_type_without_regimes_is_ideal_or_creeps() {
+        let kind = ConstraintType { regimes: Regimes::None, ..ConstraintType::clone(&constraint_types()[0]) };
+        let regime = |value, row_holds| {
+            let (creep, kind) = (Symbol::new("e"), kind.clone());
+            Coefficient { creep, kind, value, given: true, row_holds, limits: None }.regime()
+        };
+        assert_eq!([regime(Some(0.0), true), regime(Some(0.1), true)], ["ideal", "creep"]);
+        // A row that the motion does not keep to is not ideal for having no coefficient.
+        assert_eq!([regime(None, true), regime(Some(0.0), false)], ["undefined"; 2]);
+        assert_eq!(regime(Some(0.1), false), "creep");
+    }
+}

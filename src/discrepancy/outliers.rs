@@ -250,4 +250,21 @@ mod tests {
         mark(&time, &y, &[Window { rows: 0..y.len(), first: true, last: true }], &mut gross);
         assert!(!gross.contains(&true));
     }
+
+    /// What is left at the end is a window of its own from half a window on.
+    #[test]
+    fn a_short_rest_belongs_to_the_window_before() {
+        let record = |n: u32| {
+            let time: Vec<f64> = (0..n).map(|i| 0.125 * f64::from(i)).collect();
+            let still = vec![0.0; time.len()];
+            Record::new("", time, vec![still.clone(), still.clone()], false, &[still], crate::motion::Timing::Sample)
+        };
+        let ends =
+            |n: u32, shorter: f64| -> Vec<usize> { windows(&record(n), shorter).iter().map(|w| w.rows.end).collect() };
+        assert_eq!(ends(40, 0.0), [16, 40]);
+        assert_eq!(ends(41, 0.0), [16, 32, 41]);
+        assert_eq!(ends(41, 0.5), [8, 24, 41]);
+        let edges: Vec<[bool; 2]> = windows(&record(41), 0.0).iter().map(|w| [w.first, w.last]).collect();
+        assert_eq!(edges, [[true, false], [false, false], [false, true]]);
+    }
 }

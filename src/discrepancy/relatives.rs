@@ -77,3 +77,22 @@ fn candidates(model: &Model, library: &[Effect]) -> Vec<Applied> {
     let open = open.map(|(e, t)| Applied::new(e, t, e.starts().swap_remove(0)));
     open.filter(|a| !model.effects.iter().any(|e| e.same_as(a))).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::Timing;
+
+    #[test]
+    fn what_is_measured_is_told_by_the_columns() {
+        let of = |columns: usize, has_heading: bool| {
+            let time = vec![0.0, 1.0];
+            let record =
+                Record::new("", time.clone(), vec![time.clone(); columns], has_heading, &[time], Timing::Sample);
+            let m = measured(&record);
+            [m.heading, m.trailers]
+        };
+        assert_eq!([of(2, false), of(3, true)], [[false, false], [true, false]]);
+        assert_eq!([of(3, false), of(4, true)], [[false, true], [true, true]]);
+    }
+}

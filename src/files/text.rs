@@ -118,4 +118,12 @@ mod tests {
         assert_eq!(hash, hex(&Sha256::digest(b"\xef\xbb\xbfabc\r\n")));
         assert_eq!(hex(&Sha256::digest(b"abc"))[..8], *"ba7816bf");
     }
+
+    #[test]
+    fn a_text_may_be_as_large_as_is_said() {
+        let mut bytes = vec![b'a'; LARGEST as usize];
+        assert!(decode(&bytes).is_ok());
+        bytes.push(b'a');
+        assert!(decode(&bytes).is_err());
+    }
 }

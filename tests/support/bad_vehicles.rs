@@ -282,6 +282,11 @@ pub const BAD_VEHICLES: &[Case] = &[
         "25:12: \"del-ta\" is no symbol; begin with a letter, go on with letters, digits and _, end with ' for a rate; functions and it are taken",
     ),
     case(
+        "define function",
+        &[("delta = {", "sin = {")],
+        "25:7: \"sin\" is no symbol; begin with a letter, go on with letters, digits and _, end with ' for a rate; functions and it are taken",
+    ),
+    case(
         "define it",
         &[("delta = {", "it = {")],
         "25:6: \"it\" is no symbol; begin with a letter, go on with letters, digits and _, end with ' for a rate; functions and it are taken",

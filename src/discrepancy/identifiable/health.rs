@@ -204,4 +204,82 @@ mod tests {
             assert!(wrong_turn(ratio).contains(word), "{ratio}: {}", wrong_turn(ratio));
         }
     }
+
+    /// A run with nothing to say about.
+    fn usual() -> RunHealth {
+        let ratios = (Some(1.0), Some(1.0));
+        let driven = RunHealth { left: 0.4, right: 0.4, speed: Some([0.5, 1.0, 1.5]), ..RunHealth::default() };
+        RunHealth {
+            run: "a.csv".into(),
+            rows: 95,
+            rows_dropped: 5,
+            duration_s: 10.0,
+            rate_hz: 10.0,
+            way_ratio: ratios.0,
+            turn_ratio: ratios.1,
+            ..driven
+        }
+    }
+
+    #[test]
+    fn each_fault_of_a_run_is_told_by_itself() {
+        let said = |r: RunHealth| {
+            let found = findings(&[usual(), r], &[]);
+            found
+                .into_iter()
+                .filter(|f| f.id != "no-heading")
+                .map(|f| format!("{}: {}", f.id, f.says))
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(said(usual()), [""; 0]);
+        let why_dropped = [("no pose".to_string(), 2), ("no input".to_string(), 4)].into();
+        let cases = [
+            (
+                RunHealth { rows: 94, rows_dropped: 6, why_dropped, ..usual() },
+                "rows-dropped: a.csv: 6 of 100 rows are left out (no input: 4, no pose: 2)",
+            ),
+            (
+                RunHealth { gaps: 1, longest_gap_s: 2.5, ..usual() },
+                "gaps: a.csv: the log is interrupted 1 times, by 2.50 s at most",
+            ),
+            (RunHealth { rate_hz: 0.02, ..usual() }, "time-unit: a.csv: rows are 50.0 s apart: is time in seconds?"),
+            (
+                RunHealth { jitter: 0.42, ..usual() },
+                "uneven-times: a.csv: times between rows scatter by 42 %: are they those of measuring?",
+            ),
+            (
+                RunHealth { way_ratio: Some(0.79), ..usual() },
+                "way: a.csv: the measured way is 0.790 times what the model drives: check wheel_radius and the units of \
+                 position and wheel rate",
+            ),
+            (
+                RunHealth { turn_ratio: Some(1.26), ..usual() },
+                "turning: a.csv: the measured turning is 1.26 times the model's: check track_width or wheelbase, and the \
+                 units of heading and yaw rate",
+            ),
+        ];
+        for (run, expected) in cases {
+            assert_eq!(said(run), [expected]);
+        }
+    }
+
+    /// What one run lacks another may have: shares of the time are those of all runs, by how long they last.
+    #[test]
+    fn turns_and_speeds_are_those_of_all_runs() {
+        let ids = |runs: &[RunHealth]| {
+            let found = findings(runs, &[]);
+            found.into_iter().filter(|f| f.id != "no-heading").map(|f| f.id + &f.says).collect::<Vec<_>>().join("; ")
+        };
+        let lefts = RunHealth { right: 0.0, ..usual() };
+        let straight = RunHealth { left: 0.0, ..lefts.clone() };
+        assert!(ids(std::slice::from_ref(&straight)).starts_with("no-turns"));
+        assert!(ids(std::slice::from_ref(&lefts)).starts_with("one-turn-directionthese runs turn to the left only"));
+        let rights = RunHealth { left: 0.01, ..usual() };
+        assert!(ids(std::slice::from_ref(&rights)).starts_with("one-turn-directionthese runs turn to the right only"));
+        assert_eq!(ids(&[lefts.clone(), usual()]), "");
+        assert!(ids(&[RunHealth { duration_s: 1000.0, ..lefts }, usual()]).starts_with("one-turn-direction"));
+        let speed = |slow, fast| RunHealth { speed: Some([slow, slow, fast]), ..usual() };
+        assert!(ids(&[speed(1.0, 1.1), speed(0.9, 1.0)]).starts_with("one-speedthese runs have one speed, 1.1 m/s"));
+        assert_eq!(ids(&[speed(1.0, 1.1), speed(0.5, 0.6)]), "");
+    }
 }

@@ -48,4 +48,10 @@ mod tests {
         assert!(at_times(&[0.0, 1.0], &[0.0, 1.0], &[0.5])[0].is_nan(), "a gap");
         assert!(at_times(&[], &[], &[0.5])[0].is_nan());
     }
+
+    #[test]
+    fn of_rows_at_one_time_one_is_taken() {
+        let (time, column) = ([0.0, 0.1, 0.1, 0.2, 0.3], [1.0, 2.0, 3.0, 4.0, 5.0]);
+        assert_eq!(at_times(&time, &column, &[0.1, 0.15]), [3.0, 3.0]);
+    }
 }

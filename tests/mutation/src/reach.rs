@@ -3,6 +3,9 @@
 use crate::Places;
 use crate::units::{CLAIM, DOCTESTS, End, ONE_IN, binaries, claims, doctests, run, tests};
 use std::collections::BTreeSet;
+use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// One test.
 #[derive(Clone, Debug)]
@@ -33,15 +36,28 @@ pub fn measure(at: &Places, only: &[&str]) {
             all.push((what.into(), path, names));
         }
     }
-    for (binary, path, names) in all {
-        for name in names {
-            // What counts its cases does not pass with few.
-            match SHARES.into_iter().find_map(|share| Some((share, alone(at, &path, &name, share)?))) {
-                Some((share, (took, ids))) => {
-                    out += &format!("{binary}\t{path}\t{name}\t{share}\t{took:.4}\t{ids}\n");
+    let each: Vec<[&str; 3]> =
+        all.iter().flat_map(|(binary, path, names)| names.iter().map(|n| [&**binary, &**path, &**n])).collect();
+    let (next, lines) = (AtomicUsize::new(0), Mutex::new(vec![None; each.len()]));
+    // Many tests leave a core idle.
+    std::thread::scope(|scope| {
+        for worker in 0..WORKERS {
+            let (next, lines, each) = (&next, &lines, &each);
+            scope.spawn(move || {
+                let met = at.file(&format!("met-{worker}"));
+                while let Some((i, test)) =
+                    Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|i| Some((i, each.get(i)?)))
+                {
+                    let line = line(at, *test, &met);
+                    lines.lock().unwrap()[i] = line;
                 }
-                None => println!("left out, does not pass or takes long: {binary} {name}"),
-            }
+            });
+        }
+    });
+    for (test, line) in each.iter().zip(lines.into_inner().unwrap()) {
+        match line {
+            Some(line) => out += &line,
+            None => println!("left out, does not pass or takes long: {} {}", test[0], test[2]),
         }
     }
     std::fs::write(at.file("reach.tsv"), out).unwrap();
@@ -50,15 +66,25 @@ pub fn measure(at: &Places, only: &[&str]) {
 /// Shares of the cases of a property, tried in turn.
 const SHARES: [u32; 2] = [20, 1];
 
+/// Tests side by side.
+const WORKERS: usize = 2;
+
 /// Processor time after which a test is left out, in seconds.
 const LONGEST: u64 = 60;
 
+/// The line of a test; nothing when it does not pass.
+fn line(at: &Places, [binary, path, name]: [&str; 3], met: &Path) -> Option<String> {
+    // What counts its cases does not pass with few.
+    let (share, (took, ids)) =
+        SHARES.into_iter().find_map(|share| Some((share, alone(at, path, name, share, met)?)))?;
+    Some(format!("{binary}\t{path}\t{name}\t{share}\t{took:.4}\t{ids}\n"))
+}
+
 /// The time that a test takes alone and the mutants that it meets; nothing when it does not pass.
-fn alone(at: &Places, path: &str, name: &str, one_in: u32) -> Option<(f64, String)> {
+fn alone(at: &Places, path: &str, name: &str, one_in: u32, met: &Path) -> Option<(f64, String)> {
     let share = (ONE_IN, one_in.to_string());
     let run = |variable: (&str, &str), limit| run(at, path, &[name], &[variable, (share.0, &share.1)], limit);
-    let met = at.file("met");
-    let _ = std::fs::remove_file(&met);
+    let _ = std::fs::remove_file(met);
     let note = |limit| run(("MUTANT_REACH", met.to_str().unwrap()), limit);
     // The switches of a shard are far between: noting them takes no time.
     let few = at.shard.1 > 1;
@@ -66,7 +92,7 @@ fn alone(at: &Places, path: &str, name: &str, one_in: u32) -> Option<(f64, Strin
     if ended != End::Passed || !few && note(20 * LONGEST).0 != End::Passed {
         return None;
     }
-    let text = at.read("met");
+    let text = std::fs::read_to_string(met).unwrap_or_default();
     let ids: BTreeSet<&str> = text.split_whitespace().collect();
     Some((took.as_secs_f64(), ids.into_iter().collect::<Vec<_>>().join(" ")))
 }

@@ -122,3 +122,17 @@ fn write_csv(table: &Table, to: &mut dyn Write) -> io::Result<()> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_with_what_is_undefined_is_refused() {
+        let table = |v: f64| Table { names: vec!["x".into(), "y".into()], columns: vec![vec![0.0, 1.0], vec![0.0, v]] };
+        assert!(check_defined(&table(-1e300)).is_ok());
+        for v in [f64::NAN, f64::INFINITY] {
+            assert_eq!(check_defined(&table(v)).unwrap_err().exit_code(), 1);
+        }
+    }
+}

@@ -92,3 +92,17 @@ fn constraint_of(name: &str, model: &Model) -> String {
         None => name.to_string(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A definition that is zero in the model is a coefficient of a constraint, the inputs' delay, or a name of a user's.
+    #[test]
+    fn what_was_zero_is_told_by_what_it_is() {
+        let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+        assert!(constraint_of("e_rc", &model).ends_with(" = 0"), "{}", constraint_of("e_rc", &model));
+        assert_eq!(constraint_of(DELAY, &model), "u(t) becomes u(t - delay)");
+        assert_eq!(constraint_of("w_x", &model), "w_x");
+    }
+}

@@ -40,6 +40,9 @@ pub const DOCTESTS: &str = "doctests";
 /// The tests beside what they test.
 const LIBRARY: &str = "creepage";
 
+/// The same in the program: both targets have one name.
+const PROGRAM: &str = "program";
+
 /// The seed and cases of `every_stated_status_is_earned_and_every_sabotage_noticed`.
 const AS_IN_THE_LEDGER_TEST: [&str; 6] = ["verify", "--quiet", "--cases", "40", "--seed", "3"];
 
@@ -54,7 +57,9 @@ pub enum End {
 /// Builds the tests, or only those in some files of `tests`: names and paths of their binaries.
 pub fn binaries(at: &Places, only: &[&str]) -> Vec<(String, String)> {
     let mut wanted = vec!["test".to_string(), "--no-run".into()];
-    wanted.extend((only.is_empty() || only.contains(&LIBRARY)).then(|| "--lib".into()));
+    for (name, target) in [(LIBRARY, "--lib"), (PROGRAM, "--bins")] {
+        wanted.extend((only.is_empty() || only.contains(&name)).then(|| target.into()));
+    }
     let mut names: Vec<String> = std::fs::read_dir(at.root.join("tests"))
         .unwrap()
         .filter_map(|f| f.unwrap().file_name().to_str()?.strip_suffix(".rs").map(String::from))
@@ -69,9 +74,9 @@ pub fn binaries(at: &Places, only: &[&str]) -> Vec<(String, String)> {
     let made = cargo(at, &wanted.iter().map(String::as_str).collect::<Vec<_>>());
     let lines = String::from_utf8(made.stdout).unwrap();
     assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
-    let binary = |v: Value| match v["profile"]["test"] == true {
-        true => Some((v["target"]["name"].as_str()?.to_string(), v["executable"].as_str()?.to_string())),
-        false => None,
+    let binary = |v: Value| {
+        let name = if v["target"]["kind"][0] == "bin" { PROGRAM } else { v["target"]["name"].as_str()? };
+        (v["profile"]["test"] == true).then_some((name.to_string(), v["executable"].as_str()?.to_string()))
     };
     lines.lines().filter_map(|l| binary(serde_json::from_str(l).ok()?)).collect()
 }

@@ -102,6 +102,24 @@ fn every_picture_has_a_title_and_a_description() {
     }
 }
 
+/// Panels stand side by side, none over another and none outside.
+#[test]
+fn the_panels_of_the_drawing_lie_within_it() {
+    let [_, svg] = check(&report(), &pictures());
+    let number = |text: &str, name: &str| -> Option<f64> {
+        text.split_once(&format!(" {name}=\""))?.1.split_once('"')?.0.parse().ok()
+    };
+    let tags = || svg.split('<').map(|t| t.split('>').next().unwrap());
+    let [width, height] = ["width", "height"].map(|name| number(tags().nth(1).unwrap(), name).unwrap());
+    let panels: Vec<[f64; 4]> = tags()
+        .filter(|t| t.contains("role=\"img\"") && t.contains(" x=\""))
+        .map(|t| ["x", "y", "width", "height"].map(|name| number(t, name).unwrap()))
+        .collect();
+    assert_eq!(panels.len(), 2);
+    assert!(panels.iter().all(|[x, y, w, h]| *x > 0.0 && x + w < width && *y > 0.0 && y + h < height), "{panels:?}");
+    assert!(panels.windows(2).all(|p| p[0][0] + p[0][2] <= p[1][0]), "{panels:?}");
+}
+
 #[test]
 fn the_drawing_says_in_its_title_what_shrank() {
     let [page, svg] = check(&report(), &pictures());

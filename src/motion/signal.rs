@@ -284,6 +284,12 @@ mod tests {
             let found = (value(&s, w[0]) + 4.0 * value(&s, (w[0] + w[1]) / 2.0) + value(&s, w[1] - 1e-12)) / 6.0;
             assert!((found - expected).abs() < 1e-6, "{found} instead of {expected}");
         }
+        // What is an interruption hangs on the usual step alone.
+        for scale in [1e-3, 1e3] {
+            let scaled = t.map(|t| scale * t);
+            let kept = Signals::new(&scaled, std::slice::from_ref(&mean), Timing::Sample).thinned().unwrap();
+            assert_eq!(kept.knots(), [0.0, 2.0, 4.0, 10.0, 12.0, 13.0].map(|t| scale * t));
+        }
         let samples = Signals::new(&t, &[mean], Timing::Sample).thinned().unwrap();
         assert_eq!([0.0, 4.0, 12.0, 13.0].map(|t| value(&samples, t)), [9.0, 3.0, 0.0, 5.0]);
         assert!(Signals::new(&t[..4], &[vec![0.0; 4]], Timing::Sample).thinned().is_none());

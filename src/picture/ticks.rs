@@ -53,3 +53,19 @@ pub fn symmetric(from: f64, to: f64, linear: f64, count: usize) -> Vec<f64> {
     let negative = positive.iter().rev().map(|v| -v);
     negative.chain([0.0]).chain(positive.iter().copied()).filter(|v| (from..=to).contains(v)).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn powers_of_ten_are_as_many_as_there_is_room_for() {
+        assert_eq!(symmetric(-1e3, 1e3, 1.0, 100), [-1e3, -100.0, -10.0, -1.0, 0.0, 1.0, 10.0, 100.0, 1e3]);
+        assert_eq!(symmetric(-20.0, 1e6, 1e-3, 5), [-10.0, -1e-3, 0.0, 1e-3, 10.0, 1e5]);
+        assert_eq!(symmetric(0.0, 1e6, 1e-3, 2), [0.0, 1e-3]);
+        assert_eq!(logarithmic(0.5, 20.0, 10), [0.5, 1.0, 2.0, 5.0, 10.0, 20.0]);
+        assert_eq!(logarithmic(1.0, 1e6, 4), [1.0, 100.0, 1e4, 1e6]);
+        assert_eq!(logarithmic(1.0, 1e3, 9), [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1e3]);
+        assert_eq!(logarithmic(1.0, 1e3, 8), [1.0, 10.0, 100.0, 1e3]);
+    }
+}

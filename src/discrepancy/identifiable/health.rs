@@ -198,9 +198,14 @@ mod tests {
         for (ratio, word) in [(1010.0, "millimetres?"), (0.1, "per minute"), (0.27, "km/h"), (0.7, "wheel_radius")] {
             assert!(wrong_way(ratio).contains(word), "{ratio}: {}", wrong_way(ratio));
         }
-        for (ratio, word) in
-            [(57.0, "heading in degrees"), (-1.02, "swapped"), (0.0175, "yaw rate"), (0.6, "track_width")]
-        {
+        for (ratio, word) in [
+            (57.0, "heading in degrees"),
+            (-57.0, "heading in degrees"),
+            (-0.0175, "yaw rate"),
+            (-1.02, "swapped"),
+            (0.0175, "yaw rate"),
+            (0.6, "track_width"),
+        ] {
             assert!(wrong_turn(ratio).contains(word), "{ratio}: {}", wrong_turn(ratio));
         }
     }

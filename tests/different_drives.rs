@@ -30,12 +30,18 @@ fn scenario(tractor: Tractor, hidden: &[Hidden], profile: Profile, seed: u64) ->
     Scenario { hidden: hidden.to_vec(), profile, duration: 25.0, rate: 20.0, noise: Noise::MOCAP, ..usual }
 }
 
-fn discovered(drives: &[Scenario]) -> Report {
-    let library = effects::all();
-    let file = ModelFile::parse(&drives[0].model_toml(), "model.toml", &model::known(library)).unwrap();
+/// What a user would have of some drives.
+fn logged(drives: &[Scenario]) -> (ModelFile, Vec<Run>) {
+    let file = ModelFile::parse(&drives[0].model_toml(), "model.toml", &model::known(effects::all())).unwrap();
     let run = |(i, s): (usize, &Scenario)| Run::parse(&format!("run-{i}.csv"), &s.run().to_csv(9), &file).unwrap();
-    let runs: Vec<Run> = drives.iter().enumerate().map(run).collect();
-    let request = Request { file: &file, runs: &runs, held_out: &[], library, horizons: &[1.0], seed: 1 };
+    let runs = drives.iter().enumerate().map(run).collect();
+    (file, runs)
+}
+
+fn discovered(drives: &[Scenario]) -> Report {
+    let (file, runs) = logged(drives);
+    let request =
+        Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[1.0], seed: 1 };
     discover(&request, &|_| ()).unwrap().report
 }
 
@@ -101,9 +107,7 @@ fn what_the_drives_contradict_is_not_named() {
 /// By how much less deviance each of two runs is missed with the scale of a gyro as the other run gives it.
 fn missed_less(scales: [f64; 2]) -> f64 {
     let drive = |(seed, scale)| scenario(Tractor::Unicycle, &[Hidden::YawRateScale { scale }], curved(), seed);
-    let drives = [(1, scales[0]), (2, scales[1])].map(drive);
-    let file = ModelFile::parse(&drives[0].model_toml(), "model.toml", &model::known(effects::all())).unwrap();
-    let runs = drives.map(|s| Run::parse("run.csv", &s.run().to_csv(9), &file).unwrap());
+    let (file, runs) = logged(&[(1, scales[0]), (2, scales[1])].map(drive));
     let model = Model::from_file(&file, effects::all(), &runs[0].roles).unwrap();
     let problem = Problem::new(runs.iter().map(|r| Record::of_run(r, file.input_timing, 0)).collect(), None, None);
     let fit = |model: &Model| {

@@ -9,6 +9,7 @@ use creepage::discrepancy::report::{Report, Verdict};
 use creepage::effects;
 use read_back::read_back;
 use simulator::{Hidden, Noise, Scenario, Tractor};
+use std::cell::RefCell;
 
 /// A short drive before motion capture.
 fn drive(tractor: Tractor, hidden: Vec<Hidden>, seed: u64) -> Scenario {
@@ -16,11 +17,16 @@ fn drive(tractor: Tractor, hidden: Vec<Hidden>, seed: u64) -> Scenario {
 }
 
 fn discovery(scenario: &Scenario) -> Discovery {
+    heard(scenario, &|_| ())
+}
+
+/// A discovery whose progress somebody hears.
+fn heard(scenario: &Scenario, progress: &dyn Fn(&str)) -> Discovery {
     let (file, run) = read_back(&scenario.model_toml(), &scenario.run().to_csv(9));
     let runs = [run];
     let request =
         Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[1.0, 5.0], seed: 7 };
-    discover(&request, &|_| ()).unwrap()
+    discover(&request, progress).unwrap()
 }
 
 /// An effect by id with its parameters.
@@ -168,13 +174,9 @@ fn nothing(tractor: Tractor, seeds: [u64; 2]) {
 /// Where nothing remains no equation is looked for: it would cost as much as all names together.
 #[test]
 fn no_equation_is_sought_where_nothing_remains() {
-    let scenario = drive(Tractor::Unicycle, vec![], 31);
-    let (file, run) = read_back(&scenario.model_toml(), &scenario.run().to_csv(9));
-    let runs = [run];
-    let request = Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[], seed: 7 };
-    let said = std::sync::Mutex::new(vec![]);
-    discover(&request, &|step| said.lock().unwrap().push(step.to_string())).unwrap();
-    let said = said.into_inner().unwrap();
+    let said = RefCell::new(vec![]);
+    heard(&drive(Tractor::Unicycle, vec![], 31), &|step| said.borrow_mut().push(step.to_string()));
+    let said = said.into_inner();
     assert!(!said.is_empty() && said.iter().all(|s| !s.contains("no name")), "{said:?}");
 }
 

@@ -31,6 +31,7 @@ fn log(step: f64, rate: f64, yaw: f64, size: f64) -> String {
     log_of(40, step, rate, yaw, size)
 }
 
+/// The same with so many rows.
 fn log_of(rows: usize, step: f64, rate: f64, yaw: f64, size: f64) -> String {
     let row = |i: usize| format!("{:e},{:e},{:e},0,{rate:e},{yaw:e}\n", i as f64 * step, i as f64 * size, size);
     format!("time,x,y,heading,wheel_rate,yaw_rate\n{}", (0..rows).map(row).collect::<String>())

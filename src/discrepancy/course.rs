@@ -157,14 +157,12 @@ fn centred(points: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
 /// where the path tells them best: a vehicle that stands or drifts shows no heading, and a reversed one a false one.
 pub fn starts(equations: &Equations, record: &Record, windows: &[Range<usize>]) -> Vec<Vec<f64>> {
     let rows: Vec<usize> = windows.iter().map(|w| w.start).collect();
-    let mut poses: Vec<Vec<f64>> =
-        rows.iter().map(|i| pose_of(equations, &measured_at(equations, record, *i))).collect();
+    let placed: Vec<Placed> = rows.iter().map(|i| Placed::at(equations, record, *i)).collect();
+    let mut poses: Vec<Vec<f64>> = placed.iter().map(|p| pose_of(equations, &p.measured)).collect();
     if record.has_heading {
         return poses;
     }
-    let reach = |i: &usize| heading_at(equations, record, *i).reach;
-    let reaches: Vec<f64> = rows.iter().map(reach).collect();
-    let best = (0..rows.len()).max_by(|a, b| reaches[*a].total_cmp(&reaches[*b])).unwrap_or(0);
+    let best = (0..rows.len()).max_by(|a, b| placed[*a].reach().total_cmp(&placed[*b].reach())).unwrap_or(0);
     let turns: Vec<f64> =
         (1..rows.len()).map(|k| turning(equations, record, rows[k - 1]..rows[k], &poses[k - 1])).collect();
     for k in best + 1..rows.len() {
@@ -194,15 +192,36 @@ fn follow(poses: &mut [Vec<f64>], k: usize, neighbour: usize, turn: f64) {
 
 /// The smoothed measurement at a row, with the heading that the model says where none is measured.
 pub fn measured_at(equations: &Equations, record: &Record, row: usize) -> Vec<f64> {
-    let mut y = record.smoothed(row);
-    if !record.has_heading {
-        let own = heading_at(equations, record, row).heading;
-        // Trailers that nothing measures follow straight.
-        y[2..].iter_mut().enumerate().for_each(|(i, y)| {
-            if i == 0 || i >= record.columns.len() - 1 {
-                *y = own;
-            }
-        });
+    Placed::at(equations, record, row).measured
+}
+
+/// Where the vehicle is at a row.
+#[derive(Clone, Debug)]
+pub struct Placed {
+    /// The smoothed measurement, with the heading that the model says where none is measured.
+    pub measured: Vec<f64>,
+    /// What the heading is taken from where none is measured.
+    pub course: Option<Course>,
+}
+
+impl Placed {
+    /// At a row of a record.
+    pub fn at(equations: &Equations, record: &Record, row: usize) -> Self {
+        let mut measured = record.smoothed(row);
+        let course = (!record.has_heading).then(|| heading_at(equations, record, row));
+        if let Some(course) = &course {
+            // Trailers that nothing measures follow straight.
+            measured[2..].iter_mut().enumerate().for_each(|(i, y)| {
+                if i == 0 || i >= record.columns.len() - 1 {
+                    *y = course.heading;
+                }
+            });
+        }
+        Self { measured, course }
     }
-    y
+
+    /// How far the points reach that tell the heading, m; without end where it is measured.
+    pub fn reach(&self) -> f64 {
+        self.course.as_ref().map_or(f64::INFINITY, |c| c.reach)
+    }
 }

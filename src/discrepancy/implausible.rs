@@ -15,17 +15,14 @@ pub(super) fn warnings(choice: &Choice) -> impl Iterator<Item = String> {
 }
 
 fn warning(applied: &Applied) -> Option<String> {
-    let parameters = applied.effect.parameters.iter().zip(&applied.values);
-    let (name, value, size) = parameters
-        .filter(|(named, _)| named.1.unit == "1")
-        .map(|((name, p), v)| (name, *v, p.size))
-        .find(|(_, v, size)| v.abs() > FAR * size)?;
+    let mut parameters = applied.effect.parameters.iter().zip(&applied.values);
+    let ((name, p), value) = parameters.find(|((_, p), v)| p.unit == "1" && v.abs() > FAR * p.size)?;
     Some(format!(
         "{} {name} = {} is far beyond the usual {}: check numbers and units of model file and log, or it imitates another \
          effect",
         applied.label(),
-        significant(value, 3),
-        significant(size, 2),
+        significant(*value, 3),
+        significant(p.size, 2),
     ))
 }
 

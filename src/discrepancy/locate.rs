@@ -1,7 +1,7 @@
 //! Where model and measurement disagree: constraint by constraint, window by window.
 
 use super::angle::wrapped;
-use super::course::{heading_at, measured_at};
+use super::course::{Placed, heading_at};
 use super::problem::{Problem, pose_of};
 use super::record::Record;
 use super::report::{Disagreement, ResidualPicture};
@@ -52,22 +52,20 @@ impl Violation {
     pub fn of(model: &Model, record: &Record, noise: &[f64; 3]) -> Result<Self> {
         let equations = model.equations(&[])?;
         let plan = windows::plan(std::slice::from_ref(record));
-        let smoothed = |s: &Segment| -> Vec<Vec<f64>> {
-            s.windows.iter().map(|w| measured_at(&equations, record, w.start)).collect()
-        };
-        let measured: Vec<Vec<Vec<f64>>> = plan.iter().map(smoothed).collect();
-        let starts = measured.iter().map(|s| s.iter().map(|y| pose_of(&equations, y)).collect()).collect();
+        let at = |s: &Segment| s.windows.iter().map(|w| Placed::at(&equations, record, w.start)).collect();
+        let placed: Vec<Vec<Placed>> = plan.iter().map(at).collect();
+        let starts = placed.iter().map(|s| s.iter().map(|p| pose_of(&equations, &p.measured)).collect()).collect();
         let linear = windows::linearise(&equations, &[], std::slice::from_ref(record), &plan, &starts);
         let mut found = Self { run: record.name.clone(), ..Self::default() };
         let Some(linear) = linear else { return Ok(found) };
-        // Along and across a vehicle that shows no heading is nowhere.
-        let shown = headings_shown(&equations, record, &plan);
-        for ((segment, lines), measured) in plan.iter().zip(&linear).zip(&measured) {
-            let told: Vec<bool> = segment.windows.iter().map(|w| shown(w.start)).collect();
-            let judged = |k: usize, l: &Linear| !l.mismatch.is_empty() && told[k] && told[k + 1];
+        let far = placed.iter().flatten().map(Placed::reach).fold(0.0, f64::max);
+        for ((segment, lines), placed) in plan.iter().zip(&linear).zip(&placed) {
+            // Along and across a vehicle that shows no heading is nowhere.
+            let shown = |k: usize| shows_heading(&placed[k], record, far);
+            let judged = |k: usize, l: &Linear| !l.mismatch.is_empty() && shown(k) && shown(k + 1);
             for (k, line) in lines.iter().enumerate().filter(|(k, l)| judged(*k, l)) {
                 let t = |k: usize| record.time[segment.windows[k].start];
-                found.windows.push(window(line, [t(k), t(k + 1)], &measured[k], &measured[k + 1]));
+                found.windows.push(window(line, [t(k), t(k + 1)], &placed[k].measured, &placed[k + 1].measured));
             }
         }
         found.noise = found.noise_of(&equations, record, &plan, noise);
@@ -172,15 +170,9 @@ impl Violation {
     }
 }
 
-/// At which rows a heading is measured, or told by the path: not where the vehicle hardly moves against the rest of the run.
-fn headings_shown<'a>(equations: &'a Equations, record: &'a Record, plan: &[Segment]) -> impl Fn(usize) -> bool + 'a {
-    let reach = |row: usize| heading_at(equations, record, row).reach;
-    let rows = plan.iter().filter(|_| !record.has_heading).flat_map(|s| s.windows.iter().map(|w| w.start));
-    let far = rows.map(reach).fold(0.0, f64::max);
-    move |row| {
-        let here = || heading_at(equations, record, row);
-        record.has_heading || Some(here()).is_some_and(|h| h.is_told(record) && h.reach > HARDLY * far)
-    }
+/// Whether a heading is measured, or told by the path: not where the vehicle hardly moves against the rest of the run.
+fn shows_heading(placed: &Placed, record: &Record, far: f64) -> bool {
+    placed.course.as_ref().is_none_or(|c| c.is_told(record) && c.reach > HARDLY * far)
 }
 
 fn window(line: &Linear, span: [f64; 2], from: &[f64], to: &[f64]) -> Window {

@@ -218,7 +218,6 @@ impl<F: FnMut(f64, &[f64], &mut [f64]), J: Slopes> Padded<'_, F, J> {
 mod tests {
     use super::*;
 
-    /// x' = x², y' = x·y far from one: a step that is not in proportion would lose all digits.
     /// A layer at the start moves something else and is over at once: it is met with steps as short, none of them in vain.
     #[test]
     fn a_layer_at_the_start_is_not_stepped_over() {
@@ -234,6 +233,7 @@ mod tests {
         }
     }
 
+    /// x' = x², y' = x·y far from one: a step that is not in proportion would lose all digits.
     #[test]
     fn differences_are_slopes_whatever_the_size() {
         let mut rates = |_: f64, y: &[f64], out: &mut [f64]| {

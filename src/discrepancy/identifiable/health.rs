@@ -212,17 +212,18 @@ mod tests {
 
     /// A run with nothing to say about.
     fn usual() -> RunHealth {
-        let ratios = (Some(1.0), Some(1.0));
-        let driven = RunHealth { left: 0.4, right: 0.4, speed: Some([0.5, 1.0, 1.5]), ..RunHealth::default() };
         RunHealth {
             run: "a.csv".into(),
             rows: 95,
             rows_dropped: 5,
             duration_s: 10.0,
             rate_hz: 10.0,
-            way_ratio: ratios.0,
-            turn_ratio: ratios.1,
-            ..driven
+            speed: Some([0.5, 1.0, 1.5]),
+            left: 0.4,
+            right: 0.4,
+            way_ratio: Some(1.0),
+            turn_ratio: Some(1.0),
+            ..RunHealth::default()
         }
     }
 

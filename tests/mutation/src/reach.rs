@@ -5,7 +5,6 @@ use crate::units::{CLAIM, DOCTESTS, End, ONE_IN, binaries, claims, doctests, run
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// One test.
 #[derive(Clone, Debug)]
@@ -38,16 +37,15 @@ pub fn measure(at: &Places, only: &[&str]) {
     }
     let each: Vec<[&str; 3]> =
         all.iter().flat_map(|(binary, path, names)| names.iter().map(|n| [&**binary, &**path, &**n])).collect();
-    let (next, lines) = (AtomicUsize::new(0), Mutex::new(vec![None; each.len()]));
+    let (waiting, lines) = (Mutex::new(each.iter().enumerate()), Mutex::new(vec![None; each.len()]));
+    let next = || waiting.lock().unwrap().next();
     // Many tests leave a core idle.
     std::thread::scope(|scope| {
         for worker in 0..WORKERS {
-            let (next, lines, each) = (&next, &lines, &each);
+            let (next, lines) = (&next, &lines);
             scope.spawn(move || {
                 let met = at.file(&format!("met-{worker}"));
-                while let Some((i, test)) =
-                    Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|i| Some((i, each.get(i)?)))
-                {
+                while let Some((i, test)) = next() {
                     let line = line(at, *test, &met);
                     lines.lock().unwrap()[i] = line;
                 }

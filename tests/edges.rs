@@ -28,13 +28,8 @@ fn model(radius: &str) -> String {
 
 /// Rows at a step, with a wheel rate, a yaw rate and a position of one size.
 fn log(step: f64, rate: f64, yaw: f64, size: f64) -> String {
-    log_of(40, step, rate, yaw, size)
-}
-
-/// The same with so many rows.
-fn log_of(rows: usize, step: f64, rate: f64, yaw: f64, size: f64) -> String {
     let row = |i: usize| format!("{:e},{:e},{:e},0,{rate:e},{yaw:e}\n", i as f64 * step, i as f64 * size, size);
-    format!("time,x,y,heading,wheel_rate,yaw_rate\n{}", (0..rows).map(row).collect::<String>())
+    format!("time,x,y,heading,wheel_rate,yaw_rate\n{}", (0..40).map(row).collect::<String>())
 }
 
 /// Simulates and searches the log of a folder with a model of a radius.
@@ -57,8 +52,7 @@ fn parameters_at_the_edge_are_used_or_refused() {
 fn numbers_at_the_edge_are_used_or_refused() {
     let logs = [
         ("a step of 1 ns", log(1e-9, 1.0, 0.1, 0.1)),
-        // Between two rows of this one thousands of steps are made; fewer rows would be too short a log to fit anything to.
-        ("a step of 1 h", log_of(28, 3600.0, 1.0, 0.01, 0.1)),
+        ("a step of 1 h", log(3600.0, 1.0, 0.01, 0.1)),
         ("a step of 1e300 s", log(1e300, 1.0, 0.1, 0.1)),
         ("a step of 1e-300 s", log(1e-300, 1.0, 0.1, 0.1)),
         ("a subnormal step", log(5e-324, 1.0, 0.1, 0.1)),

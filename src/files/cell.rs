@@ -34,7 +34,8 @@ pub(super) fn advice(word: &str) -> &'static str {
     if word.replacen(',', ".", 1).parse::<f64>().is_ok() {
         return "write decimals with a point, not a comma";
     }
-    if word.len() > 7 && word.chars().filter(|c| matches!(c, '-' | ':' | '/')).count() >= 2 {
+    let marks = word.chars().filter(|c| matches!(c, '-' | ':' | '/')).count();
+    if marks >= 2 && word.starts_with(|c: char| c.is_ascii_digit()) {
         return "write time in seconds, as one number";
     }
     "correct it, or leave the cell blank and the row is dropped; a row of units or a second header must be removed"
@@ -67,5 +68,20 @@ mod tests {
         assert!(advice("2026-01-31T10:00:00").contains("seconds"));
         assert!(advice("12:30:01.5").contains("seconds"));
         assert!(advice("fast").contains("correct it"));
+    }
+
+    #[test]
+    fn the_usual_slips_are_named() {
+        for (word, said) in [
+            ("1,5", "write decimals with a point, not a comma"),
+            ("1:23:45", "write time in seconds, as one number"),
+            ("2024-05-01T10:00:00Z", "write time in seconds, as one number"),
+            ("1/2/24", "write time in seconds, as one number"),
+        ] {
+            assert_eq!(advice(word), said, "{word}");
+        }
+        for word in ["m/s", "rad/s^2-ish", "--:--:--", "1-2", "t/T/s", "word"] {
+            assert!(advice(word).starts_with("correct it"), "{word}");
+        }
     }
 }

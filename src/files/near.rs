@@ -114,4 +114,18 @@ mod tests {
         let said = advice("yaw_rate", "columns", &["yaw_rate\u{1b}[2J", "x"]);
         assert!(said.starts_with("did you mean \"yaw_rate [2J\"?") && !said.contains('\u{1b}'), "{said:?}");
     }
+
+    /// Words up to a length are compared; a list shows sixteen names, and says how many there are beyond.
+    #[test]
+    fn lengths_have_their_bounds() {
+        let [most, more] = [64, 65].map(|n| "w".repeat(n));
+        assert_eq!(nearest(&most, &[&most]), Some(most.as_str()));
+        for (word, candidate) in [(&more, &more), (&more, &most), (&most, &more)] {
+            assert_eq!(nearest(word, &[candidate]), None);
+        }
+        let names: Vec<String> = (0..17).map(|i| format!("n{i}")).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        assert!(list(&names[..16]).ends_with(", n15"));
+        assert!(list(&names).ends_with(", n15, … (17 in all)"));
+    }
 }

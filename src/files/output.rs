@@ -340,4 +340,21 @@ mod tests {
         assert_eq!(fs::read(&old).unwrap(), b"old");
         assert_eq!(names(dir.path()), ["folder", "old"]);
     }
+
+    /// A wrong path is wrong input; what may come right by itself is a failed run.
+    #[test]
+    fn what_cannot_be_written_is_told_by_its_kind() {
+        for (kind, code, said) in [
+            (ErrorKind::NotFound, 2, "its folder does not exist; make the folder first"),
+            (ErrorKind::NotADirectory, 2, "a part of its path is not a folder; choose another output path"),
+            (ErrorKind::PermissionDenied, 2, "permission denied; choose another output path"),
+            (ErrorKind::ReadOnlyFilesystem, 2, "permission denied; choose another output path"),
+            (ErrorKind::IsADirectory, 2, "is a directory; choose another output path"),
+            (ErrorKind::InvalidFilename, 2, "invalid filename; choose another output path"),
+            (ErrorKind::StorageFull, 1, "no storage space; nothing was changed; free space and try again"),
+        ] {
+            let error = unwritable(Path::new("p"), &kind.into());
+            assert_eq!((error.exit_code(), error.to_string()), (code, format!("p: cannot be written: {said}")));
+        }
+    }
 }

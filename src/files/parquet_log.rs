@@ -47,6 +47,7 @@ impl ParquetLog {
         let metadata = self.reader.metadata();
         let described = metadata.file_metadata().schema_descr().column(c);
         let scale = self.scale(&described)?;
+        let unsigned = is_unsigned(&described);
         let failed = |e: ParquetError| unreadable(&self.path, &e);
         let mut values = Vec::new();
         for group in 0..self.reader.num_row_groups() {
@@ -59,10 +60,12 @@ impl ParquetLog {
                     all(&mut r, &described, &mut values, f64::from).map_err(failed)?
                 }
                 ColumnReader::Int32ColumnReader(mut r) => {
-                    all(&mut r, &described, &mut values, f64::from).map_err(failed)?
+                    let number = |x: i32| if unsigned { f64::from(x.cast_unsigned()) } else { f64::from(x) };
+                    all(&mut r, &described, &mut values, number).map_err(failed)?;
                 }
                 ColumnReader::Int64ColumnReader(mut r) => {
-                    all(&mut r, &described, &mut values, |x| x as f64).map_err(failed)?;
+                    let number = |x: i64| if unsigned { x.cast_unsigned() as f64 } else { x as f64 };
+                    all(&mut r, &described, &mut values, number).map_err(failed)?;
                 }
                 _ => return Err(self.word(&described)),
             }
@@ -95,6 +98,14 @@ impl ParquetLog {
         Error::input(format!("column \"{}\" holds no plain numbers but {}", shown(&name), column.physical_type()))
             .at_file(&self.path)
             .help("write it as a flat column of floating-point or whole numbers")
+    }
+}
+
+/// Whether the bits of a whole number are one without a sign: a counter that runs over 2³¹ is no negative number.
+fn is_unsigned(column: &ColumnDescriptor) -> bool {
+    match column.logical_type_ref() {
+        Some(LogicalType::Integer(int)) => !int.is_signed,
+        _ => matches!(column.converted_type(), ConvertedType::UINT_32 | ConvertedType::UINT_64),
     }
 }
 

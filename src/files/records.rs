@@ -188,4 +188,16 @@ mod tests {
             prop_assert_eq!(all(text.as_bytes()), oracle(text.as_bytes()), "{:?}", text);
         }
     }
+
+    /// A doubled quote is one, wherever it stands: beside each other, at an end, before a line end within the cell.
+    #[test]
+    fn doubled_quotes_do_not_end_a_cell() {
+        let cells = |text: &str| all(text.as_bytes()).concat();
+        assert_eq!(cells("\"a\"\"b\",c"), [b"a\"b".to_vec(), b"c".to_vec()]);
+        assert_eq!(cells("\"\"\"\"\"\",c"), [b"\"\"".to_vec(), b"c".to_vec()]);
+        assert_eq!(cells("\"x\"\"\ny\"\",\",c"), [b"x\"\ny\",".to_vec(), b"c".to_vec()]);
+        let mut records = Records::new(b"1\n\"a\nb\"\n2\n".as_slice());
+        let spans = std::iter::from_fn(|| records.advance().unwrap().then(|| (records.line(), records.spans_lines())));
+        assert_eq!(spans.collect::<Vec<_>>(), [(1, false), (2, true), (4, false)]);
+    }
 }

@@ -226,4 +226,23 @@ mod tests {
         assert_eq!(numbers.dropped, expect.map(|(why, n)| (why.to_string(), n)).into());
         assert_eq!((numbers.rows, numbers.columns), (4, vec![vec![1.0], vec![2.0]]));
     }
+
+    /// A signal on the way is passed over; a disk that fails is told at once and not asked for ever.
+    #[test]
+    fn a_signal_is_passed_over_and_a_fault_is_not() {
+        struct Faulty<'a>(&'a [io::ErrorKind], &'a [u8]);
+        impl Read for Faulty<'_> {
+            fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+                let Some((kind, rest)) = self.0.split_first() else { return self.1.read(buffer) };
+                self.0 = rest;
+                Err((*kind).into())
+            }
+        }
+        let (text, path) = (b"a,b\n1,2\n".as_slice(), Path::new("log.csv"));
+        let sheet = Sheet::new(Faulty(&[io::ErrorKind::Interrupted; 2], text), path).unwrap();
+        let found = sheet.numbers(&[1]).unwrap();
+        assert_eq!((found.columns, found.sha256), (vec![vec![2.0]], hex(&Sha256::digest(text))));
+        let error = Sheet::new(Faulty(&[io::ErrorKind::TimedOut], text), path).map(|_| ()).unwrap_err();
+        assert_eq!(error.to_string(), "log.csv: cannot be read: timed out; check the path and the file");
+    }
 }

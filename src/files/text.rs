@@ -126,4 +126,17 @@ mod tests {
         bytes.push(b'a');
         assert!(decode(&bytes).is_err());
     }
+
+    /// What stands in the way of a file is told by its kind; the administrator, who may read all, meets some of them never.
+    #[test]
+    fn what_cannot_be_read_is_told_by_its_kind() {
+        for (kind, said) in [
+            (ErrorKind::NotFound, "p: no such file; check the path"),
+            (ErrorKind::PermissionDenied, "p: permission denied; make the file readable"),
+            (ErrorKind::IsADirectory, "p: is a folder, not a file; name a file inside it"),
+            (ErrorKind::TimedOut, "p: cannot be read: timed out; check the path and the file"),
+        ] {
+            assert_eq!(unreadable(Path::new("p"), &kind.into()).to_string(), said);
+        }
+    }
 }

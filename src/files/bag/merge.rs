@@ -54,4 +54,18 @@ mod tests {
         let (time, column) = ([0.0, 0.1, 0.1, 0.2, 0.3], [1.0, 2.0, 3.0, 4.0, 5.0]);
         assert_eq!(at_times(&time, &column, &[0.1, 0.15]), [3.0, 3.0]);
     }
+
+    /// Times half a second apart are bridged, further ones are not; where four rows are too far apart for a cubic it is a line.
+    #[test]
+    fn rows_far_apart_are_joined_by_a_line() {
+        assert_eq!(at_times(&[0.0, 0.5], &[1.0, 3.0], &[0.25]), [2.0]);
+        assert!(at_times(&[0.0, 0.5000001], &[1.0, 3.0], &[0.25])[0].is_nan());
+        // Three rows, and four of which one is far away: the cube itself is not kept.
+        let cube = |time: &[f64]| time.iter().map(|t| t.powi(3)).collect::<Vec<f64>>();
+        for time in [&[0.0, 0.5, 1.0][..], &[0.0, 0.5, 1.0, 1.625], &[0.0, 0.5, 1.0, 9.0]] {
+            assert_eq!(at_times(time, &cube(time), &[0.75]), [0.5625], "{time:?}");
+        }
+        let near = [0.0, 0.5, 1.0, 1.5];
+        assert!((at_times(&near, &cube(&near), &[0.75])[0] - 0.421875).abs() < 1e-15);
+    }
 }

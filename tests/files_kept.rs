@@ -1,0 +1,150 @@
+//! What a file says reaches what is made of it, key by key.
+
+use creepage::files::{EffectsFile, Inputs, ModelFile, Run};
+use creepage::{effects, model};
+use sha2::{Digest, Sha256};
+use std::path::Path;
+
+/// Reads a text as a file of a name.
+fn reads<T>(name: &str, text: &str, read: impl FnOnce(&Path) -> T) -> T {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    std::fs::write(&path, text).unwrap();
+    read(&path)
+}
+
+const EFFECT: &str = "\
+[[effect]]
+id = \"my-slip\"
+where = \"traverse constraint\"
+says = \"it slides\"
+source = \"a note of mine\"
+needs = [\"yaw_rate\", \"wheel_rate\"]
+limit = \"q -> 0\"
+[effect.parameters.q]
+unit = \"m*s\"
+range = [-10.0, 10.0]
+size = 0.03
+start = [0.1, -0.1]
+[effect.parameters.tau]
+unit = \"s\"
+range = [1e-3, 100.0]
+size = 1.0
+start = [0.5]
+positive = true
+[effect.states.u]
+unit = \"m/s\"
+rate = \"(q*phi'^2 - u)/tau\"
+[effect.changes]
+v_t = \"it - u\"
+";
+
+#[test]
+fn an_effect_is_what_its_file_says() {
+    let file = reads("effects.toml", EFFECT, EffectsFile::read).unwrap();
+    let [own] = &file.effects[..] else { panic!("one effect") };
+    let effect = &own.effect;
+    assert_eq!((effect.id.as_str(), effect.place.as_str()), ("my-slip", "traverse constraint"));
+    assert_eq!((effect.says.as_str(), effect.source.as_str()), ("it slides", "a note of mine"));
+    assert_eq!((effect.limit.as_deref(), effect.per_trailer), (Some("q -> 0"), false));
+    assert_eq!(effect.needs, ["yaw_rate", "wheel_rate"]);
+    let [q, tau] = ["q", "tau"].map(|name| &effect.parameters[name]);
+    assert_eq!((q.unit.as_str(), q.range, q.size, q.positive), ("m*s", [-10.0, 10.0], 0.03, false));
+    assert_eq!((q.start.as_slice(), tau.start.as_slice(), tau.positive), (&[0.1, -0.1][..], &[0.5][..], true));
+    assert_eq!(effect.states["u"].unit, "m/s");
+    let origin = effect.origin.as_ref().unwrap();
+    assert_eq!((origin.text.as_str(), &origin.sha256), (EFFECT, &format!("{:x}", Sha256::digest(EFFECT))));
+}
+
+/// What is left out has its usual value.
+#[test]
+fn an_effect_may_say_less() {
+    let drop = ["source = \"a note of mine\"\n", "limit = \"q -> 0\"\n", "needs = [\"yaw_rate\", \"wheel_rate\"]\n"];
+    let text = drop.iter().fold(EFFECT.to_string(), |text, line| text.replace(line, ""));
+    let file = reads("effects.toml", &text.replace("start = [0.1, -0.1]\n", ""), EffectsFile::read).unwrap();
+    let effect = &file.effects[0].effect;
+    assert_eq!((effect.source.as_str(), &effect.limit, effect.needs.len()), ("the user's own", &None, 0));
+    assert_eq!(effect.parameters["q"].start, [0.0]);
+}
+
+/// Names that would be mistaken for something else in a formula are refused, as are those that say nothing.
+#[test]
+fn names_of_effects_are_symbols() {
+    for name in ["9q", "q-q", "q q", "q__q", "q_", "_q", "sin", "it", "trailer", "ä"] {
+        let text = EFFECT.replace("parameters.tau]", &format!("parameters.\"{name}\"]"));
+        let error = reads("effects.toml", &text, EffectsFile::read).unwrap_err().to_string();
+        assert!(error.contains(&format!(":13:20: \"{name}\" cannot name a parameter")), "{name}: {error}");
+    }
+    let idle = EFFECT.replace("rate = \"(q*phi'^2 - u)/tau\"", "rate = \"(phi'^2 - u)/tau\"");
+    let error = reads("effects.toml", &idle, EffectsFile::read).unwrap_err().to_string();
+    assert!(error.contains("q has no say in what the effect changes"), "{error}");
+}
+
+fn model_of(vehicle: &str, rest: &str) -> ModelFile {
+    let text = format!("vehicle = \"{vehicle}\"\n[parameters]\n{rest}");
+    reads("model.toml", &text, |path| ModelFile::read(path, &model::known(effects::all()))).unwrap()
+}
+
+#[test]
+fn a_model_knows_its_bytes() {
+    let text = "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 0.5\n";
+    let file = model_of("unicycle", "wheel_radius = 0.5\n");
+    assert_eq!((file.sha256, file.vehicle.as_str()), (format!("{:x}", Sha256::digest(text)), "unicycle"));
+}
+
+const DRIVE: &str = "time,wheel_rate,yaw_rate\n0,1,0.5\n1,2,0.25\n";
+
+/// A pose in a log of inputs is where the simulation starts; a part of one is none.
+#[test]
+fn inputs_bring_a_pose_where_it_is_whole() {
+    let model = model_of("unicycle", "wheel_radius = 0.5\n");
+    let read = |text: &str| reads("drive.csv", text, |path| Inputs::read(path, &model)).unwrap();
+    let plain = read(DRIVE);
+    assert_eq!((plain.pose, plain.columns), (None, vec![vec![1.0, 2.0], vec![0.5, 0.25]]));
+    assert_eq!(
+        (plain.time.as_slice(), plain.roles),
+        (&[0.0, 1.0][..], vec!["wheel_rate".to_string(), "yaw_rate".into()])
+    );
+    let places = read("time,wheel_rate,yaw_rate,x,y\n0,1,0.5,3,4\n1,2,0.25,5,6\n");
+    assert_eq!((places.pose, places.columns.len()), (None, 2));
+    let pose = read("time,wheel_rate,yaw_rate,x,y,heading\n0,1,0.5,3,4,0.7\n1,2,0.25,5,6,0.8\n").pose.unwrap();
+    assert_eq!((pose.x, pose.y, pose.heading, pose.trailer_headings.len()), (3.0, 4.0, 0.7, 0));
+}
+
+/// Trailers start as they were logged; in line with the tractor where they were not.
+#[test]
+fn inputs_bring_the_headings_of_trailers() {
+    let model = |columns: &str| {
+        let rest = format!("tractor = \"unicycle\"\nwheel_radius = 0.5\ntrailer_lengths = [1.0, 1.0]\n{columns}");
+        model_of("n-trailer", &rest)
+    };
+    let [unseen, seen] = ["", "[columns]\ntrailer_headings = [\"heading_1\", \"heading_2\"]\n"].map(model);
+    assert_eq!((unseen.trailers(), seen.trailers()), (2, 2));
+    let read = |model, text: &str| reads("drive.csv", text, |path| Inputs::read(path, model)).unwrap();
+    let header = "time,wheel_rate,yaw_rate,x,y,heading";
+    let plain = read(&unseen, &format!("{header}\n0,1,0.5,3,4,0.7\n1,2,0.25,5,6,0.8\n"));
+    assert_eq!(plain.pose.unwrap().trailer_headings, [0.7, 0.7]);
+    let logged =
+        read(&seen, &format!("{header},heading_1,heading_2\n0,1,0.5,3,4,0.7,0.6,0.5\n1,2,0.25,5,6,0.8,0.7,0.6\n"));
+    assert_eq!(logged.pose.unwrap().trailer_headings, [0.6, 0.5]);
+}
+
+/// What stands in a pipe can be read once, and is.
+#[cfg(unix)]
+#[test]
+fn a_pipe_is_read_once() {
+    let model = model_of("unicycle", "wheel_radius = 0.5\n");
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("log.csv");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let to = pipe.clone();
+    let writer = std::thread::spawn(move || {
+        let text = "time,wheel_rate,yaw_rate,x,y,heading\n0,1,0.5,3,4,0.7\n1,2,0.25,5,6,0.8\n";
+        std::fs::write(to, text)
+    });
+    let (sender, read) = std::sync::mpsc::channel();
+    std::thread::spawn(move || sender.send(Run::read(&pipe, &model).map(|run| run.x).map_err(|e| e.to_string())));
+    let found = read.recv_timeout(std::time::Duration::from_secs(60)).expect("the pipe was opened twice");
+    assert_eq!(found, Ok(vec![3.0, 5.0]));
+    writer.join().unwrap().unwrap();
+}

@@ -4,6 +4,7 @@
 
 use creepage::files::{ModelFile, Run};
 use creepage::{Result, effects, model};
+use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
 #[path = "../examples/to_bag.rs"]
@@ -36,10 +37,21 @@ fn read(messages: &[Said], columns: &str) -> Result<Run> {
     writer.finish().unwrap();
     drop(writer);
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("run.mcap");
-    std::fs::write(&path, bytes.into_inner()).unwrap();
+    let bytes = bytes.into_inner();
     let text = format!("vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 0.1\n[columns]\n{columns}");
-    Run::read(&path, &ModelFile::parse(&text, "model.toml", &model::known(effects::all())).unwrap())
+    let model = ModelFile::parse(&text, "model.toml", &model::known(effects::all())).unwrap();
+    // It is known by its name in any case, and by its first bytes.
+    let [named, unnamed] = ["run.MCAP", "log.csv"].map(|name| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, &bytes).unwrap();
+        Run::read(&path, &model)
+    });
+    if let (Ok(a), Ok(b)) = (&named, &unnamed) {
+        let sha256 = format!("{:x}", Sha256::digest(&bytes));
+        assert_eq!((&a.sha256, &b.sha256, &a.inputs), (&sha256, &sha256, &b.inputs));
+    }
+    assert_eq!(named.is_ok(), unnamed.is_ok());
+    named
 }
 
 /// An odometry message at a place, turned by a quaternion, with twelve numbers of a twist that tell themselves apart.
@@ -100,6 +112,33 @@ fn a_quaternion_that_was_never_set_has_no_yaw() {
     let run = read(&messages, ODOMETRY_COLUMNS).unwrap();
     assert_eq!((run.time.len(), run.rows_dropped), (2, 2), "{:?}", run.why_dropped);
     run.heading.unwrap().iter().for_each(|h| assert!((h - std::f64::consts::FRAC_PI_2).abs() < 1e-12, "{h}"));
+}
+
+/// A body on its side or on its head has a quaternion as good as any.
+#[test]
+fn every_quaternion_of_length_one_has_a_yaw() {
+    let pi = std::f64::consts::PI;
+    for (axis, yaw) in [0.0, pi, pi, 0.0].into_iter().enumerate() {
+        let mut turn = [0.0; 4];
+        turn[axis] = -1.0;
+        let messages = [0.0, 1.0].map(|t| ("/odom", ODOMETRY, 5, odometry(t, [0.0; 3], turn)));
+        let run = read(&messages, ODOMETRY_COLUMNS).unwrap();
+        run.heading.unwrap().iter().for_each(|h| assert!((h.abs() - yaw).abs() < 1e-12, "{turn:?}: {h}"));
+    }
+}
+
+#[test]
+fn poses_without_inputs_are_told() {
+    let mut messages: Vec<Said> = Vec::new();
+    for t in [0.0, 0.1, 0.2] {
+        messages.push(("/odom", ODOMETRY, 5, odometry(t, [t, 0.0, 0.0], turned(0.0, 0.0, 0.0))));
+        messages.push(("/joints", JOINTS, 5, joints(t + 100.0, &["left", "right"], &[t, t])));
+    }
+    let columns = ODOMETRY_COLUMNS
+        .replace("/odom:twist.twist.linear.x", "/joints:velocity.right")
+        .replace("/odom:twist.twist.angular.z", "/joints:velocity.left");
+    let error = read(&messages, &columns).unwrap_err();
+    assert!(error.to_string().contains("its poses have no inputs at their times; check the stamps"), "{error}");
 }
 
 /// Recording has a clock of its own, in nanoseconds.

@@ -1,6 +1,12 @@
 //! What a file says reaches what is made of it, key by key.
 
-use creepage::files::{EffectsFile, Inputs, ModelFile, Run};
+#[path = "support/bad_vehicles.rs"]
+#[allow(dead_code)]
+mod bad_vehicles;
+
+use creepage::files::{EffectsFile, Inputs, ModelFile, Run, VehiclesFile};
+use creepage::formula::Symbol;
+use creepage::mechanism::{Printed, Regimes};
 use creepage::{effects, model};
 use sha2::{Digest, Sha256};
 use std::path::Path;
@@ -147,4 +153,95 @@ fn a_pipe_is_read_once() {
     let found = read.recv_timeout(std::time::Duration::from_secs(60)).expect("the pipe was opened twice");
     assert_eq!(found, Ok(vec![3.0, 5.0]));
     writer.join().unwrap().unwrap();
+}
+
+/// A byte order mark tells the encoding, whatever is written in it.
+#[test]
+fn other_encodings_are_named() {
+    for mark in [[0xff, 0xfe], [0xfe, 0xff]] {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("model.toml");
+        std::fs::write(&path, [mark, [0x2d, 0x4e]].concat()).unwrap();
+        let error = creepage::files::read_text(&path).unwrap_err().to_string();
+        assert!(error.contains("is UTF-16, not UTF-8; save it again as UTF-8"), "{error}");
+    }
+}
+
+/// A formula may be written with escapes; what is wrong with it is told where it stands in the file.
+#[test]
+fn places_in_formulas_count_what_is_written() {
+    for (written, column) in
+        [("it + q*)", 15), ("it + \\u0071*)", 20), ("it + \\U00000071*)", 24), ("it + \\x71*)", 18)]
+    {
+        let text = EFFECT.replace("\"it - u\"", &format!("\"{written}\""));
+        let line = EFFECT.lines().position(|l| l.starts_with("v_t")).unwrap() + 1;
+        let error = reads("effects.toml", &text, EffectsFile::read).unwrap_err().to_string();
+        assert!(error.contains(&format!("effects.toml:{line}:{column}: ")), "{written}: {error}");
+    }
+}
+
+/// Keys of trailers belong to vehicles that have some, and a start is given whole.
+#[test]
+fn keys_without_a_meaning_are_refused() {
+    let read = |rest: &str| {
+        let text = format!("vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 0.5\n{rest}");
+        reads("model.toml", &text, |path| ModelFile::read(path, &model::known(effects::all())))
+    };
+    let start = "[initial]\nx = 0.0\ny = 0.0\nheading = 0.0\n";
+    assert!(read(start).is_ok());
+    for (rest, why) in [
+        ("[columns]\ntrailer_headings = [\"a\"]".to_string(), "unknown key \"trailer_headings\""),
+        (format!("{start}trailer_headings = [0.0]"), "unknown key \"trailer_headings\""),
+        (start.replace("x = 0.0\n", ""), "key \"x\" in [initial] is missing"),
+    ] {
+        let error = read(&rest).unwrap_err().to_string();
+        assert!(error.contains(why), "{rest}: {error}");
+    }
+}
+
+/// Whole numbers may be written in any radix, and be larger than a machine's.
+#[test]
+fn whole_numbers_are_read_in_any_radix() {
+    for (written, value) in [("16", 16.0), ("0x10", 16.0), ("0b101", 5.0), ("0o17", 15.0), ("1_000", 1000.0)] {
+        assert_eq!(model_of("unicycle", &format!("wheel_radius = {written}\n")).parameters["wheel_radius"], value);
+    }
+}
+
+/// A type of constraint of a user's own is what its table says, slots and all.
+#[test]
+fn a_type_of_constraint_is_what_its_file_says() {
+    let table = "type = { id = \"cable\", letter = \"C\", form = \"pays' - (1 - e)*drum*turns'\", creep = \"slip of the rope\", \
+                 meaning = \"the rope follows the drum\", source = \"a note of mine\", latex = \"\\\\dot p\", gives = \"turns'\", \
+                 singular = \"drum\", printed = \"row\", regimes = \"rotation\", slots = [{ name = \"drum\", meaning = \"its radius\", \
+                 unit = \"m\", latex = \"R\" }, { name = \"turns'\", optional = true }] }";
+    let plain = "type = { id = \"cable\", letter = \"C\", form = \"pays' - (1 - e)*drum*turns'\", creep = \"slip of the rope\" }";
+    let kind = |line: &str| {
+        assert!(bad_vehicles::ROPE.contains(plain));
+        let text = bad_vehicles::ROPE.replace(plain, line);
+        let file = reads("vehicles.toml", &text, VehiclesFile::read).unwrap();
+        file.vehicles[0].vehicle.constraints[0].form.kind().clone()
+    };
+    let full = kind(table);
+    assert_eq!((full.id.as_str(), full.letter, full.meaning.as_str()), ("cable", 'C', "the rope follows the drum"));
+    assert_eq!((full.source.as_str(), full.latex.as_deref()), ("a note of mine", Some("\\dot p")));
+    assert_eq!(full.creep, "slip of the rope");
+    assert_eq!((full.gives, full.singular), (Some(Symbol::new("turns'")), Some(Symbol::new("drum"))));
+    assert_eq!((full.printed, full.regimes), (Printed::Row, Regimes::Rotation));
+    let slots: Vec<_> = full.slots.iter().map(|s| (s.name.to_string(), s.meaning.as_str(), s.optional)).collect();
+    assert_eq!(slots, [("drum".into(), "its radius", false), ("turns'".into(), "", true), ("pays'".into(), "", false)]);
+    assert_eq!((full.slots[0].unit.as_deref(), full.slots[0].latex.as_deref()), (Some("m"), Some("R")));
+    let bare = kind(plain);
+    assert_eq!((bare.source.as_str(), bare.latex, bare.gives, bare.singular), ("", None, None, None));
+    assert_eq!((bare.printed, bare.regimes), (Printed::Form, Regimes::None));
+    for (bad, why) in [
+        (plain.replace("\"C\"", "\"CC\""), "letter must be one capital letter"),
+        (plain.replace("\"C\"", "\"c\""), "letter must be one capital letter"),
+        (plain.replace("\"C\"", "\"R\""), "R is the letter of the type"),
+        (table.replace("\"turns'\", optional", "\"drum\", optional"), "the slot drum is named twice"),
+        (table.replace("gives = \"turns'\"", "gives = \"turn\""), "the form has no slot \"turn\""),
+    ] {
+        let text = bad_vehicles::ROPE.replace(plain, &bad);
+        let error = reads("vehicles.toml", &text, VehiclesFile::read).unwrap_err().to_string();
+        assert!(error.contains(why), "{bad}: {error}");
+    }
 }

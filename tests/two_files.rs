@@ -20,7 +20,7 @@ fn model() -> ModelFile {
 
 /// Inputs every tenth of a second, poses between them; one row of each has a blank cell.
 fn texts() -> [String; 2] {
-    let time = |i: i32| 0.1 * f64::from(i);
+    let time = |i: i32| 100.0 + 0.1 * f64::from(i);
     let input = |i: i32| format!("{},{},{}\n", time(i), if i == 7 { String::new() } else { i.to_string() }, 2 * i);
     let pose = |i: i32| {
         let x = if i == 4 { String::new() } else { format!("{}", 10 + i) };
@@ -59,8 +59,8 @@ fn both_files_are_told_apart() {
 #[test]
 fn the_beginning_is_a_share_of_the_time() {
     let run = read();
-    // From 0.05 to 1.55 s, without 0.45: up to 0.65 and up to the end.
-    for (share, rows) in [(0.4, 6), (1.0, 15), (0.0, 1)] {
+    // From 100.05 to 101.55 s, without 100.45: up to 100.65 and up to the end.
+    for (share, rows) in [(0.41, 6), (1.0, 15), (0.0, 1)] {
         let begun = run.beginning(share);
         let heading = begun.heading.as_ref().unwrap();
         let lengths = [&begun.time, &begun.x, &begun.y, heading, &begun.trailer_headings[0]].map(Vec::len);

@@ -215,3 +215,154 @@ fn sum(out: &mut [Wide], y: &[Wide], h: f64, weights: &[f64], k: &[Wide]) {
         out.as_flattened_mut().iter_mut().zip(rate).for_each(|(out, rate)| *out += w * rate);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ode_solvers::dop_shared::{OutputType, Stats};
+    use ode_solvers::{DVector, System};
+
+    type Rates = fn(f64, &[f64], &mut [f64]);
+
+    /// With one more state for the crate: the time, since at the end of a step it asks for rates of a wrong time; or, where
+    /// it is to choose the first step by the states, one that rests.
+    struct Longer(Rates, f64);
+
+    impl System<f64, DVector<f64>> for Longer {
+        fn system(&self, _: f64, y: &DVector<f64>, dy: &mut DVector<f64>) {
+            let n = y.len() - 1;
+            (self.0)(y[n], &y.as_slice()[..n], &mut dy.as_mut_slice()[..n]);
+            dy[n] = self.1;
+        }
+    }
+
+    /// The crate's steps: their ends, how many there were, and the last state.
+    fn theirs(f: Rates, request: Request, y: &[f64], [start, pace]: [f64; 2]) -> (Vec<f64>, Stats, Vec<f64>) {
+        let Request { from, to, rtol, atol, first, most_steps } = request;
+        let start = DVector::from_iterator(y.len() + 1, y.iter().copied().chain([start]));
+        let (span, first, never) = ((to - from).abs(), first * (to - from).signum(), u32::MAX);
+        let (f, sparse) = (Longer(f, pace), OutputType::Sparse);
+        let mut s = ode_solvers::Dop853::from_param(
+            f, from, to, span, start, rtol, atol, SAFETY, 0.0, SHRINK, GROW, span, first, most_steps, never, sparse,
+        );
+        let stats = s.integrate().unwrap();
+        (s.x_out().clone(), stats, s.y_out().last().unwrap().as_slice()[..y.len()].to_vec())
+    }
+
+    const PENDULUM: Rates = |t, y, dy| {
+        dy[0] = y[1];
+        dy[1] = t.cos() - y[0].sin();
+    };
+    /// Relaxes and jumps: steps are refused.
+    const VAN_DER_POL: Rates = |_, y, dy| {
+        dy[0] = y[1];
+        dy[1] = 10.0 * (1.0 - y[0] * y[0]) * y[1] - y[0];
+    };
+    const GROWTH: Rates = |t, y, dy| dy[0] = y[0] * t.cos();
+    const CHAIN: Rates = |t, y, dy| {
+        for i in 0..y.len() {
+            dy[i] = (t * (1.0 + i as f64)).sin() - y[i] * y[(i + 1) % y.len()];
+        }
+    };
+
+    /// Step by step what the crate does, whatever the number of states, forwards and back.
+    #[test]
+    fn steps_are_those_of_the_crate() {
+        let mut refused = 0;
+        for (f, y, to) in [
+            (PENDULUM, vec![1.0, 0.0], 20.0),
+            (VAN_DER_POL, vec![2.0, 0.0], 30.0),
+            (GROWTH, vec![3.0], -7.0),
+            (CHAIN, vec![0.5, 0.1, 0.2, 0.3], 8.0),
+            (CHAIN, vec![0.5; 5], 8.0),
+            (CHAIN, (0..11).map(|i| 0.1 * f64::from(i)).collect(), -0.5),
+        ] {
+            for (rtol, atol) in [(1e-4, 1e-4), (1e-8, 1e-10), (1e-11, 1e-6)] {
+                let request = Request { from: 0.25, to, rtol, atol, first: 0.05, most_steps: 100_000 };
+                let (ends, stats, wanted) = theirs(f, request, &y, [request.from, 1.0]);
+                let mut found = y.clone();
+                let effort = Dop853::default().run(&mut { f }, request, &mut found).unwrap();
+                assert_eq!(
+                    (effort.accepted, effort.rejected),
+                    (stats.accepted_steps, stats.rejected_steps),
+                    "{to} {rtol}"
+                );
+                refused += effort.rejected;
+                let longest = ends.windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max);
+                assert!((effort.longest - longest).abs() < 1e-6 * longest, "{effort:?} {longest}");
+                for (found, wanted) in found.iter().zip(&wanted) {
+                    assert!((found - wanted).abs() < 1e-9 * wanted.abs().max(1.0), "{found} {wanted}");
+                }
+                // So many steps are enough, and one fewer is not.
+                let taken = effort.accepted + effort.rejected;
+                let limited =
+                    |most_steps| Dop853::default().run(&mut { f }, Request { most_steps, ..request }, &mut y.clone());
+                assert_eq!(limited(taken), Ok(effort));
+                assert!(matches!(limited(taken - 1), Err(Stop::Steps(_))));
+            }
+        }
+        assert!(refused > 20, "{refused}");
+    }
+
+    /// The first step of ours, where none is given.
+    fn first(f: Rates, request: Request, y: &[f64]) -> f64 {
+        match Dop853::default().run(&mut { f }, Request { first: 0.0, most_steps: 1, ..request }, &mut y.to_vec()) {
+            Err(Stop::Steps(t)) => t,
+            Ok(effort) => effort.longest * request.to.signum(),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    /// That of the crate from states and rates of every size; back in time that of the mirrored motion, where the crate has
+    /// a slip of the sign.
+    #[test]
+    fn first_steps_are_those_of_the_crate() {
+        const MIRRORED: Rates = |t, y, dy| {
+            VAN_DER_POL(t, y, dy);
+            dy.iter_mut().for_each(|v| *v = -*v);
+        };
+        const REST: Rates = |_, _, dy| dy.fill(0.0);
+        const FALL: Rates = |_, y, dy| {
+            dy[0] = y[1];
+            dy[1] = 1e-3;
+        };
+        for (rtol, atol) in [(1e-4, 1e-4), (1e-8, 1e-10), (0.0, 1e-3)] {
+            let request = |to| Request { from: 0.0, to, rtol, atol, first: 0.0, most_steps: 100_000 };
+            for (f, y, to) in [
+                (VAN_DER_POL, [2.0, 0.0], 30.0),
+                (VAN_DER_POL, [2.0, 0.5], 3.0),
+                (VAN_DER_POL, [0.0, 0.0], 3.0),
+                (VAN_DER_POL, [1e-20, 1e-9], 3.0),
+                (FALL, [0.0, 0.0], 50.0),
+                (FALL, [1e3, 0.0], 50.0),
+                (FALL, [1e9, 1e-9], 50.0),
+                (FALL, [1e9, 1.0], 1e-3),
+                (REST, [1.0, 2.0], 5.0),
+                (REST, [0.0, 0.0], 5.0),
+            ] {
+                let (found, wanted) = (first(f, request(to), &y), theirs(f, request(to), &y, [0.0, 0.0]).0[1]);
+                assert!((found - wanted).abs() <= 1e-12 * wanted, "{y:?} to {to}, {rtol}: {found} {wanted}");
+            }
+            for y in [[2.0, 0.0], [2.0, 0.5], [1e-20, 1e-9]] {
+                assert_eq!(first(VAN_DER_POL, request(-3.0), &y), -first(MIRRORED, request(3.0), &y), "{y:?}");
+            }
+        }
+    }
+
+    /// What has no solution to its end is left where it stops, whichever way it goes.
+    #[test]
+    fn a_solution_without_an_end_is_left_there() {
+        const BLOWS_UP: Rates = |_, y, dy| dy[0] = y[0] * y[0];
+        const ENDS: Rates = |t, _, dy| dy[0] = if t.abs() < 0.7 { 1.0 } else { f64::NAN };
+        for sign in [1.0, -1.0] {
+            let request =
+                Request { from: 0.0, to: 2.0 * sign, rtol: 1e-10, atol: 1e-12, first: 0.0, most_steps: 10_000 };
+            let run = |f: Rates| Dop853::default().run(&mut { f }, request, &mut [sign]);
+            let Err(Stop::Underflow(at)) = run(BLOWS_UP) else { panic!("{:?}", run(BLOWS_UP)) };
+            assert!((at - sign).abs() < 1e-9, "{at}");
+            let Err(Stop::Underflow(at)) = run(ENDS) else { panic!("{:?}", run(ENDS)) };
+            assert!((at - 0.7 * sign).abs() < 1e-12, "{at}");
+            assert_eq!(run(|_, _, dy| dy[0] = f64::NAN), Err(Stop::Undefined));
+        }
+    }
+}

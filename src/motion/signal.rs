@@ -300,4 +300,66 @@ mod tests {
         let s = Signals::new(&[0.0, 1.0, 2.0], &[vec![1.0, 2.0, 5.0]], Timing::Sample);
         assert_eq!((value(&s, -3.0), value(&s, 9.0)), (1.0, 5.0));
     }
+
+    /// A faster clock changes the times and the slopes, not the values.
+    #[test]
+    fn a_stretched_signal_has_the_same_values() {
+        let time = [1.0, 1.4, 2.0, 2.7, 3.0, 4.0];
+        let columns = [time.map(|t: f64| (2.0 * t).sin()).to_vec(), time.map(|t: f64| t * t).to_vec()];
+        for timing in [Timing::Sample, Timing::IntervalMean] {
+            let s = Signals::new(&time, &columns, timing);
+            for rate in [-0.3, 1e-3, 0.7] {
+                let stretched = s.stretched(rate);
+                let (mut v, mut d, mut w, mut e) = ([0.0; 2], [0.0; 2], [0.0; 2], [0.0; 2]);
+                for t in [1.1, 1.9, 2.5, 2.8, 3.9] {
+                    s.at(t, &mut v, &mut d);
+                    stretched.at(2.5 + (t - 2.5) * (1.0 + rate), &mut w, &mut e);
+                    for c in 0..2 {
+                        assert!(
+                            (v[c] - w[c]).abs() < 1e-13 && (d[c] - e[c] * (1.0 + rate)).abs() < 1e-12,
+                            "{timing:?} {t}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    /// A guess may be wrong, the interval never is; it counts from where it begins to where the next one does.
+    #[test]
+    fn intervals_are_found_from_any_guess() {
+        let s = Signals::new(&[0.0, 1.0, 3.0, 4.0], &[vec![0.0; 4]], Timing::Sample);
+        for t in [-1.0, 0.0, 0.5, 1.0, 2.9, 3.0, 3.5, 4.0, 5.0] {
+            let wanted = s.interval(t);
+            (0..4).for_each(|guess| assert_eq!(s.interval_from(guess, t), wanted, "{t} from {guess}"));
+            let [from, to] = s.reach(wanted);
+            assert!(from <= t && t < to, "{t}");
+        }
+        assert_eq!([0, 1, 2].map(|i| s.reach(i)), [[f64::NEG_INFINITY, 1.0], [1.0, 3.0], [3.0, f64::INFINITY]]);
+    }
+
+    #[test]
+    fn the_integral_of_a_piece_is_exact() {
+        assert_eq!(integral(&[1.0, 2.0, 3.0, 4.0], 2.0), 2.0 + 4.0 + 8.0 + 16.0);
+        assert_eq!(integral(&[1.0, -2.0, 6.0, -8.0], 0.5), 0.5 - 0.25 + 0.25 - 0.125);
+    }
+
+    /// Four rows that are left are enough; channels are not mixed up; a step is long that is thrice the usual one.
+    #[test]
+    fn thinned_signals_have_every_channel() {
+        assert_eq!(every_second(&[0.0, 1.0, 3.0, 4.0, 5.0, 6.0, 7.0]), [0, 1, 2, 4, 6]);
+        assert_eq!(every_second(&[0.0, 0.1, 0.2, 0.3, 1.3, 2.3, 3.3, 4.3, 5.3, 6.3]), [0, 2, 4, 6, 8, 9]);
+        let time: Vec<f64> = (0..7).map(f64::from).collect();
+        let columns = [time.clone(), time.iter().map(|t| 10.0 - t * t).collect()];
+        for (timing, wanted) in [(Timing::Sample, [4.0, -6.0]), (Timing::IntervalMean, [3.5, -2.5])] {
+            let thin = Signals::new(&time, &columns, timing).thinned().unwrap();
+            assert_eq!(thin.knots(), [0.0, 2.0, 4.0, 6.0]);
+            let mean = |c: usize| match timing {
+                Timing::Sample => thin.value_at_knot(2, c),
+                Timing::IntervalMean => integral(&thin.pieces(1)[c], 2.0) / 2.0,
+            };
+            assert!((mean(0) - wanted[0]).abs() < 1e-12 && (mean(1) - wanted[1]).abs() < 1e-12, "{timing:?}");
+        }
+        assert!(Signals::new(&time[..6], &columns.map(|c| c[..6].to_vec()), Timing::Sample).thinned().is_some());
+    }
 }

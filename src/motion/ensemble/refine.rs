@@ -8,6 +8,8 @@ use crate::formula::Memory;
 
 /// How often the number of steps may double.
 const DOUBLINGS: u32 = 12;
+/// How often it may where the first number is looked for: runs of an hour need tens of thousands.
+const PILOT_DOUBLINGS: u32 = 16;
 /// More steps than the estimate asks for, so that few cases need to be doubled.
 const MARGIN: f64 = 1.1;
 
@@ -28,10 +30,12 @@ struct Work<'a> {
 }
 
 impl Ensemble {
-    /// The first number of steps that an order needs for most of the cases, and what it costs.
-    pub(super) fn effort_of(&self, order: i32, e: &LaneEquations, cases: &[&[f64]]) -> Result<(f64, f64)> {
-        let scheme = scheme(order);
-        let mut work = Work::new(e, scheme);
+    /// The first number of steps that an order needs for most of the cases, and what it costs; without bound where the order
+    /// does not get there, or not for less than `most`.
+    pub(super) fn effort_of(&self, order: i32, e: &LaneEquations, cases: &[&[f64]], most: f64) -> Result<(f64, f64)> {
+        let mut work = Work::new(e, scheme(order));
+        let (stages, spans) = (work.scheme.stages, self.spans(e));
+        let cost = |steps| (stages * spans.iter().map(|s| self.steps_in(s, steps)).sum::<usize>()) as f64;
         let z0 = self.begin(&mut work, cases)?;
         let (mut doublings, mut coarse) = (0, self.integrate(&mut work, &z0, (1.0, 0)));
         let needed = loop {
@@ -39,18 +43,20 @@ impl Ensemble {
             let errors: Vec<f64> = (0..cases.len()).map(|l| error(&coarse, &fine, l, order)).collect();
             let defined = errors.iter().filter(|e| !e.is_nan()).count();
             let good = errors.iter().filter(|e| **e <= self.tolerance).count();
-            if doublings == DOUBLINGS || defined == 0 && doublings == TRIES {
-                break 1.0;
-            }
             if defined > 0 && 4 * good >= 3 * defined {
                 let worst = errors.iter().copied().filter(|e| *e <= self.tolerance).fold(0.0, f64::max);
                 let steps = f64::from(1u32 << doublings) * MARGIN;
                 break (steps * (worst / self.tolerance).powf(1.0 / f64::from(order))).max(1.0);
             }
+            if defined == 0 && doublings == TRIES {
+                break 1.0;
+            }
+            if doublings == PILOT_DOUBLINGS || cost((1.0, doublings)) >= most {
+                return Ok((1.0, f64::INFINITY));
+            }
             (doublings, coarse) = (doublings + 1, fine);
         };
-        let count: usize = self.spans(e).iter().map(|s| self.steps_in(s, (needed, 0))).sum();
-        Ok((needed, (work.scheme.stages * count) as f64))
+        Ok((needed, cost((needed, 0))))
     }
 
     /// Integrates cases until each is as exact as asked for.
@@ -172,7 +178,7 @@ impl<'a> Work<'a> {
             block: Block::new(e, scheme.stages),
             scheme,
             readings: e.readings.memory(),
-            instants: vec![Instants::default(); DOUBLINGS as usize + 2],
+            instants: vec![Instants::default(); DOUBLINGS.max(PILOT_DOUBLINGS) as usize + 2],
         }
     }
 }
@@ -217,4 +223,93 @@ fn extrapolated(coarse: &Rows, fine: &Rows, order: i32) -> Rows {
         }
     }
     better
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{EnsembleInputs, Varied};
+    use super::*;
+    use crate::formula::Expr;
+    use crate::model::Model;
+
+    fn wheels(from: f64, times: &[f64], tolerance: f64) -> Ensemble {
+        let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+        let formulas = ["2 + sin(3*t)", "cos(2*t)"].map(|f| Expr::parse(f).unwrap()).to_vec();
+        let inputs = EnsembleInputs { formulas, ..EnsembleInputs::default() };
+        let varied = [Varied::Model("wheel_radius".into())];
+        Ensemble::new(&model, &inputs, &varied, &[0.0; 3], from, times, tolerance).unwrap()
+    }
+
+    /// The first number of steps is what the worst case needs, less a margin of a tenth, and the cost follows it. Cases that
+    /// need fewer steps do not decide while they are fewer than three in four.
+    #[test]
+    fn the_first_number_of_steps_is_what_is_needed() {
+        let cases: [&[f64]; 4] = [&[1e-4], &[1e-4], &[1.0], &[1.0]];
+        for (order, tolerance) in [(4, 1e-10), (4, 1e-8), (8, 1e-13)] {
+            let wheels = wheels(1.0, &[6.0], tolerance);
+            let (steps, cost) = wheels.effort_of(order, &wheels.equations, &cases, f64::INFINITY).unwrap();
+            let mut work = Work::new(&wheels.equations, scheme(order));
+            let z0 = wheels.begin(&mut work, &cases).unwrap();
+            let [coarse, fine] = [0, 1].map(|doublings| wheels.integrate(&mut work, &z0, (steps, doublings)));
+            let worst = (0..4).map(|l| error(&coarse, &fine, l, order)).fold(0.0, f64::max);
+            let taken = steps.ceil();
+            let (margin, found) = ((steps / taken / MARGIN).powi(order), worst / tolerance);
+            // What rounding leaves of the last digits of order 8 is more than a twentieth.
+            let within = if order == 8 { 0.5 } else { 0.05 };
+            assert!((found / margin - 1.0).abs() < within, "order {order}, {steps} steps: {found} and not {margin}");
+            assert_eq!(cost, work.scheme.stages as f64 * taken, "order {order}");
+            // Where another order is cheaper this one is given up, and not where it is dearer.
+            let given = |most: f64| wheels.effort_of(order, &wheels.equations, &cases, most).unwrap();
+            assert_eq!([given(cost / 4.0), given(2.0 * cost)], [(1.0, f64::INFINITY), (steps, cost)]);
+        }
+    }
+
+    #[test]
+    fn what_is_undefined_needs_one_step() {
+        let wheels = wheels(0.0, &[1.0], 1e-10);
+        let (steps, _) = wheels.effort_of(4, &wheels.equations, &[&[f64::NAN]], f64::INFINITY).unwrap();
+        assert_eq!(steps, 1.0);
+    }
+
+    /// Every span has its share of the steps, rounded up before it is doubled.
+    #[test]
+    fn spans_share_the_steps() {
+        let wheels = wheels(1.0, &[2.0, 5.0], 1e-10);
+        let spans = wheels.spans(&wheels.equations);
+        let count = |steps, doublings| spans.iter().map(|s| wheels.steps_in(s, (steps, doublings))).collect::<Vec<_>>();
+        assert_eq!(spans.iter().map(|s| (s.from, s.to)).collect::<Vec<_>>(), [(1.0, 2.0), (2.0, 5.0)]);
+        assert_eq!([count(10.0, 0), count(10.0, 1), count(0.1, 2)], [[3, 8], [6, 16], [4, 4]]);
+    }
+
+    /// Richardson's way: the difference over 2^q − 1 is added, and four times as much is the error, relative above one.
+    #[test]
+    fn two_runs_give_a_better_one_and_its_error() {
+        let lanes = |values: [f64; 2]| vec![vec![values.map(|v| [v; LANES])[0]], vec![[values[1]; LANES]]];
+        let (coarse, mut fine) = (lanes([0.5, 100.0]), lanes([0.8, 102.0]));
+        for (order, gained) in [(4, 15.0), (8, 255.0)] {
+            assert_eq!(gain(order), gained);
+            assert!((error(&coarse, &fine, 3, order) - 4.0 * 0.3 / gained).abs() < 1e-15);
+            let better = extrapolated(&coarse, &fine, order);
+            let [a, b] = [better[0][0][7], better[1][0][7]];
+            assert!((a - 0.8 - 0.3 / gained).abs() < 1e-15 && (b - 102.0 - 2.0 / gained).abs() < 1e-12, "{a} {b}");
+        }
+        fine[0][0][3] = 0.5;
+        assert!((error(&coarse, &fine, 3, 4) - 4.0 * 2.0 / 15.0 / 102.0).abs() < 1e-15);
+        fine[1][0][3] = f64::NAN;
+        assert!(error(&coarse, &fine, 3, 4).is_nan() && !error(&coarse, &fine, 2, 4).is_nan());
+    }
+
+    /// A case has all its numbers or none.
+    #[test]
+    fn a_case_is_defined_all_the_way_or_not() {
+        let wheels = wheels(0.0, &[1.0, 2.0], 1e-10);
+        let rows = |last: f64| vec![[1.0; LANES], [2.0; LANES], [3.0; LANES], [last; LANES]];
+        let good = wheels.case(&rows(4.0), 1, 1e-10);
+        assert_eq!((good.row(1), good.error, good.converged), (&[3.0, 4.0][..], Some(1e-10), true));
+        assert!(!wheels.case(&rows(4.0), 1, 2e-10).converged);
+        for (last, error) in [(f64::NAN, 1e-12), (f64::INFINITY, 1e-12), (4.0, f64::NAN), (4.0, f64::INFINITY)] {
+            let bad = wheels.case(&rows(last), 1, error);
+            assert!(!bad.is_defined() && !bad.converged && bad.values.is_empty(), "{last} {error}");
+        }
+    }
 }

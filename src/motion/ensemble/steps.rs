@@ -169,3 +169,22 @@ fn sum(z: &Lane, weights: &[(usize, f64)], h: f64, k: &[Lane], n: usize, i: usiz
     }
     total
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is known of an instant is not computed again, and is kept for the next block where it is not too much.
+    #[test]
+    fn instants_are_kept_where_there_are_not_too_many() {
+        let at = |all: usize, known: usize, at: usize| {
+            let mut instants = Instants { values: vec![0.0; known], at, all };
+            (instants.next(), instants.values.len(), instants.at)
+        };
+        assert_eq!(at(0, 0, 0), (false, 0, 0), "nothing depends on the time");
+        assert_eq!(at(10, 10, 5), (false, 10, 5));
+        assert_eq!(at(10, 5, 5), (true, 5, 5));
+        assert_eq!(at(MOST, 5, 5), (true, 5, 5));
+        assert_eq!(at(MOST + 1, 5, 5), (true, 0, 0), "one step at a time");
+    }
+}

@@ -8,7 +8,7 @@ use crate::formula::Memory;
 
 /// How often the number of steps may double.
 const DOUBLINGS: u32 = 12;
-/// How often it may where the first number is looked for: runs of an hour need tens of thousands.
+/// How often it may, divided among the spans, where the first number is looked for: runs of an hour need tens of thousands.
 const PILOT_DOUBLINGS: u32 = 16;
 /// More steps than the estimate asks for, so that few cases need to be doubled.
 const MARGIN: f64 = 1.1;
@@ -36,6 +36,8 @@ impl Ensemble {
         let mut work = Work::new(e, scheme(order));
         let (stages, spans) = (work.scheme.stages, self.spans(e));
         let cost = |steps| (stages * spans.iter().map(|s| self.steps_in(s, steps)).sum::<usize>()) as f64;
+        let shared = spans.len().checked_ilog2().unwrap_or(0);
+        let last = PILOT_DOUBLINGS.saturating_sub(shared).max(DOUBLINGS);
         let z0 = self.begin(&mut work, cases)?;
         let (mut doublings, mut coarse) = (0, self.integrate(&mut work, &z0, (1.0, 0)));
         let needed = loop {
@@ -51,7 +53,7 @@ impl Ensemble {
             if defined == 0 && doublings == TRIES {
                 break 1.0;
             }
-            if doublings == PILOT_DOUBLINGS || cost((1.0, doublings)) >= most {
+            if doublings == last || cost((1.0, doublings)) >= most {
                 return Ok((1.0, f64::INFINITY));
             }
             (doublings, coarse) = (doublings + 1, fine);
@@ -178,7 +180,7 @@ impl<'a> Work<'a> {
             block: Block::new(e, scheme.stages),
             scheme,
             readings: e.readings.memory(),
-            instants: vec![Instants::default(); DOUBLINGS.max(PILOT_DOUBLINGS) as usize + 2],
+            instants: vec![Instants::default(); PILOT_DOUBLINGS as usize + 2],
         }
     }
 }

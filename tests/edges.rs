@@ -52,7 +52,8 @@ fn parameters_at_the_edge_are_used_or_refused() {
 fn numbers_at_the_edge_are_used_or_refused() {
     let logs = [
         ("a step of 1 ns", log(1e-9, 1.0, 0.1, 0.1)),
-        ("a step of 1 h", log(3600.0, 1.0, 0.01, 0.1)),
+        ("a step of 1 h", log(3600.0, 1.0, 0.0005, 0.1)),
+        ("a step of 1 h, turns in it", log(3600.0, 1.0, 0.01, 0.1)),
         ("a step of 1e300 s", log(1e300, 1.0, 0.1, 0.1)),
         ("a step of 1e-300 s", log(1e-300, 1.0, 0.1, 0.1)),
         ("a subnormal step", log(5e-324, 1.0, 0.1, 0.1)),

@@ -9,7 +9,7 @@ use super::problem::Problem;
 use super::relatives::{self, Relative, relatives};
 use super::remaining::remaining;
 use super::report::*;
-use super::{contested, experiment, implausible, picture, summary, unnamed, verdict};
+use super::{contested, experiment, implausible, picture, slips, summary, unnamed, verdict};
 use crate::effects::Effect;
 use crate::error::{Error, Result};
 use crate::files::{EffectEntry, ModelFile, Run};
@@ -61,10 +61,13 @@ impl Discovery {
 pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery> {
     let roles = common_roles(request.runs, request.held_out)?;
     let model = Model::from_file(request.file, request.library, &roles)?;
+    if let Some(why) = slips::too_sparse(&model, request.runs.iter().chain(request.held_out))? {
+        return unusable(request, why);
+    }
     let data = Data::of(request, &model)?;
     let known = request.file.noise;
     let problem = Problem::new(data.fitted.clone(), known.position, known.heading);
-    if let Some(verdict) = verdict::before_fitting(&problem) {
+    if let Some(verdict) = verdict::before_fitting(&problem, &model)? {
         return Ok(nothing_to_fit(request, &data, verdict));
     }
     let Some(choice) = choose(&problem, &model, request.library, progress)? else {
@@ -76,7 +79,7 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
     let after = problem.violations(&choice.after.model, &noise)?;
     // What is explained to its noise needs no other clock.
     let clocks = if unnamed::remains(&choice.after) { problem.drifts(&choice.after)? } else { vec![] };
-    let found = verdict::after_fitting(&choice, &after, &clocks);
+    let found = verdict::after_fitting(&problem, &choice, &after, &clocks)?;
     let mut report = empty_report(request, &data);
     report.verdict = found.verdict;
     let relatives = relatives(&choice, request.library, relatives::measured(&data.fitted[0]));
@@ -93,9 +96,11 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
     let judged = Judged::of(&data, &model, &choice, request.seed)?;
     report.gap = judged.gaps(&horizons(request));
     report.data.warnings.extend(too_long(request, &report));
-    report.data.warnings.extend(contested::warnings(&choice));
-    report.data.warnings.extend(verdict::restated(&choice));
-    report.data.warnings.extend(implausible::warnings(&choice));
+    if report.verdict != Verdict::UnusableData {
+        report.data.warnings.extend(contested::warnings(&choice));
+        report.data.warnings.extend(verdict::restated(&choice));
+        report.data.warnings.extend(implausible::warnings(&choice, &problem.records)?);
+    }
     report.steps = judged.steps(&choice, &report.gap)?;
     report.summary = found.sentence.unwrap_or_else(|| summary::verdict_sentence(&report));
     let added = match report.verdict {

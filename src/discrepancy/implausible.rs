@@ -1,7 +1,10 @@
 //! Effects that the runs ask for far beyond what vehicles have: right numbers for a wrong reason, as a rule.
 
 use super::choose::Choice;
+use super::record::Record;
+use super::slips;
 use crate::effects::Applied;
+use crate::error::Result;
 use crate::picture::number::significant;
 
 /// A share this many times as large as a plausible one is none that wear, load or a careless measurement explain.
@@ -10,16 +13,24 @@ const FAR: f64 = 10.0;
 /// What the report warns of where a share that was chosen is far beyond a plausible one.
 ///
 /// Lengths, times and rates are left alone: what is usual of them depends on the vehicle's size.
-pub(super) fn warnings(choice: &Choice) -> impl Iterator<Item = String> {
-    choice.chosen.iter().filter_map(|c| warning(&c.applied))
+///
+/// # Errors
+/// When the model's formulas are malformed.
+pub(super) fn warnings(choice: &Choice, records: &[Record]) -> Result<Vec<String>> {
+    let far: Vec<String> = choice.chosen.iter().filter_map(|c| far_beyond(&c.applied)).collect();
+    let slip = if far.is_empty() { None } else { slips::suspected(&choice.before.model, records)? };
+    let doubt = slip.map_or_else(
+        || ": check numbers and units of model file and log, or it imitates another effect".into(),
+        |slip| format!("; {slip}"),
+    );
+    Ok(far.into_iter().map(|says| says + &doubt).collect())
 }
 
-fn warning(applied: &Applied) -> Option<String> {
+fn far_beyond(applied: &Applied) -> Option<String> {
     let mut parameters = applied.effect.parameters.iter().zip(&applied.values);
     let ((name, p), value) = parameters.find(|((_, p), v)| p.unit == "1" && v.abs() > FAR * p.size)?;
     Some(format!(
-        "{} {name} = {} is far beyond the usual {}: check numbers and units of model file and log, or it imitates another \
-         effect",
+        "{} {name} = {} is far beyond the usual {}",
         applied.label(),
         significant(*value, 3),
         significant(p.size, 2),
@@ -36,13 +47,13 @@ mod tests {
         let said = |id: &str, times: f64| {
             let effect = effects::named(id).unwrap();
             let values = effect.parameters.values().map(|p| times * p.size).collect();
-            warning(&Applied::new(effect, None, values))
+            far_beyond(&Applied::new(effect, None, values))
         };
         assert_eq!(said("track-width", 9.0), None);
         assert_eq!(said("track-width", -9.0), None);
         for (times, value) in [(11.0, "0.330"), (-11.0, "−0.330")] {
             let said = said("track-width", times).unwrap();
-            assert!(said.contains(&format!("track-width scale = {value} is far beyond the usual 0.030:")), "{said}");
+            assert!(said.contains(&format!("track-width scale = {value} is far beyond the usual 0.030")), "{said}");
         }
         assert_eq!(said("lever-arm", 11.0), None);
     }

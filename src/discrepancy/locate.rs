@@ -282,3 +282,18 @@ impl Problem {
         self.records.iter().map(|r| Violation::of(model, r, noise)).collect()
     }
 }
+
+#[cfg(test)]
+impl Violation {
+    /// A run of windows of one second at 1 m/s without noise, given how far each ends across of where its model says.
+    pub(super) fn across(run: &str, missed: &[f64]) -> Self {
+        let window = |(k, across): (usize, &f64)| Window {
+            middle: k as f64 + 0.5,
+            span: [k as f64, k as f64 + 1.0],
+            rates: vec![0.0, *across, 0.0],
+            speed: 1.0,
+            yaw: 0.0,
+        };
+        Self { run: run.into(), windows: missed.iter().enumerate().map(window).collect(), noise: [0.0; 4] }
+    }
+}

@@ -8,9 +8,12 @@ use super::locate::Violation;
 use super::problem::Problem;
 use super::report::{NextExperiment, Verdict};
 use super::selection::find;
+use super::slips;
 use super::summary::listed;
 use super::unnamed;
 use crate::effects::Applied;
+use crate::error::Result;
+use crate::model::Model;
 use crate::picture::number::significant;
 
 /// A verdict with what there is to say about it.
@@ -43,7 +46,17 @@ const SLIP_ANGLE: f64 = 0.35;
 const LONG_SLIDE: f64 = 1.5;
 
 /// Unusable or too short before anything is fitted.
-pub fn before_fitting(problem: &Problem) -> Option<Outcome> {
+///
+/// # Errors
+/// When the model's formulas are malformed.
+pub fn before_fitting(problem: &Problem, model: &Model) -> Result<Option<Outcome>> {
+    if let Some(outcome) = still_or_short(problem) {
+        return Ok(Some(outcome));
+    }
+    Ok(slips::another_motion(model, &problem.records)?.map(unusable))
+}
+
+fn still_or_short(problem: &Problem) -> Option<Outcome> {
     if !moves(problem) && driven(problem) {
         let sentence = "The inputs say that the vehicle moves in these runs, but the poses show no more than their scatter \
                         from row to row, so nothing can be said about its model.";
@@ -116,8 +129,20 @@ fn driven(problem: &Problem) -> bool {
 }
 
 /// The verdict after the choice.
-pub fn after_fitting(choice: &Choice, after: &[Violation], clocks: &[Drift]) -> Outcome {
-    if let Some(sentence) = hopeless(after).or_else(|| sliding(after)).or_else(|| mismatched(clocks)) {
+///
+/// # Errors
+/// When the model's formulas are malformed.
+pub fn after_fitting(problem: &Problem, choice: &Choice, after: &[Violation], clocks: &[Drift]) -> Result<Outcome> {
+    if let Some(missed) = hopeless(after) {
+        let slip = slips::suspected(&choice.before.model, &problem.records)?;
+        let why = slip.unwrap_or_else(|| "clocks, columns or units do not match, or the wheels spin.".into());
+        return Ok(outcome(Verdict::UnusableData, &format!("{missed}: {why}"), None));
+    }
+    Ok(fitted(choice, after, clocks))
+}
+
+fn fitted(choice: &Choice, after: &[Violation], clocks: &[Drift]) -> Outcome {
+    if let Some(sentence) = sliding(after).or_else(|| mismatched(clocks)) {
         return outcome(Verdict::UnusableData, &sentence, None);
     }
     let without_name = choice.chosen.iter().any(|c| unnamed::is_term(&c.applied));
@@ -185,11 +210,7 @@ fn hopeless(after: &[Violation]) -> Option<String> {
     let share = |[miss, motion, _]: [f64; 3]| (miss / motion.max(f64::MIN_POSITIVE)).sqrt();
     let asked = [("motion", moves, share(sums[0])), ("turning", turns, share(sums[1]))];
     let (what, _, share) = asked.into_iter().find(|(_, asked, share)| *asked && *share > HOPELESS)?;
-    Some(format!(
-        "The model misses {:.0} % of the {what} over one second, whatever is added: clocks, columns or units do not \
-         match, or the wheels spin.",
-        100.0 * share.min(1.0)
-    ))
+    Some(format!("The model misses {:.0} % of the {what} over one second, whatever is added", 100.0 * share.min(1.0)))
 }
 
 /// A vehicle that slides: no coefficient of creep describes slip angles of tens of degrees.
@@ -251,5 +272,19 @@ mod tests {
         assert!(missed(&known).is_none(), "what is known to a quarter of its size would have been seen");
         let open = [scored("rotation-creep", 0.2), scored("yaw-rate-scale", 0.3)];
         assert_eq!(missed(&open).unwrap().applied.effect.id, "yaw-rate-scale");
+    }
+
+    #[test]
+    fn the_longest_slide_of_all_runs_is_told() {
+        let first = Violation::across("first", &[0.0, 0.5, 0.5, 0.0, -0.5, 0.5, 0.5, 0.0]);
+        let second = Violation::across("second", &[0.5, 0.5, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0]);
+        let third = Violation::across("third", &[0.0, 0.0, 0.0, 0.5, 0.5, 0.0, 0.0, 0.0]);
+        let told = sliding(&[second.clone(), first.clone(), third.clone()]).unwrap();
+        assert!(told.contains("in first from 4.0 to 7.0 s"), "{told}");
+        let told = sliding(&[second, third]).unwrap();
+        assert!(told.contains("from 0.0 to 2.0 s") || told.contains("from 3.0 to 5.0 s"), "{told}");
+        // A single second is a bump, and what stays below the angle is creep.
+        assert!(sliding(&[Violation::across("bump", &[0.0, 0.5, 0.0, 0.5, 0.0])]).is_none());
+        assert!(sliding(&[Violation::across("creeping", &[0.3; 8])]).is_none());
     }
 }

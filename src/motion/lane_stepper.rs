@@ -222,3 +222,72 @@ fn step<const L: usize>(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::{self, Applied};
+    use crate::model::Model;
+    use crate::motion::Timing;
+
+    /// How two spans are divided: at each arc's own yaw rate, with a slide that forgets in so many seconds, if any.
+    fn divided(yaw_rate: [f64; 2], forgets_in: Option<f64>, span: [f64; 2]) -> Steps<2> {
+        let mut model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+        if let Some(tau) = forgets_in {
+            model = model.with_effect(Applied::new(effects::named("cornering-creep").unwrap(), None, vec![tau]));
+        }
+        let equations = model.equations(&[]).unwrap();
+        // A rate for each of the arcs, which begin at 0 and at 1 s.
+        let columns: Vec<Vec<f64>> = equations
+            .inputs
+            .iter()
+            .map(|name| if name.as_str() == "yaw_rate" { yaw_rate.to_vec() } else { vec![2.0; 2] })
+            .collect();
+        let signals = Signals::new(&[0.0, 1.0], &columns, Timing::Sample);
+        let (z, from) = (vec![[0.0; 2]; equations.n()], [0.0, 1.0]);
+        let mut motion = Motion::new(&equations, &signals, [&[], &[]]);
+        let mut rate = Arcs::default();
+        rate.make_room(z.len(), 0);
+        motion.rate(&z, &[], &from, &mut rate);
+        steps(&mut motion, &z, &[], &rate.z, &from, &[from[0] + span[0], from[1] + span[1]])
+    }
+
+    /// Steps of a tenth of a radian, either way, one at least and 4096 at most; none where there is no way to go.
+    #[test]
+    fn steps_follow_the_yaw_rate() {
+        let equal = |yaw_rate, span| divided(yaw_rate, None, span).equal;
+        assert_eq!(equal([2.04, -0.51], [1.0, 1.0]), [21.0, 6.0]);
+        assert_eq!(equal([2.04, -0.51], [-0.1, 3.0]), [3.0, 16.0]);
+        assert_eq!(equal([0.0, 1e9], [1.0, 1.0]), [1.0, 4096.0]);
+        assert_eq!(equal([3.0, 3.0], [0.0, 0.01]), [0.0, 1.0]);
+    }
+
+    /// 0.35 of a time constant at most, or a tenth of a radian where that is shorter.
+    #[test]
+    fn steps_follow_a_time_constant() {
+        let divided = divided([1.0, 9.3], Some(0.1), [1.0, 1.0]);
+        assert_eq!(divided.equal, [29.0, 93.0]);
+        assert!(divided.forgotten.is_none());
+    }
+
+    /// Sixty-four steps are the most that are made for a time constant; beyond, its limit is followed in steps of a
+    /// thirty-second of the span or of three tenths of a radian.
+    #[test]
+    fn a_limit_is_followed_where_a_time_constant_is_short() {
+        // 63.5 steps, and 64.4.
+        let divided_at = |yaw_rate, tau: f64| divided([1.0, yaw_rate], Some(tau), [0.2, -0.2]);
+        let divided = divided_at(800.0, 0.009);
+        assert_eq!(divided.equal, [64.0, 1600.0]);
+        assert!(divided.forgotten.is_none());
+        for (yaw_rate, turns) in [(800.0, 1600.0), (1e9, 4096.0)] {
+            let divided = divided_at(yaw_rate, 0.00887);
+            assert_eq!(divided.equal, [0.0; 2]);
+            let spans = divided.forgotten.unwrap();
+            assert_eq!((spans.from, spans.length), ([0.0, 1.0], [0.2, 0.8 - 1.0]));
+            let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-12 * b, "{a} {b}");
+            spans.first.map(|first| near(first, 0.35 * 0.00887));
+            near(spans.longest[0], 0.2 / 32.0);
+            near(spans.longest[1], 0.2 * 3.0 / turns);
+        }
+    }
+}

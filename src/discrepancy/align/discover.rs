@@ -9,6 +9,7 @@ use crate::discrepancy::discover::{Discovery, Request, common_roles, discover, u
 use crate::discrepancy::identifiable::{Check, Checked, Finding, check};
 use crate::discrepancy::problem::Problem;
 use crate::discrepancy::report::{Estimate, RunClock};
+use crate::discrepancy::slips::too_sparse;
 use crate::effects::{Applied, Effect};
 use crate::error::{Error, Result};
 use crate::files::{Clock, Run};
@@ -139,7 +140,7 @@ fn aligned(
 ) -> Result<std::result::Result<Vec<Aligned>, Obstacle>> {
     let one = |run: &Run| -> Result<std::result::Result<Aligned, Obstacle>> {
         let part = run.beginning(share);
-        if let Some(obstacle) = endless(&part) {
+        if let Some(obstacle) = endless(&part).map_or_else(|| too_sparse(model, [&part]), |o| Ok(Some(o)))? {
             return Ok(Err(obstacle));
         }
         let driven = Driven::of(model, &part, request.file.input_timing.into())?;
@@ -208,7 +209,7 @@ fn with_effects(request: &Request, model: &Model, first: &[Aligned], progress: &
     // Three quarters of the rows are enough to choose by.
     let data = Data::of(&request, model)?;
     let problem = Problem::new(data.fitted, request.file.noise.position, request.file.noise.heading);
-    if crate::discrepancy::verdict::before_fitting(&problem).is_some() {
+    if crate::discrepancy::verdict::before_fitting(&problem, model)?.is_some() {
         return Ok(model.clone());
     }
     let Some(choice) = choose(&problem, model, request.library, progress)? else { return Ok(model.clone()) };

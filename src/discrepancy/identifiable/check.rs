@@ -13,6 +13,7 @@ use crate::discrepancy::record::Record;
 use crate::discrepancy::relatives::measured;
 use crate::discrepancy::report::Verdict;
 use crate::discrepancy::selection::FULL;
+use crate::discrepancy::slips::too_sparse;
 use crate::discrepancy::summary::listed;
 use crate::discrepancy::variances::without_jump;
 use crate::discrepancy::verdict::{self, BASIC};
@@ -53,12 +54,19 @@ pub fn check(of: &Checked, progress: &dyn Fn(&str)) -> Result<Check> {
     let roles = crate::discrepancy::discover::common_roles(of.runs, &[])?;
     let model = Model::from_file(of.file, of.library, &roles)?;
     progress("looking at the rows");
-    let record = |r: &Run| without_gross_errors(&Record::of_run(r, of.file.input_timing, model.trailers.len()), &model);
+    let sparse = too_sparse(&model, of.runs)?;
+    let record = |r: &Run| {
+        let record = Record::of_run(r, of.file.input_timing, model.trailers.len());
+        if sparse.is_some() { Ok((record, 0)) } else { without_gross_errors(&record, &model) }
+    };
     let clean: Vec<(Record, usize)> = of.runs.par_iter().map(record).collect::<Result<_>>()?;
     let (records, gross): (Vec<Record>, Vec<usize>) = clean.into_iter().unzip();
     let data = health(&model, of.runs, &records, &gross)?;
+    if let Some(why) = sparse {
+        return Ok(without_fit(data, verdict::unusable(why)));
+    }
     let problem = Problem::new(records, of.file.noise.position, of.file.noise.heading);
-    if let Some(outcome) = verdict::before_fitting(&problem) {
+    if let Some(outcome) = verdict::before_fitting(&problem, &model)? {
         return Ok(without_fit(data, outcome));
     }
     progress("fitting the model as it is");

@@ -4,6 +4,7 @@ use super::driving::{driving, quantile};
 use super::outcome::{Finding, Health, RunHealth};
 use crate::discrepancy::fit::Fit;
 use crate::discrepancy::record::Record;
+use crate::discrepancy::slips::{SPARSE, wrong_turn, wrong_way};
 use crate::discrepancy::whiteness::NOTICEABLE;
 use crate::error::Result;
 use crate::files::Run;
@@ -14,8 +15,6 @@ use crate::picture::number::significant;
 const MANY_DROPPED: f64 = 0.05;
 /// Scatter of the times between rows that is worth a word.
 const UNEVEN: f64 = 0.3;
-/// Rows further apart than this are no log of a motion, s.
-const SPARSE: f64 = 1.0;
 /// Way and turning that the model's parameters may be wrong by without a word.
 const RIGHT: [f64; 2] = [0.8, 1.25];
 /// Share of the time below which a turn direction counts as never driven.
@@ -121,7 +120,7 @@ fn findings(runs: &[RunHealth], records: &[Record]) -> Vec<Finding> {
             );
         }
         if let Some(ratio) = r.way_ratio.filter(|x| !(RIGHT[0]..RIGHT[1]).contains(x)) {
-            say("way", format!("{name}: {}", wrong_way(ratio)));
+            say("way", format!("{name}: {}", wrong_way(ratio, 1.0 / r.rate_hz)));
         }
         if let Some(ratio) = r.turn_ratio.filter(|x| !(RIGHT[0]..RIGHT[1]).contains(x)) {
             say("turning", format!("{name}: {}", wrong_turn(ratio)));
@@ -158,57 +157,9 @@ fn findings(runs: &[RunHealth], records: &[Record]) -> Vec<Finding> {
     found
 }
 
-/// Why the model drives another way than was measured.
-fn wrong_way(ratio: f64) -> String {
-    let says = format!("the measured way is {} times what the model drives", significant(ratio, 3));
-    let near = |x: f64| (ratio / x).ln().abs() < 0.25;
-    let why = match () {
-        () if near(1e3) => "is the position in millimetres?",
-        () if near(1e2) => "is the position in centimetres?",
-        () if near(1e-3) => "is a speed in millimetres per second?",
-        () if near(1.0 / 3.6) => "is the speed in km/h?",
-        () if near(std::f64::consts::TAU) => "is the wheel rate in turns per second?",
-        () if near(std::f64::consts::TAU / 60.0) => "is the wheel rate in turns per minute?",
-        () if near(0.5) || near(2.0) => "is wheel_radius a diameter, or the other way round?",
-        () => "check wheel_radius and the units of position and wheel rate",
-    };
-    format!("{says}: {why}")
-}
-
-/// Why the model turns otherwise than was measured.
-fn wrong_turn(ratio: f64) -> String {
-    let degrees = 180.0 / std::f64::consts::PI;
-    let near = |x: f64| ratio * x > 0.0 && (ratio / x).ln().abs() < 0.25;
-    let says = format!("the measured turning is {} times the model's", significant(ratio, 3));
-    let why = match () {
-        () if near(degrees) || near(-degrees) => "is the heading in degrees?",
-        () if near(1.0 / degrees) || near(-1.0 / degrees) => "is the yaw rate, or the angle, in degrees?",
-        () if ratio < 0.0 => "are left and right swapped, or do angles count clockwise?",
-        () => "check track_width or wheelbase, and the units of heading and yaw rate",
-    };
-    format!("{says}: {why}")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn usual_slips_of_units_are_named() {
-        for (ratio, word) in [(1010.0, "millimetres?"), (0.1, "per minute"), (0.27, "km/h"), (0.7, "wheel_radius")] {
-            assert!(wrong_way(ratio).contains(word), "{ratio}: {}", wrong_way(ratio));
-        }
-        for (ratio, word) in [
-            (57.0, "heading in degrees"),
-            (-57.0, "heading in degrees"),
-            (-0.0175, "yaw rate"),
-            (-1.02, "swapped"),
-            (0.0175, "yaw rate"),
-            (0.6, "track_width"),
-        ] {
-            assert!(wrong_turn(ratio).contains(word), "{ratio}: {}", wrong_turn(ratio));
-        }
-    }
 
     /// A run with nothing to say about.
     fn usual() -> RunHealth {

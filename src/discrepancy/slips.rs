@@ -1,0 +1,199 @@
+//! Slips of units and columns: numbers that no vehicle explains, and what they look like.
+
+use super::driven::{Ratios, steps};
+use super::record::Record;
+use crate::error::Result;
+use crate::files::Run;
+use crate::model::Model;
+use crate::picture::number::significant;
+use std::f64::consts::{PI, TAU};
+
+/// Rows further apart than this are no log of a motion, s.
+pub const SPARSE: f64 = 1.0;
+/// A vehicle that moves, or turns, by less than this share of what its model does is not driven by its wheels.
+const ROLLS: f64 = 0.02;
+/// A model that turns less may do so by the bias and the noise of a gyro, rad/s, root mean square.
+const TURNING: f64 = 0.1;
+/// How near, as a logarithm, a ratio is to that of a usual slip.
+const NEAR: f64 = 0.25;
+
+/// Why inputs say nothing of the motion: the vehicle turns by more than half a turn from row to row, as a rule, so that
+/// nobody knows where it points in between.
+///
+/// # Errors
+/// When the model's formulas are malformed.
+pub fn too_sparse<'a>(model: &Model, runs: impl IntoIterator<Item = &'a Run>) -> Result<Option<String>> {
+    for run in runs {
+        let (turn, step) = between_rows(model, run)?;
+        if turn > PI {
+            let [turn, step] = [turn, step].map(|x| significant(x, 3));
+            return Ok(Some(format!(
+                "The inputs of {} turn the vehicle by {turn} rad from row to row, in {step} s, so these rows do not show \
+                 how it moves: is time in seconds, and are the inputs in SI units?",
+                run.name
+            )));
+        }
+    }
+    Ok(None)
+}
+
+/// Medians of the turn between neighbouring rows of the inputs, rad, and of the time, s.
+fn between_rows(model: &Model, run: &Run) -> Result<(f64, f64)> {
+    let equations = model.equations(&[])?;
+    let time = run.apart.as_ref().map_or(&run.time, |a| &a.time);
+    let (mut memory, z) = (equations.workspace(&[]), vec![0.0; equations.n()]);
+    let (mut u, mut rates) = (vec![0.0; run.inputs.len()], z.clone());
+    let (mut turns, mut between) = (vec![], vec![]);
+    for (i, pair) in time.windows(2).enumerate() {
+        u.iter_mut().zip(&run.inputs).for_each(|(u, column)| *u = column[i]);
+        equations.rates(&mut memory, &z, &u, &mut rates);
+        let step = pair[1] - pair[0];
+        between.push(step);
+        // Where the motion is undefined it says nothing of its turns.
+        turns.extend(Some((rates[2] * step).abs()).filter(|t| t.is_finite()));
+    }
+    Ok((median(turns), median(between)))
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    let middle = values.len() / 2;
+    if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f64::total_cmp).1 }
+}
+
+/// Why a vehicle that hardly moves as its inputs say, or in another direction than it points, cannot be put to its model.
+///
+/// # Errors
+/// When the model's formulas are malformed.
+pub fn another_motion(model: &Model, records: &[Record]) -> Result<Option<String>> {
+    for (record, ratios) in records.iter().zip(ratios(model, records)?) {
+        if record.has_heading && ratios.is_mirrored() {
+            return Ok(Some(format!(
+                "In {} the path is the mirror image of what the headings say: are x and y swapped, does one of them have \
+                 the wrong sign, or does the heading count clockwise?",
+                record.name
+            )));
+        }
+        if let Some(ratio) = ratios.turn.filter(|r| r.abs() < ROLLS && ratios.yaw_rate > TURNING) {
+            return Ok(Some(format!("In {} {}", record.name, wrong_turn(ratio))));
+        }
+        if let Some(ratio) = ratios.way.filter(|r| *r < ROLLS) {
+            return Ok(Some(format!(
+                "In {} {}, or do the wheels spin?",
+                record.name,
+                wrong_way(ratio, record.step()).trim_end_matches('?')
+            )));
+        }
+    }
+    Ok(None)
+}
+
+fn ratios(model: &Model, records: &[Record]) -> Result<Vec<Ratios>> {
+    records.iter().map(|r| Ok(Ratios::of(&steps(model, r)?, r, r.position_noise()))).collect()
+}
+
+/// The usual slip that what was measured looks like beside what the model drives, of the first run that looks like one.
+///
+/// # Errors
+/// When the model's formulas are malformed.
+pub fn suspected(model: &Model, records: &[Record]) -> Result<Option<String>> {
+    for (record, ratios) in records.iter().zip(ratios(model, records)?) {
+        let turn = ratios.turn.and_then(|r| Some(turned(r, usual_turn(r)?)));
+        let way = ratios.way.and_then(|r| Some(gone(r, usual_way(r)?)));
+        if let Some(says) = turn.or(way) {
+            return Ok(Some(format!("in {} {says}", record.name)));
+        }
+    }
+    Ok(None)
+}
+
+/// Why the model drives another way than was measured, where rows are some time apart.
+pub fn wrong_way(ratio: f64, step: f64) -> String {
+    let unknown = if step > SPARSE {
+        "is time in seconds?"
+    } else {
+        "check wheel_radius and the units of position and wheel rate"
+    };
+    gone(ratio, usual_way(ratio).filter(|_| step <= SPARSE).unwrap_or(unknown))
+}
+
+fn gone(ratio: f64, why: &str) -> String {
+    format!("the measured way is {} times what the model drives: {why}", significant(ratio, 3))
+}
+
+fn usual_way(ratio: f64) -> Option<&'static str> {
+    let near = |x: f64| (ratio / x).ln().abs() < NEAR;
+    Some(match () {
+        () if near(1e3) => "is the position in millimetres?",
+        () if near(1e2) => "is the position in centimetres?",
+        () if near(1e-3) => "is a speed in millimetres per second?",
+        () if near(PI / 180.0) => "is the wheel rate in degrees per second?",
+        () if near(1.0 / 3.6) => "is the speed in km/h?",
+        () if near(TAU) => "is the wheel rate in turns per second?",
+        () if near(TAU / 60.0) => "is the wheel rate in turns per minute, or wheel_radius wrong?",
+        () if near(0.5) || near(2.0) => "is wheel_radius a diameter, or the other way round?",
+        () => return None,
+    })
+}
+
+/// Why the model turns otherwise than was measured.
+pub fn wrong_turn(ratio: f64) -> String {
+    let unknown = match ratio < 0.0 {
+        true => BACKWARDS,
+        false => "check track_width or wheelbase, and the units of heading and yaw rate",
+    };
+    turned(ratio, usual_turn(ratio).unwrap_or(unknown))
+}
+
+const BACKWARDS: &str = "are left and right swapped, or do angles count clockwise?";
+
+fn turned(ratio: f64, why: &str) -> String {
+    format!("the measured turning is {} times the model's: {why}", significant(ratio, 3))
+}
+
+fn usual_turn(ratio: f64) -> Option<&'static str> {
+    let degrees = 180.0 / PI;
+    let near = |x: f64| ratio * x > 0.0 && (ratio / x).ln().abs() < NEAR;
+    Some(match () {
+        () if near(degrees) || near(-degrees) => "is the heading in degrees?",
+        () if near(1.0 / degrees) || near(-1.0 / degrees) => "is the yaw rate, or the angle, in degrees?",
+        () if near(-1.0) => BACKWARDS,
+        () => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn usual_slips_of_units_are_named() {
+        for (ratio, word) in [
+            (1010.0, "millimetres?"),
+            (90.0, "centimetres?"),
+            (0.0009, "millimetres per second?"),
+            (0.0175, "degrees per second?"),
+            (0.1, "per minute"),
+            (6.3, "turns per second"),
+            (0.27, "km/h"),
+            (0.51, "diameter"),
+            (2.1, "diameter"),
+            (0.7, "wheel_radius"),
+        ] {
+            assert!(wrong_way(ratio, 0.1).contains(word), "{ratio}: {}", wrong_way(ratio, 0.1));
+        }
+        assert!(wrong_way(0.001, 1.1).contains("is time in seconds?"));
+        assert_eq!(usual_way(0.7), None);
+        for (ratio, word) in [
+            (57.0, "heading in degrees"),
+            (-57.0, "heading in degrees"),
+            (-0.0175, "yaw rate"),
+            (-1.02, "swapped"),
+            (-0.4, "swapped"),
+            (0.0175, "yaw rate"),
+            (0.6, "track_width"),
+        ] {
+            assert!(wrong_turn(ratio).contains(word), "{ratio}: {}", wrong_turn(ratio));
+        }
+        assert_eq!((usual_turn(-0.4), usual_turn(0.6), usual_turn(1.0)), (None, None, None));
+    }
+}

@@ -51,9 +51,9 @@ fn aims(body: Body, seed: u64) -> [&'static str; 2] {
 }
 
 impl Forced {
-    /// A run of 60 s at 25 Hz with the scatter of a good camera.
+    /// A run of 60 s at 15 Hz with the scatter of a good camera.
     pub fn new(body: Body, law: &'static str, values: &[f64], seed: u64) -> Self {
-        Self { body, law, values: values.to_vec(), seconds: 60.0, hertz: 25.0, noise: [0.002, 0.002], seed }
+        Self { body, law, values: values.to_vec(), seconds: 60.0, hertz: 15.0, noise: [0.002, 0.002], seed }
     }
 
     /// The vehicle with its hidden friction.

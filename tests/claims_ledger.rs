@@ -1,7 +1,8 @@
 //! The ledger: every stated status is earned, the same for any number of threads, and a false claim is found out.
 
 use creepage::claims::{
-    self, Claim, Gives, Ledger, Machine, Options, Outcome, Sampling, Statement, Status, ledger, mutants, prove, proving, verify,
+    self, Claim, Gives, Ledger, Machine, Options, Outcome, Sampling, Statement, Status, ledger, mutants, prove,
+    proving, verify,
 };
 use std::path::Path;
 use std::process::{Command, Output};

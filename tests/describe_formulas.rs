@@ -9,6 +9,7 @@ use creepage::model::Model;
 use creepage::vehicles;
 use models::{machines, machines_with_effects, reviewed, reviewed_as_text, still, with_each_effect};
 use rayon::prelude::*;
+use rayon::prelude::*;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
@@ -233,7 +234,7 @@ fn the_json_holds_every_formula_and_every_symbol() {
 
 #[test]
 fn signatures_are_those_of_the_theory() {
-    for n in 0..=10 {
+    (0..=10).into_par_iter().for_each(|n| {
         let trailers = vec![creepage::model::Trailer { length: 1.0, hitch: 0.0 }; n];
         for (id, r, t) in [
             ("unicycle", 1, 1),
@@ -247,7 +248,7 @@ fn signatures_are_those_of_the_theory() {
             let d = Description::of(&models::vehicle(id, &[1.0]).with_trailers(&trailers)).unwrap();
             assert_eq!((d.signature.count('R'), d.signature.count('T')), (r, t + n), "{id} + {n}");
         }
-    }
+    });
     for (id, r, t) in [("disk", 1, 0), ("sleigh", 0, 1), ("skid-steer", 4, 2)] {
         let d = Description::of(&models::vehicle(id, &[1.0])).unwrap();
         assert_eq!((d.signature.count('R'), d.signature.count('T')), (r, t), "{id}");

@@ -75,7 +75,7 @@ fn times_that_are_no_seconds() {
 fn inputs_in_other_units() {
     let wheels = |row: &mut [f64]| row[INPUT..].iter_mut().for_each(|u| *u /= DEGREE);
     is_told_at_once(Tractor::DifferentialDrive, &wheels, "is the yaw rate, or the angle, in degrees?");
-    is_told(Tractor::Unicycle, &|row| row[INPUT + 1] /= DEGREE, "is the yaw rate, or the angle, in degrees?");
+    is_told_at_once(Tractor::Unicycle, &|row| row[INPUT + 1] /= DEGREE, "is the yaw rate, or the angle, in degrees?");
     is_told_at_once(Tractor::Car, &|row| row[INPUT] *= 1e3, "are the inputs in SI units?");
     is_told_at_once(Tractor::Unicycle, &|row| row[INPUT] *= 1e3, "is a speed in millimetres per second");
 }
@@ -83,9 +83,9 @@ fn inputs_in_other_units() {
 #[test]
 fn poses_in_other_units() {
     let by = |factor: f64| move |row: &mut [f64]| [X, Y].into_iter().for_each(|c| row[c] *= factor);
-    is_told(Tractor::Unicycle, &by(1e3), "is the position in millimetres?");
-    is_told(Tractor::Car, &by(1e2), "is the position in centimetres?");
-    is_told(Tractor::Car, &|row| row[HEADING] /= DEGREE, "is the heading in degrees?");
+    is_told_at_once(Tractor::Unicycle, &by(1e3), "is the position in millimetres?");
+    is_told_at_once(Tractor::Car, &by(1e2), "is the position in centimetres?");
+    is_told_at_once(Tractor::Car, &|row| row[HEADING] /= DEGREE, "is the heading in degrees?");
 }
 
 #[test]
@@ -94,8 +94,8 @@ fn mirror_images() {
         is_told_at_once(tractor, &|row| row.swap(X, Y), "are x and y swapped");
         is_told_at_once(tractor, &|row| row[Y] = -row[Y], "have the wrong sign");
     }
-    is_told(Tractor::Unicycle, &|row| row[HEADING] = -row[HEADING], "do angles count clockwise?");
-    is_told(Tractor::Unicycle, &|row| row[INPUT + 1] = -row[INPUT + 1], "are left and right swapped");
+    is_told_at_once(Tractor::Unicycle, &|row| row[HEADING] = -row[HEADING], "do angles count clockwise?");
+    is_told_at_once(Tractor::Unicycle, &|row| row[INPUT + 1] = -row[INPUT + 1], "are left and right swapped");
 }
 
 /// A wheel rate in turns per minute may also be a wheel of another size: it is named, and the doubt is told.

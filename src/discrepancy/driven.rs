@@ -77,10 +77,15 @@ pub fn steps(model: &Model, record: &Record) -> Result<Vec<Step>> {
 }
 
 impl Ratios {
+    /// Whether the vehicle moves where it points.
+    pub fn follows(&self) -> bool {
+        self.alike[0] > UNLIKE
+    }
+
     /// Whether the path is the mirror image of what the headings say. Where the vehicle hardly turns nobody can tell.
     pub fn is_mirrored(&self) -> bool {
         let [direct, mirrored] = self.alike;
-        direct < UNLIKE && 1.0 - mirrored < MIRRORED * (1.0 - direct)
+        !self.follows() && 1.0 - mirrored < MIRRORED * (1.0 - direct)
     }
 
     /// Of the windows of a run whose position has some noise.

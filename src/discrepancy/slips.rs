@@ -73,8 +73,14 @@ pub fn another_motion(model: &Model, records: &[Record]) -> Result<Option<String
                 record.name
             )));
         }
-        if let Some(ratio) = ratios.turn.filter(|r| r.abs() < ROLLS && ratios.yaw_rate > TURNING) {
-            return Ok(Some(format!("In {} {}", record.name, wrong_turn(ratio))));
+        if let Some(ratio) = ratios.turn.filter(|_| ratios.yaw_rate > TURNING) {
+            if ratio.abs() < ROLLS || usual_turn(ratio).is_some() {
+                return Ok(Some(format!("In {} {}", record.name, wrong_turn(ratio))));
+            }
+        }
+        // Along where it points; what carries a vehicle that hardly drives does so in any direction.
+        if let Some(ratio) = ratios.way.filter(|r| *r > 1.0 / ROLLS && ratios.follows()) {
+            return Ok(Some(format!("In {} {}", record.name, wrong_way(ratio, record.step()))));
         }
         if let Some(ratio) = ratios.way.filter(|r| *r < ROLLS) {
             return Ok(Some(format!(

@@ -5,6 +5,7 @@ mod simulator;
 
 use creepage::discrepancy::align::{check_aligned, discover_aligned};
 use creepage::discrepancy::discover::{Request, discover};
+use creepage::discrepancy::html::html;
 use creepage::discrepancy::identifiable::{Checked, Standing, check};
 use creepage::discrepancy::report::{Report, Verdict};
 use creepage::effects;
@@ -111,6 +112,20 @@ fn what_may_be_a_wheel_of_another_size() {
         "{warning}"
     );
     assert!(warning.ends_with("is the wheel rate in turns per minute, or wheel_radius wrong?"), "{warning}");
+}
+
+/// The measured path and the model's, side by side, show a mirror image at once; there is no other model to show.
+#[test]
+fn the_picture_shows_what_is_wrong() {
+    let (file, log) = driven(Tractor::Unicycle, &[]);
+    let runs = [slipped(&file, &log, &|row| row.swap(X, Y))];
+    let request = Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[], seed: 1 };
+    let found = discover(&request, &|_| ()).unwrap();
+    let [path] = &found.pictures.paths[..] else { panic!("{:?}", found.pictures.paths.len()) };
+    assert!(!path.before.is_empty() && path.after.is_empty());
+    let page = html(&found.report, &found.pictures);
+    assert!(page.contains(">model as given<") && page.contains("restarted at every ring.</"), "{page}");
+    assert!(!page.contains(">patched model<"));
 }
 
 /// A run that is held out is looked at, too, and so are inputs with a clock of their own.

@@ -68,10 +68,13 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
     let known = request.file.noise;
     let problem = Problem::new(data.fitted.clone(), known.position, known.heading);
     if let Some(verdict) = verdict::before_fitting(&problem, &model)? {
-        return Ok(nothing_to_fit(request, &data, verdict));
+        let given = |r| picture::path_as_given(r, &model);
+        let paths = data.fitted.iter().map(given).collect::<Result<_>>()?;
+        return Ok(nothing_to_fit(request, &data, paths, verdict));
     }
     let Some(choice) = choose(&problem, &model, request.library, progress)? else {
-        return Ok(nothing_to_fit(request, &data, verdict::undefined_motion()));
+        let paths = data.fitted.iter().map(|r| picture::measured_path(r, false)).collect();
+        return Ok(nothing_to_fit(request, &data, paths, verdict::undefined_motion()));
     };
     progress("opening the held-out data");
     let noise = choice.after.variances.noise;
@@ -176,15 +179,14 @@ fn empty_report(request: &Request, data: &Data) -> Report {
 /// The answer for runs that cannot be put to the model, and why.
 pub(super) fn unusable(request: &Request, why: String) -> Result<Discovery> {
     let data = Data { fitted: vec![], held_out: vec![], gross: 0 };
-    Ok(nothing_to_fit(request, &data, verdict::unusable(why)))
+    Ok(nothing_to_fit(request, &data, vec![], verdict::unusable(why)))
 }
 
-fn nothing_to_fit(request: &Request, data: &Data, outcome: verdict::Outcome) -> Discovery {
+fn nothing_to_fit(request: &Request, data: &Data, paths: Vec<PathPicture>, outcome: verdict::Outcome) -> Discovery {
     let mut report = empty_report(request, data);
     report.verdict = outcome.verdict;
     report.summary = outcome.sentence.unwrap_or_else(|| summary::verdict_sentence(&report));
     report.next_experiment = outcome.next_experiment;
-    let paths = data.fitted.iter().map(|r| picture::measured_path(r, false)).collect();
     Discovery { report, pictures: Pictures { paths, ..Pictures::default() }, added: vec![] }
 }
 

@@ -7,6 +7,7 @@ use super::judged::{Judged, Predictors};
 use super::record::Record;
 use super::report::{Candidate, PathPicture, Pictures, Report};
 use crate::effects::Applied;
+use crate::error::Result;
 use crate::model::Model;
 
 /// Runs that are drawn.
@@ -48,16 +49,23 @@ pub(super) fn measured_path(record: &Record, held_out: bool) -> PathPicture {
     }
 }
 
+/// The measured path of a run beside that of the model as given, which nothing was fitted to.
+pub(super) fn path_as_given(record: &Record, model: &Model) -> Result<PathPicture> {
+    let before = pieces(record, &Predictor::new(model, record)?);
+    Ok(PathPicture { before, ..measured_path(record, false) })
+}
+
 /// Measured and predicted paths; the models are restarted so rarely that a gap shows, and at least once a picture.
 fn path(record: &Record, held_out: bool, before: &Predictor, after: &Predictor) -> PathPicture {
+    PathPicture { before: pieces(record, before), after: pieces(record, after), ..measured_path(record, held_out) }
+}
+
+fn pieces(record: &Record, predictor: &Predictor) -> Vec<Vec<[f64; 2]>> {
     let duration = record.time[record.rows.end - 1] - record.time[record.rows.start];
     let horizon = (duration - 1.5).clamp(1.0, 30.0);
-    let pieces = |p: &Predictor| -> Vec<Vec<[f64; 2]>> {
-        let xy = |y: Vec<f64>| [y[0], y[1]];
-        let piece = |(from, to): (usize, usize)| p.outputs(from, to).into_iter().map(xy).collect();
-        p.windows(horizon).into_iter().map(piece).collect()
-    };
-    PathPicture { before: pieces(before), after: pieces(after), ..measured_path(record, held_out) }
+    let xy = |y: Vec<f64>| [y[0], y[1]];
+    let piece = |(from, to): (usize, usize)| predictor.outputs(from, to).into_iter().map(xy).collect();
+    predictor.windows(horizon).into_iter().map(piece).collect()
 }
 
 /// What an effect says, as equations: each definition it rewrites, and the rates of its states.

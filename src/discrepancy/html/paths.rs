@@ -14,13 +14,21 @@ const MOST_POINTS: usize = 2200;
 /// Restarts that get a ring; with more the rings would hide the path.
 const MOST_RINGS: usize = 40;
 
-/// What the lines are called.
-pub const KEYS: [Key; 4] = [
-    Key { class: "measured", marker: None, label: "measured" },
-    Key { class: "before", marker: None, label: "model as given" },
-    Key { class: "after", marker: None, label: "patched model" },
-    Key { class: "start", marker: Some(Marker::Ring), label: "restart" },
-];
+/// What the lines of some runs are called, but for those that none of them has.
+pub fn keys(runs: &[&PathPicture]) -> Vec<Key<'static>> {
+    let key = |class, marker, label| Key { class, marker, label };
+    let given = runs.iter().any(|r| !r.before.is_empty());
+    let patched = runs.iter().any(|r| !r.after.is_empty());
+    [
+        (true, key("measured", None, "measured")),
+        (given, key("before", None, "model as given")),
+        (patched, key("after", None, "patched model")),
+        (given, key("start", Some(Marker::Ring), "restart")),
+    ]
+    .into_iter()
+    .filter_map(|(drawn, key)| drawn.then_some(key))
+    .collect()
+}
 
 /// A panel for every run, the held-out ones first; none with fewer than two runs, which the story shows already.
 pub fn figure(pictures: &Pictures) -> Option<Element> {
@@ -37,15 +45,15 @@ pub fn figure(pictures: &Pictures) -> Option<Element> {
         format!("{}{rest}", "Both axes have the same scale. At every ring the model restarts on the measured path.");
     Some(part::figure(
         panels,
-        Some(key()),
+        Some(key(&runs)),
         "Every run from above: where the dashed line leaves the grey one, the model is wrong.",
         &how,
     ))
 }
 
 /// The legend as a drawing of its own.
-pub fn key() -> Element {
-    let (row, width) = legend(&KEYS, [4.0, 12.0]);
+pub fn key(runs: &[&PathPicture]) -> Element {
+    let (row, width) = legend(&keys(runs), [4.0, 12.0]);
     Element::new("svg")
         .with("viewBox", format!("0 0 {} 24", width.ceil()))
         .with("class", "key")

@@ -1,6 +1,6 @@
 //! The one picture that tells the story: a path and a gap shrinking.
 
-use super::paths::{self, KEYS};
+use super::paths;
 use super::{gap, part};
 use crate::discrepancy::report::{PathPicture, Pictures, Report};
 use crate::discrepancy::summary::{judged, middle, verdict_sentence};
@@ -17,10 +17,18 @@ const MARGIN: f64 = 20.0;
 /// The story for the page; none with nothing to draw.
 pub fn figure(report: &Report, pictures: &Pictures) -> Option<Element> {
     let panels = panels(report, pictures, "story");
-    let key = shown(pictures).map(|_| paths::key());
+    let key = shown(pictures).map(|run| paths::key(&[run]));
     let see = headline(report);
-    let how = "Grey is what was measured. The dashed line is the model as given, restarted at every ring; the solid line is \
-               the patched model.";
+    let how = match shown(pictures) {
+        Some(run) if run.before.is_empty() => "Grey is what was measured.",
+        Some(run) if run.after.is_empty() => {
+            "Grey is what was measured. The dashed line is the model as given, restarted at every ring."
+        }
+        _ => {
+            "Grey is what was measured. The dashed line is the model as given, restarted at every ring; the solid line \
+             is the patched model."
+        }
+    };
     (!panels.is_empty()).then(|| part::figure(panels, key, &format!("{}.", see.trim_end_matches('.')), how))
 }
 
@@ -59,7 +67,7 @@ pub fn gap_svg(report: &Report, pictures: &Pictures) -> String {
         .child(Element::new("style").text(theme::drawing()))
         .child(rect("paper", [0.0, 0.0], size.width, size.height))
         .child(label("title", [MARGIN, 40.0], "start", cut(&headline(report), (width / 10.5) as usize)))
-        .children(shown(pictures).map(|_| legend(&KEYS, [MARGIN + 4.0, 68.0]).0))
+        .children(shown(pictures).map(|run| legend(&paths::keys(&[run]), [MARGIN + 4.0, 68.0]).0))
         .children(placed);
     format!("{drawing}\n")
 }

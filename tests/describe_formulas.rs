@@ -9,7 +9,6 @@ use creepage::model::Model;
 use creepage::vehicles;
 use models::{machines, machines_with_effects, reviewed, reviewed_as_text, still, with_each_effect};
 use rayon::prelude::*;
-use rayon::prelude::*;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::sync::LazyLock;

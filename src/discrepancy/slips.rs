@@ -73,10 +73,9 @@ pub fn another_motion(model: &Model, records: &[Record]) -> Result<Option<String
                 record.name
             )));
         }
-        if let Some(ratio) = ratios.turn.filter(|_| ratios.yaw_rate > TURNING) {
-            if ratio.abs() < ROLLS || usual_turn(ratio).is_some() {
-                return Ok(Some(format!("In {} {}", record.name, wrong_turn(ratio))));
-            }
+        let no_turn_of_its = |r: &f64| ratios.yaw_rate > TURNING && (r.abs() < ROLLS || usual_turn(*r).is_some());
+        if let Some(ratio) = ratios.turn.filter(no_turn_of_its) {
+            return Ok(Some(format!("In {} {}", record.name, wrong_turn(ratio))));
         }
         // Along where it points; what carries a vehicle that hardly drives does so in any direction.
         if let Some(ratio) = ratios.way.filter(|r| *r > 1.0 / ROLLS && ratios.follows()) {

@@ -285,7 +285,7 @@ mod tests {
             let spans = divided.forgotten.unwrap();
             assert_eq!((spans.from, spans.length), ([0.0, 1.0], [0.2, 0.8 - 1.0]));
             let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-12 * b, "{a} {b}");
-            spans.first.map(|first| near(first, 0.35 * 0.00887));
+            spans.first.into_iter().for_each(|first| near(first, 0.35 * 0.00887));
             near(spans.longest[0], 0.2 / 32.0);
             near(spans.longest[1], 0.2 * 3.0 / turns);
         }

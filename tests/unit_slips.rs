@@ -86,6 +86,11 @@ fn poses_in_other_units() {
     let by = |factor: f64| move |row: &mut [f64]| [X, Y].into_iter().for_each(|c| row[c] *= factor);
     is_told_at_once(Tractor::Unicycle, &by(1e3), "is the position in millimetres?");
     is_told_at_once(Tractor::Car, &by(1e2), "is the position in centimetres?");
+    let globe = |row: &mut [f64]| {
+        row[X] = 9.2 + row[X] / 75e3;
+        row[Y] = 48.7 + row[Y] / 111e3;
+    };
+    is_told_at_once(Tractor::DifferentialDrive, &globe, "degrees of latitude and longitude");
     is_told_at_once(Tractor::Car, &|row| row[HEADING] /= DEGREE, "is the heading in degrees?");
 }
 

@@ -14,6 +14,8 @@ pub const SPARSE: f64 = 1.0;
 const ROLLS: f64 = 0.02;
 /// A model that turns less may do so by the bias and the noise of a gyro, rad/s, root mean square.
 const TURNING: f64 = 0.1;
+/// Ways that are shorter by more than this have been measured on a globe.
+const DEGREES: f64 = 1e-4;
 /// How near, as a logarithm, a ratio is to that of a usual slip.
 const NEAR: f64 = 0.25;
 
@@ -128,6 +130,8 @@ fn gone(ratio: f64, why: &str) -> String {
 fn usual_way(ratio: f64) -> Option<&'static str> {
     let near = |x: f64| (ratio / x).ln().abs() < NEAR;
     Some(match () {
+        // A degree of latitude is 111 km.
+        () if ratio < DEGREES => "is the position in degrees of latitude and longitude?",
         () if near(1e3) => "is the position in millimetres?",
         () if near(1e2) => "is the position in centimetres?",
         () if near(1e-3) => "is a speed in millimetres per second?",
@@ -176,6 +180,7 @@ mod tests {
             (1010.0, "millimetres?"),
             (90.0, "centimetres?"),
             (0.0009, "millimetres per second?"),
+            (1.2e-5, "latitude and longitude?"),
             (0.0175, "degrees per second?"),
             (0.1, "per minute"),
             (6.3, "turns per second"),

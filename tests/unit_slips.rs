@@ -11,7 +11,7 @@ use creepage::discrepancy::report::{Report, Verdict};
 use creepage::effects;
 use creepage::files::{ModelFile, Run};
 use creepage::model;
-use simulator::{Hidden, Log, Noise, Scenario, Tractor};
+use simulator::{Hidden, Log, Noise, Profile, Scenario, Signal, Tractor};
 
 const TIME: usize = 0;
 const X: usize = 1;
@@ -117,6 +117,19 @@ fn what_may_be_a_wheel_of_another_size() {
         "{warning}"
     );
     assert!(warning.ends_with("is the wheel rate in turns per minute, or wheel_radius wrong?"), "{warning}");
+}
+
+/// A gyro that says a straight drive turns has a bias; nobody mixed up its units.
+#[test]
+fn a_bias_on_a_straight_line_is_no_slip() {
+    let profile = Profile { speed: Signal::wave(0.9, 11.0, 0.4), turn: Signal::constant(-0.03) };
+    let hidden = vec![Hidden::YawRateBias { bias: 0.03 }];
+    let usual = Scenario::new(Tractor::Unicycle, 7);
+    let s = Scenario { hidden, profile, duration: 30.0, rate: 20.0, noise: Noise::MOCAP, ..usual };
+    let file = ModelFile::parse(&s.model_toml(), "model.toml", &model::known(effects::all())).unwrap();
+    let report = answers(&file, &[Run::parse("straight.csv", &s.run().to_csv(9), &file).unwrap()], &[]);
+    let [found] = &report.effects[..] else { panic!("{}", report.summary) };
+    assert_eq!(found.id, "yaw-rate-bias");
 }
 
 /// The measured path and the model's, side by side, show a mirror image at once; there is no other model to show.

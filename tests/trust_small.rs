@@ -12,7 +12,7 @@ use suite::trial;
 const SUITE: u64 = 7;
 
 /// The first n short logs that are wanted; the whole benchmark has the long ones. Drawing a case takes as long as to
-/// answer it, so none is drawn in vain but the last few.
+/// answer it, so no more are drawn than are asked for.
 fn outcomes(kind: Kind, wanted: impl Fn(&Case) -> bool + Sync, n: usize) -> Vec<(Case, Judgement)> {
     let mut cases: Vec<Case> = vec![];
     let mut drawn = 0;

@@ -1,7 +1,6 @@
 //! How a run was driven: its windows by the model, beside what was measured.
 
 use super::angle::wrapped;
-use super::course::measured_at;
 use super::gap::Predictor;
 use super::record::Record;
 use crate::error::Result;
@@ -34,7 +33,7 @@ pub struct Step {
 }
 
 /// What was measured over what the model drives.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Ratios {
     /// Of the ways; none where the model does not move.
     pub way: Option<f64>,
@@ -51,12 +50,11 @@ pub struct Ratios {
 /// # Errors
 /// When the model's formulas are malformed.
 pub fn steps(model: &Model, record: &Record) -> Result<Vec<Step>> {
-    let equations = model.equations(&[])?;
     let predictor = Predictor::new(model, record)?;
     let step = |(from, to): (usize, usize)| {
         let y = predictor.outputs(from, to);
         let last = y.last()?;
-        let (a, b) = (measured_at(&equations, record, from), measured_at(&equations, record, to));
+        let (a, b) = (predictor.measured(from), predictor.measured(to));
         let way = |p: &[f64], q: &[f64], heading: f64| (q[0] - p[0]) * heading.cos() + (q[1] - p[1]) * heading.sin();
         let chord = |p: &[f64], q: &[f64]| {
             let length = (q[0] - p[0]).hypot(q[1] - p[1]);

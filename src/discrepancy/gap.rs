@@ -80,9 +80,14 @@ impl<'a> Predictor<'a> {
 
     /// The state at a row: the smoothed pose and the carried hidden states.
     fn start(&self, i: usize) -> Vec<f64> {
-        let mut z = pose_of(&self.equations, &measured_at(&self.equations, self.record, i));
+        let mut z = pose_of(&self.equations, &self.measured(i));
         z.extend(self.hidden.get(i).into_iter().flatten());
         z
+    }
+
+    /// What was measured at a row, smoothed.
+    pub fn measured(&self, i: usize) -> Vec<f64> {
+        measured_at(&self.equations, self.record, i)
     }
 
     /// The outputs at rows `from..=to`, restarted at `from`.

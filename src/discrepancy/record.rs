@@ -115,11 +115,7 @@ impl Record {
 
     fn median_step(&self) -> f64 {
         let mut steps: Vec<f64> = self.time[self.rows.clone()].windows(2).map(|w| w[1] - w[0]).collect();
-        let middle = steps.len() / 2;
-        if steps.is_empty() {
-            return f64::NAN;
-        }
-        *steps.select_nth_unstable_by(middle, f64::total_cmp).1
+        smooth::median(&mut steps).unwrap_or(f64::NAN)
     }
 
     /// The time between rows from which on a log is interrupted, s.

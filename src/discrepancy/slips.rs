@@ -2,10 +2,12 @@
 
 use super::driven::{Ratios, steps};
 use super::record::Record;
+use super::smooth::median;
 use crate::error::Result;
 use crate::files::Run;
-use crate::model::Model;
+use crate::model::{Equations, Model};
 use crate::picture::number::significant;
+use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
 /// Rows further apart than this are no log of a motion, s.
@@ -25,8 +27,9 @@ const NEAR: f64 = 0.25;
 /// # Errors
 /// When the model's formulas are malformed.
 pub fn too_sparse<'a>(model: &Model, runs: impl IntoIterator<Item = &'a Run>) -> Result<Option<String>> {
+    let equations = model.equations(&[])?;
     for run in runs {
-        let (turn, step) = between_rows(model, run)?;
+        let (turn, step) = between_rows(&equations, run);
         if turn > PI {
             let [turn, step] = [turn, step].map(|x| significant(x, 3));
             return Ok(Some(format!(
@@ -40,8 +43,7 @@ pub fn too_sparse<'a>(model: &Model, runs: impl IntoIterator<Item = &'a Run>) ->
 }
 
 /// Medians of the turn between neighbouring rows of the inputs, rad, and of the time, s.
-fn between_rows(model: &Model, run: &Run) -> Result<(f64, f64)> {
-    let equations = model.equations(&[])?;
+fn between_rows(equations: &Equations, run: &Run) -> (f64, f64) {
     let time = run.apart.as_ref().map_or(&run.time, |a| &a.time);
     let (mut memory, z) = (equations.workspace(&[]), vec![0.0; equations.n()]);
     let (mut u, mut rates) = (vec![0.0; run.inputs.len()], z.clone());
@@ -54,12 +56,8 @@ fn between_rows(model: &Model, run: &Run) -> Result<(f64, f64)> {
         // Where the motion is undefined it says nothing of its turns.
         turns.extend(Some((rates[2] * step).abs()).filter(|t| t.is_finite()));
     }
-    Ok((median(turns), median(between)))
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    let middle = values.len() / 2;
-    if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f64::total_cmp).1 }
+    let usual = |mut values: Vec<f64>| median(&mut values).unwrap_or(0.0);
+    (usual(turns), usual(between))
 }
 
 /// Why a vehicle that hardly moves as its inputs say, or in another direction than it points, cannot be put to its model.
@@ -95,7 +93,7 @@ pub fn another_motion(model: &Model, records: &[Record]) -> Result<Option<String
 }
 
 fn ratios(model: &Model, records: &[Record]) -> Result<Vec<Ratios>> {
-    records.iter().map(|r| Ok(Ratios::of(&steps(model, r)?, r, r.position_noise()))).collect()
+    records.par_iter().map(|r| Ok(Ratios::of(&steps(model, r)?, r, r.position_noise()))).collect()
 }
 
 /// The usual slip that what was measured looks like beside what the model drives, of the first run that looks like one.

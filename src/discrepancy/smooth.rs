@@ -70,12 +70,14 @@ pub fn noise(time: &[f64], column: &[f64]) -> Option<f64> {
 
 /// The standard deviation of a normal distribution whose sizes have this median; `None` without any.
 pub fn deviation(sizes: &mut [f64]) -> Option<f64> {
-    if sizes.is_empty() {
-        return None;
-    }
-    let middle = sizes.len() / 2;
     // The median of |N(0,1)|.
-    Some(*sizes.select_nth_unstable_by(middle, f64::total_cmp).1 / 0.674_489_750_196_081_7)
+    Some(median(sizes)? / 0.674_489_750_196_081_7)
+}
+
+/// The middle value, of an even number the upper one; `None` without any.
+pub fn median(values: &mut [f64]) -> Option<f64> {
+    let middle = values.len() / 2;
+    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
 /// |y_i − cubic through its four neighbours| over the standard deviation that unit noise gives it.

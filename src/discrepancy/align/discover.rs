@@ -140,7 +140,10 @@ fn aligned(
 ) -> Result<std::result::Result<Vec<Aligned>, Obstacle>> {
     let one = |run: &Run| -> Result<std::result::Result<Aligned, Obstacle>> {
         let part = run.beginning(share);
-        if let Some(obstacle) = endless(&part).map_or_else(|| too_sparse(model, [&part]), |o| Ok(Some(o)))? {
+        if let Some(obstacle) = endless(&part) {
+            return Ok(Err(obstacle));
+        }
+        if let Some(obstacle) = too_sparse(model, [&part])? {
             return Ok(Err(obstacle));
         }
         let driven = Driven::of(model, &part, request.file.input_timing.into())?;

@@ -63,13 +63,20 @@ fn copy(at: &Places) {
         match file {
             "Cargo.toml" => bytes.extend_from_slice(PROFILE.as_bytes()),
             "tests/support/mod.rs" => bytes = fewer_cases(&bytes),
-            "src/lib.rs" => bytes.extend_from_slice(b"\n#[doc(hidden)]\n#[allow(missing_docs)]\npub mod mutant;\n"),
-            "src/main.rs" => bytes.extend_from_slice(b"\nuse creepage::mutant;\n"),
-            _ => {}
+            _ => bytes.extend_from_slice(names_switch(file).as_bytes()),
         }
         put(&at.copy().join(file), &bytes);
     }
     put(&at.copy().join("src/mutant.rs"), SWITCH.as_bytes());
+}
+
+/// How a file that begins a crate names the switch.
+fn names_switch(file: &str) -> &'static str {
+    match file {
+        "src/lib.rs" => "\n#[doc(hidden)]\n#[allow(missing_docs)]\npub mod mutant;\n",
+        "src/main.rs" => "\nuse creepage::mutant;\n",
+        _ => "",
+    }
 }
 
 /// Properties with a share of their cases, the first ones; they stop at the first that fails and keep nothing of it.
@@ -106,7 +113,7 @@ fn write(at: &Places, mutants: &[Mutant], fates: &mut BTreeMap<usize, Fate>) {
             mutants.iter().enumerate().filter(|(id, m)| &m.file == file && left(id)).collect();
         let cloned = |id| fates.get(&id) == Some(&Fate::Cloned);
         let (text, decided) = rewrite(&text, &here, &cloned);
-        put(&at.copy().join(file), text.as_bytes());
+        put(&at.copy().join(file), (text + names_switch(file)).as_bytes());
         decided.into_iter().for_each(|(id, fate)| _ = fates.entry(id).or_insert(fate));
     }
 }
@@ -134,7 +141,9 @@ fn check(at: &Places, mutants: &[Mutant], fates: &BTreeMap<usize, Fate>) -> (usi
             Some(ids) => ids.into_iter().map(|id| (id, next(&mutants[id], fates.get(&id)))).collect::<Vec<_>>(),
             None => {
                 let around = inside(&primary, "/*W").or_else(|| inside(&other, "/*W"));
-                around.unwrap_or_default().into_iter().map(|id| (id, Fate::Inexpressible)).collect()
+                // That no type fits all that a function may return is told of its signature.
+                let around = around.unwrap_or_else(|| other.iter().flat_map(|s| returned(at, s)).collect());
+                around.into_iter().map(|id| (id, Fate::Inexpressible)).collect()
             }
         };
         bad.extend(found.into_iter().filter(|(id, _)| fates.get(id).is_some_and(|f| f.is_written())));
@@ -148,6 +157,17 @@ fn check(at: &Places, mutants: &[Mutant], fates: &BTreeMap<usize, Fate>) -> (usi
 fn next(mutant: &Mutant, fate: Option<&Fate>) -> Fate {
     let sign = mutant.name.contains(": delete - in ");
     if sign && fate == Some(&Fate::Written) { Fate::Cloned } else { Fate::Unviable }
+}
+
+/// The mutants within a span of the compiler's that return an iterator of another type.
+fn returned(at: &Places, span: &Value) -> Vec<usize> {
+    let within = || {
+        let text = std::fs::read_to_string(at.copy().join(span["file_name"].as_str()?)).ok()?;
+        Some(text.get(span["byte_start"].as_u64()? as usize..span["byte_end"].as_u64()? as usize)?.to_string())
+    };
+    let text = within().unwrap_or_default();
+    let marked = text.split("/*M").skip(1).filter_map(|t| t.split_once("{*/ crate::mutant::Either::A("));
+    marked.filter_map(|(id, _)| id.parse().ok()).collect()
 }
 
 /// The mutants of the innermost mark around a span of the compiler's.

@@ -127,6 +127,7 @@ impl Axis {
         let unit = format!("{power}{}", self.unit);
         let name = match self.origin() {
             0.0 => self.name.clone(),
+            origin if origin < 0.0 => format!("{} + {}", self.name, decimals(-origin, 0)),
             origin => format!("{} − {}", self.name, decimals(origin, 0)),
         };
         if unit.is_empty() { name } else { format!("{name}, {}", unit.trim_end()) }
@@ -203,6 +204,9 @@ mod tests {
     fn far_origins_and_small_values_leave_the_labels() {
         let axis = Axis::linear("x", "m", [4_500_000.0, 4_500_010.0]).along([0.0, 300.0]);
         assert_eq!((labels(&axis)[0].as_str(), axis.caption().as_str()), ("0", "x − 4500000, m"));
+        // An easting west of its meridian.
+        let axis = Axis::linear("x", "m", [-20_299.0, -20_201.0]).along([0.0, 300.0]);
+        assert_eq!((labels(&axis)[0].as_str(), axis.caption().as_str()), ("20", "x + 20300, m"));
         let axis = Axis::linear("v", "m/s", [0.0, 4e-5]).along([0.0, 300.0]);
         assert_eq!((labels(&axis)[1].as_str(), axis.caption().as_str()), ("10", "v, 10⁻⁶ m/s"));
     }
@@ -219,5 +223,42 @@ mod tests {
     #[test]
     fn a_logarithmic_axis_has_no_place_for_zero() {
         assert!(Axis::log("h", "s", [1.0, 10.0]).at(0.0).is_nan());
+    }
+
+    /// Short numbers are written out: digits are dropped from labels only where they would fill the axis.
+    #[test]
+    fn near_origins_stay_in_the_labels() {
+        for range in [[20e3, 25e3], [1000.0, 1001.0], [10_000.0, 10_001.0], [20_000.0, 20_200.0], [0.0, 99e3]] {
+            assert_eq!(Axis::linear("x", "m", range).caption(), "x, m", "{range:?}");
+        }
+        assert_eq!(Axis::linear("x", "m", [20_200.0, 20_299.0]).caption(), "x − 20200, m");
+        assert_eq!(Axis::linear("x", "m", [0.0, 2e5]).caption(), "x, 10³ m");
+        assert_eq!(Axis::linear("x", "", [0.0, 2e5]).caption(), "x, 10³");
+        assert_eq!(Axis::linear("", "m", [0.0, 2e5]).caption(), "");
+        assert_eq!(Axis::log("x", "m", [2e4, 2.01e4]).caption(), "x, m");
+        assert_eq!(Axis::log("x", "m", [1e7, 2e7]).caption(), "x, m");
+    }
+
+    #[test]
+    fn powers_of_ten_are_written_where_digits_would_be_many() {
+        let written = [0.0, 1e5, 2e5, -1e5, 5e4, 1e-3, 1e-4, 5e-4, -2e-4].map(round_label);
+        assert_eq!(written, ["0", "10⁵", "2·10⁵", "−10⁵", "50000", "0.001", "10⁻⁴", "5·10⁻⁴", "−2·10⁻⁴"]);
+    }
+
+    #[test]
+    fn a_range_is_widened_and_never_empty() {
+        assert_eq!(widened([0.0, 10.0], 0.1), [-1.0, 11.0]);
+        assert_eq!(widened([5.0, 5.0], 0.1), [4.5, 5.5]);
+        assert_eq!(widened([0.0, 0.0], 0.1), [-1e-6, 1e-6]);
+        assert_eq!(widened([1e3, 1e3 + 1e-7], 0.05), [900.0, (1e3 + 1e-7) + 100.0]);
+        assert_eq!(extent([f64::NAN, 3.0, -2.0, f64::INFINITY]), Some([-2.0, 3.0]));
+        assert_eq!(extent([f64::NAN]), None);
+    }
+
+    #[test]
+    fn a_symmetric_axis_is_linear_about_zero_and_logarithmic_beyond() {
+        let axis = Axis::symlog("e", "m", [-100.0, 100.0], 1.0).along([0.0, 300.0]);
+        let places = [-100.0, -10.0, -1.0, -0.5, 0.0, 0.5, 1.0, 10.0, 100.0].map(|v| axis.at(v));
+        assert_eq!(places, [0.0, 50.0, 100.0, 125.0, 150.0, 175.0, 200.0, 250.0, 300.0]);
     }
 }

@@ -115,4 +115,34 @@ mod tests {
         }
         assert_eq!(body(Look::Hatched, [0.0, 1.0], [0.0, 1.0]).len(), 2);
     }
+
+    #[test]
+    fn strokes_end_at_the_edges_of_their_bar() {
+        let drawn = hatch([30.0, 50.0], [100.0, 110.0]).to_string();
+        assert!(drawn.contains("\"M30 107L37 100M34 110L44 100M41 110L50 101M48 110L50 108\""), "{drawn}");
+    }
+
+    #[test]
+    fn bars_grow_from_zero_to_either_side_and_remarks_keep_clear_of_them() {
+        let bar = |value: f64, look| Bar { name: "n".into(), value, remark: format!("r{value}"), look };
+        let bars = [bar(3.0, Look::Solid), bar(-2.0, Look::Hatched), bar(f64::NAN, Look::Hollow)];
+        let drawn = chart(&bars, Axis::linear("v", "m", [-4.0, 4.0]), "i", "t", "d").to_string();
+        assert!(drawn.contains("viewBox=\"0 0 760 136\""), "{drawn}");
+        // 48 pixels to a unit, zero at 378.
+        for part in [
+            "class=\"bar\" x=\"378\" y=\"15\" width=\"144\" height=\"16\"",
+            "x=\"530\" y=\"27.5\" text-anchor=\"start\">r3<",
+            "class=\"bar rival\" x=\"282\" y=\"41\" width=\"96\" height=\"16\"",
+            "x=\"386\" y=\"53.5\" text-anchor=\"start\">r-2<",
+            "class=\"\" x=\"386\" y=\"79.5\" text-anchor=\"start\">rNaN<",
+            "class=\"strong\" x=\"176\" y=\"27.5\" text-anchor=\"end\">n<",
+            "class=\"axis\" x1=\"378\" y1=\"10\" x2=\"378\" y2=\"88\"",
+            "class=\"grid\" x1=\"570\" y1=\"10\" x2=\"570\" y2=\"88\"",
+            "class=\"tick\" x=\"570\" y=\"105\"",
+            "class=\"caption\" x=\"570\" y=\"125\" text-anchor=\"end\">v, m<",
+        ] {
+            assert!(drawn.contains(part), "{part} in {drawn}");
+        }
+        assert_eq!(drawn.matches("<rect").count(), 2);
+    }
 }

@@ -138,4 +138,52 @@ mod tests {
         let pieces = vec![vec![[0.0, 0.0], [5.0, 5.0]]; 50_000];
         assert!(paths(&pieces, 1000).len() <= 1000);
     }
+
+    #[test]
+    fn as_many_pieces_stay_as_two_points_each_allow() {
+        let pieces = |n| vec![vec![[0.0, 0.0], [5.0, 5.0]]; n];
+        assert_eq!([500, 501, 50_000].map(|n| paths(&pieces(n), 1000).len()), [500, 251, 500]);
+    }
+
+    #[test]
+    fn the_tolerance_is_the_first_that_leaves_few_enough() {
+        let spike = |h: f64| vec![[0.0, 0.0], [100.0, h], [200.0, 0.0]];
+        let pieces = [0.15, 0.3, 0.6, 1.2].map(spike).to_vec();
+        let kept = |most| thinned(pieces.clone(), most).iter().map(Vec::len).collect::<Vec<_>>();
+        assert_eq!(kept(12), [3, 3, 3, 3]);
+        assert_eq!(kept(11), [2, 3, 3, 3]);
+        assert_eq!(kept(10), [2, 2, 3, 3]);
+        assert_eq!(kept(9), [2, 2, 2, 3]);
+    }
+
+    #[test]
+    fn what_cannot_be_thinned_is_left_as_it_is() {
+        let broken: Vec<_> = (0..200).map(|i| if i % 2 == 0 { [f64::from(i), 0.0] } else { [f64::NAN; 2] }).collect();
+        assert_eq!(paths(&[broken], 10)[0].len(), 200);
+    }
+
+    #[test]
+    fn a_closed_path_keeps_its_corners() {
+        let square = [[0.0, 0.0], [50.0, 0.0], [50.0, 50.0], [0.0, 50.0], [0.0, 0.0]];
+        assert_eq!(paths(&[square.to_vec()], 100), [square]);
+    }
+
+    #[test]
+    fn distances_are_from_the_segment_and_not_from_its_line() {
+        let from = |p| from_chord(p, [1.0, 1.0], [4.0, 5.0]);
+        // Beside its middle, before its beginning, behind its end, all 5 away.
+        for p in [[-1.5, 6.0], [-2.0, -3.0], [7.0, 9.0]] {
+            assert!((from(p) - 5.0).abs() < 1e-12, "{p:?}: {}", from(p));
+        }
+        assert_eq!(from_chord([4.0, 5.0], [1.0, 1.0], [1.0, 1.0]), 5.0);
+    }
+
+    #[test]
+    fn points_nearer_than_the_distance_go_but_the_last() {
+        let hole = [f64::NAN; 2];
+        let points = [[0.0, 0.0], [3.0, 4.0], [3.0, 5.0], hole, hole, [9.0, 9.0], [9.0, 9.5], [9.0, 9.75]];
+        let kept = spaced(&points, 5.0);
+        assert_eq!([kept[0], kept[1], kept[3], kept[4]], [[0.0, 0.0], [3.0, 4.0], [9.0, 9.0], [9.0, 9.75]]);
+        assert!(kept.len() == 5 && kept[2][0].is_nan());
+    }
 }

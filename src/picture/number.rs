@@ -142,4 +142,28 @@ mod tests {
         assert_eq!(decimals(-0.001, 1), "0.0");
         assert_eq!(with_error(-0.0001, Some(0.2)), "0.00 ± 0.20");
     }
+
+    #[test]
+    fn a_deviation_that_is_none_is_not_written() {
+        for std in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(with_error(0.5, Some(std)), "0.500");
+        }
+        assert_eq!(with_error(f64::NAN, Some(1.0)), "–");
+    }
+
+    #[test]
+    fn powers_of_ten_begin_where_digits_are_many() {
+        assert_eq!(with_error(123_456.0, Some(1000.0)), "123456 ± 1000");
+        assert_eq!(with_error(1_234_567.0, Some(10_000.0)), "(1.235 ± 0.010)·10⁶");
+        assert_eq!(with_error(0.00012, Some(0.00001)), "0.000120 ± 0.000010");
+        assert_eq!(with_error(0.00002, Some(0.000_001)), "(2.00 ± 0.10)·10⁻⁵");
+        assert_eq!([plain(300.0), plain(1.5e7), plain(2.5e-4)], ["300", "1.50·10⁷", "0.00025"]);
+        assert_eq!([significant(1e-4, 1), significant(1e-5, 1)], ["0.0001", "1·10⁻⁵"]);
+    }
+
+    #[test]
+    fn bounds_are_told_from_numbers() {
+        assert_eq!([0.0, 9e-301, 1e-300, 0.05].map(probability), ["< 10⁻³⁰⁰", "< 10⁻³⁰⁰", "1.0·10⁻³⁰⁰", "0.050"]);
+        assert_eq!([10.0, f64::INFINITY, 9.9].map(|x| prefixed(x, "m").1), ["m", "m", "mm"]);
+    }
 }

@@ -278,4 +278,78 @@ mod tests {
         let low = apart(&[1.0, 2.0], 17.0, 0.0, 100.0);
         assert!(low[0] >= 0.0 && low[1] - low[0] > 16.9, "{low:?}");
     }
+
+    fn panel(size: Size) -> Panel {
+        let x = Axis::linear("t", "s", [0.0, 10.0]).along(size.columns());
+        let y = Axis::linear("v", "m", [0.0, 10.0]).along(size.rows());
+        Panel::new(size, x, y)
+    }
+
+    const SMALL: Size = Size { width: 340.0, height: 240.0, margins: [20.0, 20.0, 20.0, 20.0] };
+
+    #[test]
+    fn the_plotting_area_lies_within_its_margins() {
+        let size = Size { width: 340.0, height: 240.0, margins: [10.0, 20.0, 30.0, 40.0] };
+        assert_eq!((size.columns(), size.rows()), ([10.0, 320.0], [200.0, 30.0]));
+        let drawn = panel(size).finish("i", "t", "d").to_string();
+        assert!(drawn.contains("x=\"4\" y=\"24\" width=\"322\" height=\"182\" viewBox=\"4 24 322 182\""), "{drawn}");
+        assert!(drawn.contains("class=\"axis\" x1=\"10\" y1=\"200\" x2=\"320\" y2=\"200\""), "{drawn}");
+        assert!(
+            drawn.contains("class=\"caption\" x=\"320\" y=\"237\"") && drawn.contains("x=\"2\" y=\"18\""),
+            "{drawn}"
+        );
+        assert!(drawn.contains("aria-labelledby=\"i-title i-desc\""), "{drawn}");
+    }
+
+    #[test]
+    fn ticks_are_as_far_apart_as_asked() {
+        let count = |panel: &Panel| panel.grid().len() / 2;
+        // 300 pixels along x: five steps of 2; 200 along y: five steps of 2.
+        assert_eq!(count(&panel(SMALL)), 12);
+        assert_eq!(count(&panel(SMALL).with_ticks(30.0)), 17);
+        // 119 pixels along y have room for four steps of 24, not of 34.
+        let low = |height| panel(Size { height, ..SMALL }).y.ticks(if height < 160.0 { 24.0 } else { 34.0 }).len();
+        assert_eq!(count(&panel(Size { height: 159.0, ..SMALL })), 6 + low(159.0));
+        assert_eq!(count(&panel(Size { height: 160.0, ..SMALL })), 6 + low(160.0));
+    }
+
+    #[test]
+    fn a_band_ends_before_the_first_hole() {
+        let mut p = panel(SMALL);
+        let hole = (4.0, [f64::NAN, 2.0]);
+        p.band(&[(0.0, [0.0, 2.0]), (2.0, [1.0, 3.0]), hole, (6.0, [0.0, 2.0])]);
+        assert!(p.inside[0].to_string().contains("d=\"M20 220L80 200L80 160L20 180\""), "{}", p.inside[0]);
+    }
+
+    #[test]
+    fn markers_are_centred_and_holes_have_none() {
+        let mut p = panel(SMALL);
+        p.markers("a", Marker::Square, &[[5.0, 5.0], [f64::NAN, 1.0], [1.0, f64::NAN]]);
+        let marks: Vec<_> = p.inside.iter().map(|e| e.to_string()).collect();
+        assert_eq!(marks, ["<rect class=\"mark a\" x=\"165.8\" y=\"115.8\" width=\"8.4\" height=\"8.4\"/>"]);
+        let radius = |m| mark("a", m, [1.0, 2.0]).to_string();
+        assert!(radius(Marker::Circle).contains("cy=\"2\" r=\"4.6\"") && radius(Marker::Ring).contains("r=\"3\""));
+    }
+
+    #[test]
+    fn a_heading_leaves_room_for_its_remark() {
+        let long = "m".repeat(100);
+        let letters = |remark: &str| heading_text(&long, remark, 500.0).to_string().matches('m').count();
+        // The classes have an m each.
+        let [alone, beside] = [letters(""), letters(&"r".repeat(30))];
+        assert_eq!((alone, beside), (56, 28 + 1));
+        assert!(heading_text("heads", &"r".repeat(100), 10.0).to_string().contains(">heads"));
+        assert!(!heading_text("h", "", 500.0).to_string().contains("tspan"));
+    }
+
+    #[test]
+    fn a_legend_gives_every_name_its_room() {
+        let key = |class, marker, label| Key { class, marker, label };
+        let (drawn, width) = legend(&[key("band", None, "abc"), key("b", Some(Marker::Ring), "")], [10.0, 50.0]);
+        let drawn = drawn.to_string();
+        assert!((width - 141.4).abs() < 1e-9, "{width}");
+        assert!(drawn.contains("class=\"band\" x=\"10\" y=\"43\" width=\"32\" height=\"14\""), "{drawn}");
+        assert!(drawn.contains("x=\"49\" y=\"54.5\" text-anchor=\"start\">abc<"), "{drawn}");
+        assert!(drawn.contains("d=\"M92.4 50L124.4 50\"") && drawn.contains("cx=\"108.4\""), "{drawn}");
+    }
 }

@@ -244,4 +244,79 @@ mod tests {
         let most = |i: usize| outline.iter().map(|p| p[i]).fold(f64::MIN, f64::max);
         assert!((most(0) - 2.0).abs() < 1e-12 && (most(1) - 1.0).abs() < 1e-12);
     }
+
+    fn drawn(draw: impl Fn(&mut Sketch)) -> String {
+        let mut s = Sketch::new([0.0, 0.0], 1.0);
+        draw(&mut s);
+        s.finish().iter().map(|e| format!("{e}")).collect()
+    }
+
+    #[test]
+    fn an_arrow_ends_at_the_base_of_its_head() {
+        let arrow = |to| drawn(move |s| s.arrow("", [0.0, 0.0], to));
+        let long = arrow([30.0, 40.0]);
+        assert!(long.contains("x1=\"0\" y1=\"0\" x2=\"25.8\" y2=\"-34.4\""), "{long}");
+        assert!(long.contains("d=\"M30 -40L27.7 -31.7L22.7 -35.5Z\""), "{long}");
+        let short = arrow([10.0, 0.0]);
+        assert!(short.contains("x2=\"4\"") && short.contains("d=\"M10 0L3 2.7L3 -2.7Z\""), "{short}");
+        assert_eq!((arrow([4.7, 0.0]).len(), arrow([4.9, 0.0]).is_empty()), (0, false));
+    }
+
+    #[test]
+    fn the_head_of_a_turn_begins_on_its_arc() {
+        let quarter = std::f64::consts::FRAC_PI_2;
+        // 8 pixels of a circle of 100 are 0.08 rad; the head lies along their chord.
+        let left = drawn(|s| s.turn("", [0.0, 0.0], 100.0, [0.0, quarter]));
+        assert!(left.contains("L8 -99.7\""), "{left}");
+        assert!(left.contains("M0 -100L"), "{left}");
+        let right = drawn(|s| s.turn("", [0.0, 0.0], 100.0, [0.0, -quarter]));
+        assert!(right.contains("L8 99.7\"") && right.contains("M0 100L"), "{right}");
+    }
+
+    #[test]
+    fn names_of_angles_stand_outside_them() {
+        let named = |angles: [f64; 2]| drawn(move |s| s.angle([0.0, 0.0], 20.0, angles, "a", 10.0));
+        for (middle, at) in [
+            (0.0, "x=\"30\" y=\"4\" text-anchor=\"start\""),
+            (std::f64::consts::PI, "x=\"-30\" y=\"4\" text-anchor=\"end\""),
+            (std::f64::consts::FRAC_PI_2, "x=\"0\" y=\"-29\" text-anchor=\"middle\""),
+        ] {
+            let text = named([middle - 0.5, middle + 0.5]);
+            assert!(text.contains(at), "{at}: {text}");
+        }
+    }
+
+    #[test]
+    fn a_length_is_named_on_its_far_side() {
+        let named = |aside| drawn(move |s| s.length([0.0, 0.0], [60.0, 0.0], aside, "L"));
+        let (above, below) = (named(20.0), named(-20.0));
+        assert!(above.contains("x=\"30\" y=\"-25\"") && above.contains("M0 0L0 -20"), "{above}");
+        assert!(below.contains("x=\"30\" y=\"34\"") && below.contains("M60 0L60 20"), "{below}");
+    }
+
+    #[test]
+    fn ground_is_hatched_below() {
+        let ground = drawn(|s| s.ground([0.0, 20.0], 0.0));
+        assert!(ground.contains("d=\"M6 0L0 6M12 0L6 6M18 0L12 6\""), "{ground}");
+    }
+
+    #[test]
+    fn an_arc_has_points_enough_to_look_round() {
+        let points = arc([1.0, 2.0], 3.0, [0.0, 0.59]);
+        assert_eq!((points.len(), points[0]), (11, [4.0, 2.0]));
+        assert!(points.iter().all(|p| ((p[0] - 1.0).hypot(p[1] - 2.0) - 3.0).abs() < 1e-12));
+        assert_eq!(arc([0.0, 0.0], 1.0, [1.0, 1.0]).len(), 2);
+    }
+
+    #[test]
+    fn every_corner_is_rounded() {
+        let outline = rounded([1.0, 2.0], 0.0, [4.0, 2.0], 0.5);
+        let centre = |x: f64, y: f64| {
+            outline.iter().filter(move |p| ((p[0] - 1.0 - x).hypot(p[1] - 2.0 - y) - 0.5).abs() < 1e-12)
+        };
+        for (x, y) in [(1.5, 0.5), (-1.5, 0.5), (-1.5, -0.5), (1.5, -0.5)] {
+            assert_eq!(centre(x, y).count(), 9);
+        }
+        assert_eq!(outline.len(), 36);
+    }
 }

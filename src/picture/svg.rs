@@ -184,3 +184,40 @@ pub fn cut(text: &str, most: usize) -> String {
 pub fn width_of(text: &str, font_size: f64) -> f64 {
     0.6 * font_size * text.chars().count() as f64
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_markup_forbids_is_replaced() {
+        assert_eq!(escape("a\u{1}b\n\t\u{fffe}\u{ffff}\u{7f}"), "a\u{fffd}b\n\t\u{fffd}\u{fffd}\u{fffd}");
+        assert_eq!(escape("<&\">'"), "&lt;&amp;&quot;&gt;'");
+    }
+
+    #[test]
+    fn only_leaves_are_without_an_end() {
+        assert_eq!(Element::new("g").to_string(), "<g></g>");
+        assert_eq!(Element::new("path").to_string(), "<path/>");
+        assert_eq!(Element::new("path").child(Element::new("title")).to_string(), "<path><title></title></path>");
+    }
+
+    #[test]
+    fn coordinates_are_rounded_to_tenths() {
+        let written = [-0.04, -0.3, -1.25, 2.0, 2.06, f64::NAN, f64::INFINITY, 1e300].map(fixed);
+        assert_eq!(written, ["0", "-0.3", "-1.3", "2", "2.1", "0", "0", "100000000"]);
+    }
+
+    #[test]
+    fn text_is_cut_where_it_does_not_fit() {
+        assert_eq!(["abcde", "abcdef", "abc def"].map(|t| cut(t, 5)), ["abcde", "abcd…", "abc…"]);
+        assert_eq!([cut("abc", 0), cut("", 0)], ["…", ""]);
+        assert_eq!(width_of("abc", 10.0), 18.0);
+    }
+
+    #[test]
+    fn a_rectangle_has_no_negative_side() {
+        let drawn = rect("bar", [1.0, 2.0], -3.0, -4.0).to_string();
+        assert_eq!(drawn, "<rect class=\"bar\" x=\"1\" y=\"2\" width=\"0\" height=\"0\"/>");
+    }
+}

@@ -66,6 +66,8 @@ mod tests {
         assert_eq!(logarithmic(0.5, 20.0, 10), [0.5, 1.0, 2.0, 5.0, 10.0, 20.0]);
         assert_eq!(logarithmic(1.0, 1e6, 4), [1.0, 100.0, 1e4, 1e6]);
         assert_eq!(logarithmic(1.0, 1e3, 9), [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1e3]);
+        assert_eq!(logarithmic(1.0, 1e6, 3), [1.0, 1e3, 1e6]);
+        assert_eq!(logarithmic(0.1, 0.5, 10), [0.1, 0.2, 0.5]);
         assert_eq!(logarithmic(1.0, 1e3, 8), [1.0, 10.0, 100.0, 1e3]);
     }
 }

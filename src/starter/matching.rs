@@ -82,4 +82,34 @@ mod tests {
         assert_eq!(columns("x", "x,x,pos_x"), [Some("pos_x".to_string())]);
         assert_eq!(columns("x", ""), [None]);
     }
+
+    fn others(roles: &str, header: &str) -> Vec<Vec<String>> {
+        let split = |s: &str| s.split(',').map(str::to_string).collect::<Vec<_>>();
+        matched(&split(roles), &[], &split(header)).into_iter().map(|m| m.others).collect()
+    }
+
+    #[test]
+    fn other_columns_that_may_be_meant_are_mentioned_likeliest_first() {
+        assert_eq!(
+            others("x,y", "gt_x,y,odom_x,px,est_x,cmd_x,set_x"),
+            [&["gt_x", "odom_x", "est_x", "cmd_x"][..], &[]]
+        );
+        // A column that another role has is not one of them.
+        assert_eq!(others("wheel_rate_left,wheel_rate_right", "left,right,wl"), [&["left"][..], &[]]);
+    }
+
+    #[test]
+    fn the_likelier_of_two_roles_that_stand_for_each_other_gets_its_column() {
+        let one = |text: &str| Some(text.to_string());
+        assert_eq!(columns("speed,wheel_rate", "v,theta_dot"), [one("v"), None], "equally likely: the first");
+        assert_eq!(columns("speed,wheel_rate", "vx,theta_dot"), [None, one("theta_dot")]);
+        assert_eq!(columns("wheel_rate,speed", "theta_dot,speed"), [None, one("speed")]);
+        assert_eq!(columns("wheel_rate,yaw_rate", "theta_dot,omega"), [one("theta_dot"), one("omega")]);
+    }
+
+    #[test]
+    fn a_name_that_cannot_be_written_is_not_meant() {
+        assert!(!only(&[" ".into()], 0) && !only(&["x\n".into()], 0) && !only(&["x".into(), "x".into()], 1));
+        assert!(only(&["x".into(), "y".into()], 1));
+    }
 }

@@ -229,4 +229,56 @@ mod tests {
         assert!(rank("speed", "v") < rank("speed", "cmd_speed"));
         assert!(rank("speed", "speed") < rank("speed", "v"));
     }
+
+    /// The role itself, its usual names in their order, names with a word more; what was only told comes last.
+    #[test]
+    fn ranks_are_in_the_order_of_likelihood() {
+        for (role, column, rank_of_it) in [
+            ("time", "time", 0),
+            ("time", "Time", 1),
+            ("time", "t", 2),
+            ("time", "t [s]", 2),
+            ("x", "gt_x", 120),
+            ("yaw_rate", "imu/gyro_z", 134),
+            ("yaw_rate", "imu.gyro.z", 134),
+            ("yaw_rate", "gyro", 13),
+            ("speed", "cmd_speed", 1120),
+            ("speed", "odom_v_wheel_x", 1141),
+            ("wheel_rate_left", "left", 13),
+            ("mass", "mass", 0),
+            ("mass", "Mass", 1),
+            ("mass", "body_mass", 120),
+        ] {
+            assert_eq!(rank(role, column), Some(rank_of_it), "{column} for {role}");
+        }
+    }
+
+    #[test]
+    fn words_end_where_signs_or_capitals_begin() {
+        for (column, expect) in [
+            ("wheelRateLeft", &["wheel", "rate", "left"][..]),
+            ("IMU_yaw", &["imu", "yaw"]),
+            ("X_m", &["x"]),
+            ("m", &["m"]),
+            ("v.mps", &["v"]),
+            ("m_s", &["m"]),
+            ("yaw_radian", &["yaw", "radian"]),
+            ("", &[]),
+        ] {
+            assert_eq!(words(column), expect, "{column}");
+        }
+    }
+
+    #[test]
+    fn a_rate_is_no_place_and_a_place_no_rate() {
+        for role in ["x", "y", "heading", "steering_angle"] {
+            assert_eq!(rank(role, &format!("{role}_dot")), None);
+            assert!(rank(role, &format!("pose_{role}")).is_some());
+        }
+        for role in ["speed", "yaw_rate", "wheel_rate", "wheel_rate_left", "wheel_rate_right"] {
+            assert_eq!(rank(role, &format!("pose_{role}")), None);
+            assert!(rank(role, &format!("twist_{role}")).is_some());
+        }
+        assert!(rank("time", "pose_time").is_some() && rank("time", "twist_time").is_some());
+    }
 }

@@ -378,6 +378,8 @@ impl System {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dynamics::Masses;
+    use crate::model::Model;
 
     #[test]
     fn rows_of_other_units_are_no_less_independent() {
@@ -388,5 +390,38 @@ mod tests {
         let matrix = DMatrix::from_row_slice(2, 2, &[1.0, 1.0, 0.0, 0.0]);
         let found = solution(matrix, &DVector::from_vec(vec![2.0, 0.0]));
         assert!((found[0] - 1.0).abs() < 1e-12 && (found[1] - 1.0).abs() < 1e-12, "{found}");
+    }
+
+    /// |speed| has no slope at rest, where the elastic law is defined: its slopes are those of a motion ahead.
+    #[test]
+    fn slopes_at_a_kink_are_those_beside_it() {
+        let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+        let masses = Masses { mass: 2.0, inertia: 0.7, wheels: [("theta'".into(), 0.1)].into(), ..Masses::default() };
+        let elastic = Dynamics::new(&model, &masses).unwrap().with_laws("elastic", &[40.0, 0.3]).unwrap();
+        let system = elastic.compile().unwrap();
+        let (size, mut w) = (system.size(), system.work());
+        let slopes = |w: &mut Work, z: &[f64]| {
+            let mut out = vec![0.0; size * size];
+            system.write_slopes(w, z, &[], &[], &mut out);
+            out
+        };
+        // At rest, deflected.
+        let mut z = vec![0.0; size];
+        z[2 * system.n..].iter_mut().enumerate().for_each(|(i, x)| *x = 0.01 * (1.0 + i as f64));
+        let rest = slopes(&mut w, &z);
+        let ahead: Vec<f64> = z.iter().map(|z| z + 1e-7).collect();
+        let ahead = slopes(&mut w, &ahead);
+        assert!(rest.iter().all(|v| v.is_finite()));
+        for (i, (a, b)) in rest.iter().zip(&ahead).enumerate() {
+            assert!((a - b).abs() < 1e-4 * (1.0 + b.abs()), "{i}: {a} {b}");
+        }
+    }
+
+    #[test]
+    fn friction_asks_for_a_stiff_method_and_ideal_contacts_do_not() {
+        let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+        let ideal = Dynamics::new(&model, &Masses { mass: 1.0, inertia: 1.0, ..Masses::default() }).unwrap();
+        assert!(!ideal.has_friction());
+        assert!(ideal.with_law("wheel-direction", "viscous", &[1.0]).unwrap().has_friction());
     }
 }

@@ -120,3 +120,15 @@ fn what_cannot_be_integrated_is_said() {
     assert!(!path(&open).is_closed(&[]).unwrap() && path(&[("u", "t*(1 - t)")]).is_closed(&[]).unwrap());
     assert_eq!(path(&open).at(0.25, &[]).unwrap(), [0.25, 0.0, 0.0]);
 }
+
+/// A path is closed up to rounding of what it is made of, near zero and far from it.
+#[test]
+fn rounding_closes_a_path_and_a_gap_opens_it() {
+    let is_closed = |formula: &str| Path::new(&[("u", formula)], [0.0, TAU]).unwrap().is_closed(&[]).unwrap();
+    for closed in ["sin(t)", "5 + cos(t)", "1000 + 1e-8*t", "-1000 + 1e-8*t", "1e-10*t"] {
+        assert!(is_closed(closed), "{closed}");
+    }
+    for open in ["t", "1 + 1e-8*t", "1e-8*t", "-1 - 1e-8*t", "-t"] {
+        assert!(!is_closed(open), "{open}");
+    }
+}

@@ -116,3 +116,15 @@ fn what_is_no_drag_is_refused() {
     assert!(said("c_b*psi'^3").contains("not linear in rates"));
     assert!(air().after(&leg(), [0.0; 2], &[]).unwrap_err().to_string().contains("which has no value"));
 }
+
+/// A symmetry that moves what the drag does not act on: that part has no force, and none is made up for it.
+#[test]
+fn what_feels_no_drag_adds_none() {
+    let energy = parse("m*x'^2/2 + m*y'^2/2 + I*psi'^2/2");
+    let turn = [("x".into(), parse("-y")), ("y".into(), parse("x")), ("psi".into(), Expr::int(1))];
+    let momentum = Momentum::of(&energy, &turn).unwrap();
+    let drag = Drag::of(&momentum, &parse("c*psi'^2/2"), &turn).unwrap();
+    assert_eq!(drag.force.to_string(), "c*psi'");
+    let error = Drag::of(&momentum, &parse("c*psi'"), &turn).unwrap_err();
+    assert!(error.to_string().contains("does not vanish at rest"), "{error}");
+}

@@ -90,6 +90,12 @@ mod tests {
         assert!((integral([0.0, 1.0], f64::exp).unwrap() - (1f64.exp() - 1.0)).abs() <= 2.0 * f64::EPSILON);
         assert!((integral([1.0, -1.0], |t| t.powi(30)).unwrap() + 2.0 / 31.0).abs() < 1e-16);
         assert!((double_integral([0.0, 1.0], [0.0, 2.0], |s, t| s * s * t).unwrap() - 2.0 / 3.0).abs() < 1e-15);
+        // What rounding is depends on the size of what is added, large or small.
+        for size in [1e-6, 1.0, 1e6] {
+            let found = integral([0.0, 1.0], |t| size / (t + 1e-3)).unwrap();
+            let exact = size * 1001f64.ln();
+            assert!((found - exact).abs() < 1e-13 * exact, "{size}: {found} {exact}");
+        }
         assert!(integral([0.0, 1.0], |t| 1.0 / (t - 0.3)).is_err());
         assert!(integral([0.0, 1.0], |_| f64::NAN).is_err());
     }

@@ -101,12 +101,11 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
         progress.say(&format!("{n} of {total} pieces of evidence; {id}"));
     });
     drop(progress);
-    if !quiet {
-        print(&match arguments.format {
-            Format::Text => ledger::text(&made),
-            Format::Json => pretty(&ledger::json(&made)),
-            Format::Errata => ledger::errata(&made),
-        })?;
+    match arguments.format {
+        Format::Text if quiet => {}
+        Format::Text => print(&ledger::text(&made))?,
+        Format::Json => print(&pretty(&ledger::json(&made)))?,
+        Format::Errata => print(&ledger::errata(&made))?,
     }
     let unearned: Vec<&str> = made.entries.iter().filter(|e| !e.is_earned()).map(|e| e.claim.id.as_str()).collect();
     match unearned.is_empty() {

@@ -18,10 +18,10 @@ pub enum Format {
 pub(super) const STATUS: [&str; 3] = ["ok", "not-converged", "undefined"];
 
 impl Format {
-    /// The format of a path, by its extension.
+    /// The format of a path, by its extension: Parquet for `.parquet`, CSV for any other.
     ///
     /// # Errors
-    /// When it is neither `.csv` nor `.parquet`, or Parquet was left out of this program.
+    /// When it is `.parquet`, and Parquet was left out of this program.
     pub fn of(path: &Path) -> Result<Self> {
         let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
         match extension.as_deref() {

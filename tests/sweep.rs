@@ -206,6 +206,17 @@ fn what_a_file_gets_wrong_is_told_with_its_place() {
         ("wheel_rate =", "wheel_rat =", "spec.toml:3:1: the input wheel_rate or speed has no formula"),
         ("count = 5", "count = 0", "spec.toml:10:"),
         ("to = 0.1", "to = 2000.0", "out of range"),
+        ("wheel_radius = {", "t = {", "spec.toml:16:1: nothing is called \"t\""),
+        (
+            "\nrotation-creep.e_rc = { from = -0.1, to = 0.1, count = 5 }",
+            "\ninitial.x = [0.0]\nsensor.x = [1]",
+            "sensor.x",
+        ),
+        (
+            "wheel_radius = { normal = [0.5, 0.01] }",
+            "wheel_radius = { uniform = [0.0, 1.0] }",
+            "wheel_radius = 0.0 is out",
+        ),
         ("duration = 3.0", "durations = 3.0", "spec.toml:2:1: unknown key \"durations\""),
         ("duration = 3.0", "", "spec.toml:1:1: key \"duration\" is missing"),
         ("duration = 3.0", "duration = -3.0", "spec.toml:2:12: duration"),
@@ -281,6 +292,110 @@ fn a_vehicle_of_a_file_moves_as_by_simulate() {
         assert!(apart < 1e-8 && end[4] != end[3], "{apart} {end:?} {:?}", of_case(case));
     }
     assert_ne!(of_case(2), of_case(3), "the wheelbase matters");
+}
+
+/// Equal ratios are equally likely.
+#[test]
+fn draws_lie_within_their_bounds_and_as_often_as_they_say() {
+    let drawn = |from: &str| {
+        let dir = folder(&SPEC.replace("count = 7", "count = 40").replace("uniform = [-3.0, 3.0]", from));
+        good(dir.path(), &["--out", "all.csv"]);
+        let text = String::from_utf8(bytes(dir.path(), "all.csv")).unwrap();
+        let value = |l: &str| l.split(',').nth(3).unwrap().parse::<f64>().unwrap();
+        text.lines().skip(1).map(value).collect::<Vec<f64>>()
+    };
+    let share = |values: &[f64], most: f64| values.iter().filter(|v| **v < most).count() as f64 / values.len() as f64;
+    for (from, [least, most], quarters) in [
+        ("uniform = [1.0, 5.0]", [1.0, 5.0], [2.0, 3.0, 4.0]),
+        ("log_uniform = [0.01, 100.0]", [0.01, 100.0], [0.1, 1.0, 10.0]),
+        ("normal = [3.0, 2.0]", [-9.0, 15.0], [1.651, 3.0, 4.349]),
+    ] {
+        let values = drawn(from);
+        assert_eq!(values.len(), 400);
+        assert!(values.iter().all(|v| (least..most).contains(v)), "{from}");
+        for (k, quarter) in quarters.into_iter().enumerate() {
+            let wanted = 0.25 * (k + 1) as f64;
+            // Four standard deviations of a share of 400.
+            assert!((share(&values, quarter) - wanted).abs() < 0.1, "{from}: {quarter} {}", share(&values, quarter));
+        }
+    }
+}
+
+/// Where a log drives, it says how long, too.
+#[test]
+fn a_log_gives_inputs_start_and_duration() {
+    let spec = "model = \"model.toml\"\n[inputs]\nlog = \"in.csv\"\nyaw_rate = \"log.yaw_rate + w\"\n[constants]\n\
+                w = 0.1\n[grid]\nwheel_radius = [0.5, 0.4]\n";
+    let dir = folder(spec);
+    let write = |name: &str, text: &str| std::fs::write(dir.path().join(name), text).unwrap();
+    write("in.csv", "time,wheel_rate,yaw_rate\n2,1,0.2\n3.5,1,0.2\n5,1,0.2\n");
+    good(dir.path(), &["--out", "all.csv"]);
+    let end = |row: usize| -> Vec<f64> {
+        let text = String::from_utf8(bytes(dir.path(), "all.csv")).unwrap();
+        text.lines().nth(row).unwrap().split(',').take(6).map(|v| v.parse().unwrap()).collect()
+    };
+    // case, wheel_radius, time, x, y, heading: three seconds at 0.3 rad/s.
+    for (row, radius) in [(1, 0.5), (2, 0.4)] {
+        let found = end(row);
+        assert_eq!((found[1], found[2]), (radius, 5.0));
+        let [x, y] = [0.9f64.sin(), 1.0 - 0.9f64.cos()].map(|v| v * radius / 0.3);
+        assert!((found[3] - x).abs() < 1e-9 && (found[4] - y).abs() < 1e-9 && (found[5] - 0.9).abs() < 1e-9);
+    }
+    write("spec.toml", &format!("start = 4.0\n{spec}"));
+    good(dir.path(), &["--out", "all.csv"]);
+    assert!((end(1)[2] - 5.0).abs() < 1e-12 && (end(1)[5] - 0.3).abs() < 1e-9, "{:?}", end(1));
+    for (from, to, says) in [
+        ("[inputs]", "start = 5.0\n[inputs]", "key \"duration\" is missing"),
+        ("[inputs]", "start = 6.0\n[inputs]", "key \"duration\" is missing"),
+        ("log.yaw_rate", "log.yaw", "log.yaw has no value"),
+        ("yaw_rate =", "steering_angle =", "the model has no input \"steering_angle\" here"),
+    ] {
+        write("spec.toml", &spec.replace(from, to));
+        let message = refused(dir.path(), &["--out", "no.csv"]);
+        assert!(message.contains(says), "{says}: {message}");
+    }
+}
+
+#[test]
+fn a_train_begins_straight_unless_its_headings_vary() {
+    let dir = folder(
+        "model = \"model.toml\"\nduration = 1.0\n[inputs]\nwheel_rate = \"1\"\nsteering_angle = \"0\"\n[grid]\n\
+         initial.trailer_headings.2 = [0.0, 0.5]\n",
+    );
+    let model = "vehicle = \"n-trailer\"\ntractor = \"car\"\n[parameters]\nwheel_radius = 0.3\nwheelbase = 2.0\n\
+                 trailer_lengths = [1.0, 1.0]\nhitch_offsets = [0.0, 0.0]\n";
+    std::fs::write(dir.path().join("model.toml"), model).unwrap();
+    good(dir.path(), &["--out", "all.csv"]);
+    let text = String::from_utf8(bytes(dir.path(), "all.csv")).unwrap();
+    let header: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+    let of = |row: usize, name: &str| -> f64 {
+        let column = header.iter().position(|h| *h == name).unwrap_or_else(|| panic!("{name}: {header:?}"));
+        text.lines().nth(row).unwrap().split(',').nth(column).unwrap().parse().unwrap()
+    };
+    assert_eq!([of(1, "trailer_heading_1"), of(1, "trailer_heading_2"), of(2, "trailer_heading_1")], [0.0; 3]);
+    assert!(of(2, "trailer_heading_2") > 0.3 && of(2, "trailer_heading_2") < 0.5);
+}
+
+/// A part that lost its end is no part, and neither are all parts but one.
+#[test]
+fn what_is_cut_off_is_not_joined() {
+    let dir = folder(&format!("every = 0.5\n{SPEC}"));
+    for i in ["1", "2"] {
+        good(dir.path(), &["--out", &format!("{i}.csv"), "--shard", &format!("{i}/2")]);
+    }
+    let whole = String::from_utf8(bytes(dir.path(), "2.csv")).unwrap();
+    let lines = whole.lines().count();
+    for kept in [lines - 1, lines - 6, lines - 7, lines - 8, 0] {
+        let cut: String = whole.lines().take(kept).map(|l| format!("{l}\n")).collect();
+        std::fs::write(dir.path().join("cut.csv"), cut).unwrap();
+        let message = refused(dir.path(), &["--out", "all.csv", "--join", "1.csv", "cut.csv"]);
+        assert!(message.contains("is not a part in its place"), "{kept}: {message}");
+    }
+    std::fs::write(dir.path().join("cut.csv"), whole.trim_end()).unwrap();
+    refused(dir.path(), &["--out", "all.csv", "--join", "1.csv", "cut.csv"]);
+    assert!(refused(dir.path(), &["--out", "all.csv", "--join", "1.csv"]).contains("case 35 of 70 was to follow"));
+    assert!(!dir.path().join("all.csv").exists());
+    good(dir.path(), &["--out", "all.csv", "--join", "1.csv", "2.csv"]);
 }
 
 #[test]

@@ -95,7 +95,44 @@ impl Situation<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::close;
+    use super::*;
+    use crate::files::EffectsFile;
+    use std::path::Path;
+
+    fn warm_creep() -> OwnEffect {
+        let examples = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/effects/my_effects.toml");
+        let all = EffectsFile::read(Path::new(examples)).unwrap().effects;
+        all.into_iter().find(|own| own.effect.id == "warm-creep").unwrap()
+    }
+
+    /// Formulas must be defined at moderate numbers of either sign, and vanish at larger ones, too.
+    #[test]
+    fn points_are_of_either_sign_and_of_two_sizes() {
+        let own = warm_creep();
+        let at = |name: &str, point: u32| Situation { own: &own, point, states_at_rest: false }.scattered(name);
+        for (points, size) in [(0..NEAR, 1.0), (NEAR..FAR, 10.0)] {
+            let found: Vec<f64> = points.clone().map(|p| at("v_l", p)).collect();
+            assert!(found.iter().all(|x| (0.2 * size..=1.2 * size).contains(&x.abs())), "{found:?}");
+            assert!(found.iter().any(|x| *x < 0.0) && found.iter().any(|x| *x > 0.0), "{found:?}");
+            let positive = found.iter().filter(|x| **x > 0.0).count();
+            assert!(positive.abs_diff(found.len() - positive) <= found.len() / 2, "{found:?}");
+            for p in points {
+                assert_ne!(at("v_l", p), at("v_t", p));
+                assert_ne!(at("v_l", p), at("v_l", p + 1));
+            }
+        }
+    }
+
+    #[test]
+    fn neutral_is_zero_for_what_may_be_and_a_start_for_what_divides() {
+        let own = warm_creep();
+        let at = |states_at_rest| Situation { own: &own, point: 3, states_at_rest };
+        let state = own.effect.states.keys().next().unwrap();
+        assert_eq!([at(true).number("k"), at(false).number("k"), at(true).number(state)], [0.0; 3]);
+        assert_eq!(at(true).number("tau"), 0.5);
+        assert_eq!(at(false).number(state), at(false).scattered(state));
+        assert_eq!(at(true).number("v_l"), at(false).scattered("v_l"));
+    }
 
     #[test]
     fn rounding_near_zero_and_far_from_it_is_no_difference() {

@@ -48,7 +48,7 @@ impl Sweep {
                 line.clear();
             }
         }
-        if next.case + usize::from(next.rows > 0) < self.cases() {
+        if next.case < self.cases() {
             return Err(self.refused(parts.last().map_or(out, |p| p.as_path()), 1, &next));
         }
         to.into_inner().map_err(|e| unwritable(out, e.error()))?.sync_all().map_err(|e| unwritable(out, &e))
@@ -73,7 +73,7 @@ impl Sweep {
                 rows.push(row)
             })?;
         }
-        if next.case + usize::from(next.rows > 0) < self.cases() {
+        if next.case < self.cases() {
             return Err(self.refused(parts.last().map_or(out, |p| p.as_path()), 1, &next));
         }
         rows.finish()

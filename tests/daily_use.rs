@@ -81,6 +81,39 @@ fn columns_are_found_whatever_they_are_called() {
     assert_eq!((columns.y.as_str(), columns.heading.as_deref(), starter.missing.len()), ("py", Some("theta"), 0));
 }
 
+/// What stands for a role makes up for it, and nothing else does.
+#[test]
+fn what_is_missing_is_what_no_column_makes_up_for() {
+    let starter = |vehicle: &str, columns: &[&str]| {
+        let log = Some(("log.csv".to_string(), columns.iter().map(|c| c.to_string()).collect()));
+        Starter::new(&Wanted { vehicle: vehicle.into(), log, ..Wanted::default() }).unwrap()
+    };
+    assert_eq!(starter("car", &["time", "x", "y", "steer"]).missing, ["wheel_rate"]);
+    assert_eq!(starter("unicycle", &["time", "x", "v", "gyro_z"]).missing, ["y"]);
+    assert_eq!(starter("unicycle", &["time", "x", "y", "gyro_z"]).missing, ["wheel_rate"]);
+    assert!(starter("unicycle", &["time", "x", "y", "wheel_rate", "gyro_z"]).missing.is_empty());
+    assert!(starter("car", &["time", "x", "y", "steer", "wheel_rate"]).missing.is_empty());
+    assert_eq!(starter("car", &["time", "x", "y", "v"]).missing, ["steering_angle", "wheel_rate"]);
+    assert_eq!(starter("differential-drive", &["time", "x", "y", "left"]).missing, ["wheel_rate_right"]);
+    assert_eq!(starter("unicycle", &["time", "x", "y", "v"]).missing, ["yaw_rate"]);
+    // A header of any length is shown up to a point.
+    let wide = |n: usize| (0..n).map(|i| format!("c{i}")).collect::<Vec<_>>();
+    let text = |n: usize| starter("car", &wide(n).iter().map(String::as_str).collect::<Vec<_>>()).text;
+    assert!(text(40).contains("c38, c39\n") && !text(40).contains("in all"));
+    assert!(text(41).contains("c38, c39, … (41 in all)\n") && text(50).contains("c39, … (50 in all)\n"));
+}
+
+#[test]
+fn a_file_to_begin_with_has_trailers_up_to_a_bound() {
+    let train = |n| Starter::new(&Wanted { vehicle: "n-trailer".into(), trailers: Some(n), ..Wanted::default() });
+    assert_eq!(parsed(&train(100).unwrap()).trailer_lengths.len(), 100);
+    for n in [101, 1000] {
+        assert!(train(n).unwrap_err().to_string().contains("too many to begin with"));
+    }
+    let none = train(0).unwrap();
+    assert!(none.text.contains("trailer_lengths = []") || !none.text.contains("trailer_lengths"), "{}", none.text);
+}
+
 #[test]
 fn init_writes_once_and_reads_its_log() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,8 +1,9 @@
 //! The derived equations against what a textbook has for the same system.
 
 use creepage::dynamics::{Dynamics, Masses, TrailerMass};
-use creepage::formula::{Expr, identical};
+use creepage::formula::{Expr, Symbol, identical};
 use creepage::model::{Model, Trailer};
+use creepage::vehicles::named;
 
 fn is(found: &Expr, said: &str) {
     assert_eq!(identical(found, &Expr::parse(said).unwrap()), Some(true), "{found} is not {said}");
@@ -79,4 +80,34 @@ fn mass_and_bias_belong_together() {
     // T is a quadratic form with the matrix M.
     let form = sum((0..n * n).map(|c| &(&f.mass[c / n][c % n] * &rate(c / n)) * &rate(c % n)).collect());
     assert_eq!(identical(&(&form / &Expr::int(2)), &car.energy()), Some(true));
+}
+
+/// A castor turns with the body and about its own axis; both count.
+#[test]
+fn a_castor_has_the_energy_of_its_whole_turning() {
+    let sizes = ["wheel_radius", "track_width", "castor_offset", "castor_trail", "castor_wheel_radius"];
+    let model = Model::new("differential-drive-castor", &sizes.map(|name| (name, 0.5))).unwrap();
+    let energy = Dynamics::new(&model, &Masses::default()).unwrap().energy();
+    let at = |turning: f64| {
+        let value = |s: &Symbol| match s.as_str() {
+            "phi'" => 1.0,
+            "gamma'" => turning,
+            "gamma.inertia" => 5.0,
+            _ => 0.0,
+        };
+        energy.eval(&value).unwrap()
+    };
+    assert_eq!([at(1.0), at(0.0), at(-1.0)], [10.0, 2.5, 0.0]);
+}
+
+/// One motor on two wheels: its torque is shared, and what it delivers is the mean of what it turns.
+#[test]
+fn wheels_of_one_motor_share_its_torque() {
+    let mut vehicle = named("differential-drive").unwrap().clone();
+    let right = vehicle.define[&Symbol::new("theta_1'")].formula.clone();
+    vehicle.define.get_mut(&Symbol::new("theta_2'")).unwrap().formula = right;
+    let model = Model::of(&vehicle, &[("wheel_radius", 0.5), ("track_width", 0.4)]).unwrap();
+    let shared = Dynamics::new(&model, &Masses::default()).unwrap().driven_by(&["wheel_torque_right"]).unwrap();
+    is(&shared.input_power(), "wheel_torque_right*(theta_1' + theta_2')/2");
+    assert!(shared.driven_by(&["wheel_torque_left"]).is_err());
 }

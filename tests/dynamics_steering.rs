@@ -174,3 +174,39 @@ fn speeds_at_the_start_are_those_of_the_body() {
     let ideal = dynamics(&steered("front_angle", "rear_angle"));
     simulate_dynamics(&ideal, &zero, &[0.0, 1e-6], &fast, &Integrator::default()).unwrap();
 }
+
+/// Turning wheels slip where they swing; the rates at the start make up for that, too.
+#[test]
+fn a_start_while_the_steering_turns_slips_as_little_as_can_be() {
+    let mut vehicle = steered("front_angle", "rear_angle");
+    vehicle.wheels[1].trail = Expr::sym("d_r");
+    let d = with(&dynamics(&vehicle), Some(20.0));
+    let stiff = Integrator { method: Method::Radau5, ..Integrator::default() };
+    let table = run(&d, &["0", "0", "0.1 + 0.4*t", "0.2 - 0.7*t"], 0.0, &stiff).unwrap();
+    let first = |name: &str| table.column(name).unwrap()[0];
+    // Three contacts, three rates that are not given: nothing has to slip.
+    for contact in ["front-rolling", "front-direction", "rear-direction"] {
+        assert!(first(&format!("slip.{contact}")).abs() < 1e-12, "{contact}: {}", first(&format!("slip.{contact}")));
+    }
+    let held = run(&d, &["0", "0", "0.1", "0.2"], 0.0, &stiff).unwrap();
+    assert!((first("lateral_speed") - held.column("lateral_speed").unwrap()[0]).abs() > 0.1);
+}
+
+/// On a line the sensor is carried along from where it was, in the direction of the body and not in its own.
+#[test]
+fn a_disk_is_seen_along_its_line() {
+    let mut model = Model::new("disk", &[("wheel_radius", 0.5)]).unwrap();
+    model.sensor.lever_arm = [0.3, 0.1];
+    model.sensor.heading_offset = 0.2;
+    let masses = Masses { mass: 2.0, wheels: [("theta'".into(), 0.25)].into(), ..Masses::default() };
+    let disk = Dynamics::new(&model, &masses).unwrap().driven_by(&["wheel_torque"]).unwrap();
+    let torque = Formulas::new(&[Expr::parse("1.5").unwrap()], &[]).unwrap();
+    let start = Start { pose: vec![1.0, 2.0, 0.9], speed: 0.5, ..Start::default() };
+    let table = simulate_dynamics(&disk, &torque, &[0.0, 2.0], &start, &Integrator::default()).unwrap();
+    // v' = (τ/r)/(m + J/r²) = 1 m/s²: 3 m in 2 s, along 0.7 rad.
+    let expect = [1.0 + 3.0 * 0.7f64.cos(), 2.0 + 3.0 * 0.7f64.sin(), 0.9];
+    for (name, value) in ["x", "y", "heading"].into_iter().zip(expect) {
+        assert!((last(&table, name) - value).abs() < 1e-9, "{name}: {} {value}", last(&table, name));
+    }
+    assert_eq!(["x", "y"].map(|name| table.column(name).unwrap()[0]), [1.0, 2.0]);
+}

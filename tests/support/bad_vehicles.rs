@@ -806,6 +806,11 @@ pub const BAD_CONSTRAINTS: &[Case] = &[
         "41:1: the form of type cable is not linear in its coefficient; write it with e as a factor, such as 1 - e",
     ),
     case(
+        "creep declared",
+        &[("creep = \"e_rc\"", "creep = \"drum_radius\"")],
+        "40:9: the coefficient drum_radius is also a declared name; give it a name of its own, such as e_b",
+    ),
+    case(
         "creep coordinate",
         &[("creep = \"e_rc\"", "creep = \"theta\"")],
         "40:9: the coefficient theta is also a coordinate; give it a name of its own, such as e_b",

@@ -74,6 +74,32 @@ fn every_bad_file_is_explained_at_its_place() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
+/// What the advice says is enough.
+#[test]
+fn a_steered_wheel_with_a_trail_moves_by_the_rate_of_its_angle() {
+    let edits = [
+        ("steering = \"delta\"\n", "steering = \"delta\"\ntrail = \"L/9\"\n"),
+        (
+            "[vehicle.define]\n",
+            "[vehicle.inputs.steering_rate]\nunit = \"rad/s\"\nmeaning = \"its rate\"\n[vehicle.define]\n",
+        ),
+        (
+            "[[vehicle.wheels]]",
+            "\"delta'\" = { formula = \"steering_rate\", unit = \"rad/s\", meaning = \"rate\" }\n[[vehicle.wheels]]",
+        ),
+    ];
+    let cart = read(edited(GOOD, &edits, "trail").as_bytes()).unwrap().into_iter().find(|v| v.id == "my-cart").unwrap();
+    let model = Model::sample(&cart).unwrap();
+    let (delta, rate) = (0.3f64, 0.7);
+    let mut at = situation(&model, &[0.0]);
+    at.extend([("steering_angle", delta), ("steering_rate", rate), ("wheel_rate", 2.0)].map(|(s, v)| (s.into(), v)));
+    // Every length is a metre: the contact is a ninth of one behind its axis, which is one ahead of the rear axle.
+    let trail = 1.0 / 9.0;
+    let yaw_rate = (2.0 * delta.sin() + trail * rate) / (delta.cos() - trail);
+    let found = instant(&model, &at)[&Symbol::new("phi'")];
+    assert!((found - yaw_rate).abs() < 1e-12, "{found} {yaw_rate}");
+}
+
 #[test]
 fn files_that_are_no_text_or_too_large_are_refused() {
     assert_eq!(read(b"").unwrap_err(), " is empty; check that this is the file you meant");

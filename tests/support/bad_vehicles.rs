@@ -69,6 +69,11 @@ const fn case(name: &'static str, edits: &'static [(&'static str, &'static str)]
 
 /// Keys, names, formulas, units and constraints that are refused.
 pub const BAD_VEHICLES: &[Case] = &[
+    case(
+        "steered with a trail",
+        &[("steering = \"delta\"\n", "steering = \"delta\"\ntrail = \"L/9\"\n")],
+        "2:6: the motion cannot be computed: a formula uses delta', which nothing defines; steering swings the contact of the front axle, which has a trail: define \"delta'\" from a logged rate, or leave the trail out",
+    ),
     case("no vehicle", &[(GOOD, "a = 1\n")], "1:1: unknown key \"a\"; known keys: vehicle"),
     case(
         "empty list",

@@ -104,9 +104,19 @@ fn needed(own: &OwnVehicle, model: &Model, d: &Definitions) -> Result<()> {
 
 /// That the equations of motion are closed.
 fn compiles(own: &OwnVehicle, model: &Model) -> Result<()> {
-    model.equations(&[]).map(|_| ()).map_err(|e| {
-        let why = format!("the motion cannot be computed: {}", e.message());
-        own.id.error(why).help("an angle without a definition, of a wheel that turns freely, cannot drive the motion")
+    let Err(why) = model.equations(&[]) else { return Ok(()) };
+    let error = own.id.error(format!("the motion cannot be computed: {}", why.message()));
+    let v = &own.vehicle;
+    let swings = |w: &Wheel| {
+        let angle = w.steering.as_ref().filter(|s| v.define.contains_key(s) && !v.define.contains_key(&s.rate()))?;
+        (!w.trail.is_zero()).then(|| (w.name.clone(), angle.clone()))
+    };
+    Err(match v.wheels.iter().find_map(swings) {
+        Some((name, angle)) => error.help(format!(
+            "steering swings the contact of the {name}, which has a trail: define \"{angle}'\" from a logged rate, or \
+             leave the trail out"
+        )),
+        None => error.help("an angle without a definition, of a wheel that turns freely, cannot drive the motion"),
     })
 }
 

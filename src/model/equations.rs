@@ -398,3 +398,78 @@ fn defined<const L: usize>(values: &[f64; L]) -> [f64; L] {
     }
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::{Applied, named};
+
+    /// u' = (e_tc·v_l − u)·|v_l|/length: no slope by the wheel's rate at rest.
+    fn relaxing() -> Model {
+        let unicycle = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+        unicycle.with_effect(Applied::new(named("relaxation-length").unwrap(), None, vec![0.1, 0.5]))
+    }
+
+    const STATE: [f64; 4] = [0.3, -0.2, 0.7, 0.05];
+
+    fn slopes(e: &Equations, inputs: [f64; 2]) -> Vec<f64> {
+        e.rates_and_jacobian(&mut e.workspace(&[]), &STATE, &inputs).to_vec()
+    }
+
+    #[test]
+    fn slopes_at_a_kink_are_those_of_larger_inputs_and_rates_are_its_own() {
+        let e = relaxing().equations(&[]).unwrap();
+        for turning in [0.0, 0.4] {
+            let [rest, ahead, behind] = [0.0, 1e-7, -1e-7].map(|rate| slopes(&e, [rate, turning]));
+            let mut rates = vec![0.0; 4];
+            e.rates(&mut e.workspace(&[]), &STATE, &[0.0, turning], &mut rates);
+            assert_eq!(rest[..4], rates);
+            let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(rest.iter().all(|v| v.is_finite()) && apart(&rest, &ahead) < 1e-5, "{rest:?} {ahead:?}");
+            assert!(apart(&rest, &behind) > 0.01);
+        }
+    }
+
+    /// Where one state stands still and another moves, each has the slopes it has alone, to the last bit.
+    #[test]
+    fn a_kink_of_one_lane_is_none_of_another() {
+        let e = relaxing().equations(&[]).unwrap();
+        for inputs in [[[0.0, 0.4], [2.0, 0.3]], [[2.0, 0.3], [0.0, 0.4]], [[0.0, 0.4], [f64::NAN, 0.3]]] {
+            let mut w = e.side_by_side::<2>([&[], &[]]);
+            let both = |i: usize| [inputs[0][i], inputs[1][i]];
+            let found = e.jacobian_here(&mut w, &STATE.map(|z| [z; 2]), &[both(0), both(1)]).to_vec();
+            for (lane, inputs) in inputs.into_iter().enumerate() {
+                let bits =
+                    |values: Vec<f64>| values.iter().map(|v| (!v.is_nan()).then(|| v.to_bits())).collect::<Vec<_>>();
+                assert_eq!(bits(found.iter().map(|v| v[lane]).collect()), bits(slopes(&e, inputs)), "{inputs:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_no_rate_reads_is_counted_from_the_front() {
+        let plain = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+        assert_eq!(plain.equations(&[]).unwrap().unread(), 2);
+        assert_eq!(relaxing().equations(&[]).unwrap().unread(), 2);
+        // On a slope the heading is read as before; where nothing is driven sideways by it, nothing is.
+        let disk = Model::new("disk", &[("wheel_radius", 0.5)]).unwrap().equations(&[]).unwrap();
+        assert_eq!((disk.unread(), disk.read_by()[0].clone()), (2, vec![2]));
+    }
+
+    /// The hidden state of a creep that builds up does not ask where the vehicle is: the pose is left out.
+    #[test]
+    fn hidden_states_are_followed_without_the_pose() {
+        let whole = relaxing().equations(&[]).unwrap();
+        let carried = whole.carried().unwrap();
+        let (all, kept) = (whole.live_by_rate(), carried.live_by_rate());
+        assert!(kept[..3].iter().all(Vec::is_empty) && kept[3] == all[3] && all[0].len() > 2, "{all:?} {kept:?}");
+        let (a, b) = (slopes(&whole, [2.0, 0.3]), slopes(carried, [2.0, 0.3]));
+        assert_eq!((b[..2].to_vec(), b[2..4].to_vec()), (vec![0.0; 2], a[2..4].to_vec()));
+        assert_eq!(b[4 + 3 * 6..], a[4 + 3 * 6..]);
+        assert!(b[4..4 + 3 * 6].iter().all(|v| *v == 0.0));
+        // Nothing hidden, nothing to follow; and derivatives by parameters alone say nothing of the states.
+        let plain = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+        assert!(plain.equations(&[]).unwrap().carried().is_none());
+        assert!(relaxing().equations_by(&["wheel_radius".into()]).unwrap().carried().is_none());
+    }
+}

@@ -280,4 +280,10 @@ mod tests {
         let out = written_out(&Expr::parse("slower*still").unwrap(), "v_d", &known);
         assert_eq!(out.to_string(), Expr::parse("(1 + k*v_d^2)*still").unwrap().to_string());
     }
+
+    #[test]
+    fn units_are_spelled_as_the_catalogue_spells_them() {
+        let spelled = [(0, 0), (1, 0), (0, 1), (2, 1), (1, -2), (-1, 0), (0, -1), (-1, -2)].map(|(m, s)| unit(m, s));
+        assert_eq!(spelled, ["1", "m", "s", "m^2*s", "m/s^2", "1/m", "1/s", "1/m/s^2"]);
+    }
 }

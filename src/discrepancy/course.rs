@@ -225,3 +225,20 @@ impl Placed {
         self.course.as_ref().map_or(f64::INFINITY, |c| c.reach)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    /// Full turns apart is no disagreement; more than half a radian is, and the neighbour's heading, turned, stands.
+    #[test]
+    fn a_heading_that_agrees_is_kept_and_another_is_the_neighbours() {
+        for (own, expect) in [(1.4, 1.4), (1.4 + TAU, 1.4), (1.4 - TAU, 1.4), (1.9, 1.2), (0.5, 1.2), (1.2 + 3.0, 1.2)]
+        {
+            let mut poses = vec![vec![0.0, 0.0, 1.0], vec![0.0, 0.0, own]];
+            follow(&mut poses, 1, 0, 0.2);
+            assert!((poses[1][2] - expect).abs() < 1e-12 && poses[0][2] == 1.0, "{own}: {}", poses[1][2]);
+        }
+    }
+}

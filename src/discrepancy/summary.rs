@@ -277,4 +277,14 @@ mod tests {
         assert_eq!(wrapped(&format!("{}c", text(60)), 0, 9), ["a".repeat(60), format!("  {}c", "b".repeat(19))]);
         assert_eq!(wrapped("one two", 2, 9), ["  one two"]);
     }
+
+    #[test]
+    fn a_deviation_that_is_none_is_not_said() {
+        let said = |std| seconds(&Estimate { value: -12.34567, std, unit: "s".into() });
+        assert_eq!(said(Some(0.002)), "−12.3457 ± 0.0020");
+        for std in [None, Some(0.0), Some(f64::INFINITY), Some(f64::NAN)] {
+            assert_eq!(said(std), said(None), "{std:?}");
+        }
+        assert!(!said(None).contains('±'));
+    }
 }

@@ -216,4 +216,10 @@ mod tests {
         assert!((other.offset - 0.6).abs() < 1e-12);
         assert!((clock.of(12.0) - other.of(12.0)).abs() < 1e-12);
     }
+
+    #[test]
+    fn variances_are_those_about_the_mean() {
+        assert_eq!(variances(&[[1.0, 5.0], [3.0, 5.0], [5.0, 5.0], [7.0, 5.0]]), [5.0, 0.0]);
+        assert_eq!(variances(&[]), [0.0; 2]);
+    }
 }

@@ -98,14 +98,23 @@ class Measured:
             name = what["function_id"] or what["value_str"]
             self.found.setdefault(what["group_id"], {})[name] = [v / units for v in values]
 
-    def by_hand(self):
-        """Rows of the works that have a yardstick, the largest first."""
+    def compared(self):
+        """Works that have a yardstick, the largest first, with what was measured and the yardstick's name."""
         works = {work: by for work, by in self.found.items() if "ratio" in by}
         for work, by in sorted(works.items(), key=lambda item: -item[1]["creepage"][0]):
-            yardstick = next(name for name in by if name not in ("creepage", "ratio"))
+            yield work, by, next(name for name in by if name not in ("creepage", "ratio"))
+
+    def by_hand(self):
+        """Rows of the works that have a yardstick."""
+        for work, by, yardstick in self.compared():
             ratio, low, high = by["ratio"]
             times = f"{time_of(by['creepage'][0])} | {time_of(by[yardstick][0])}"
             yield f"| {work} | {yardstick} | {times} | {ratio:.2f} ({low:.2f}–{high:.2f}) |"
+
+    def apart(self):
+        """Quotients of the times over the ratios, which are measured apart from them: the least and the largest."""
+        quotients = [by["creepage"][0] / by[yardstick][0] / by["ratio"][0] for _, by, yardstick in self.compared()]
+        return min(quotients), max(quotients)
 
     def growth(self):
         """Rows of trailers, columns of works."""
@@ -114,6 +123,10 @@ class Measured:
 
 
 GROWTH = ["rows of a train", "J v of a train", "rows by one length", "Jacobian of a train"]
+BY_HAND_IS = """\
+By hand, in the same process. Each time is a median of samples of that work alone, one work after the other; the ratio is measured
+by itself, both in turn within every sample, so that a drift of the machine's speed drops out. By the times alone the ratios would
+be {:.2f} to {:.2f} times as large: where they differ, the ratio holds."""
 BY_HAND = ["| work | yardstick | creepage | yardstick | ratio (95 %) |", "|---|---|---|---|---|"]
 GROWS = ["| trailers | rows | J·v | by one length | Jacobian, an entry |", "|---|---|---|---|---|"]
 
@@ -134,7 +147,7 @@ def table():
         f"neighbouring batches. SciPy {works.version('scipy')}, JAX {works.version('jax')}, diffrax "
         f"{works.version('diffrax')}, CasADi {works.version('casadi')}.\n"
     )
-    hand = ["", "By hand, in the same process:", "", *BY_HAND, *measured.by_hand()]
+    hand = ["", BY_HAND_IS.format(*measured.apart()), "", *BY_HAND, *measured.by_hand()]
     costs = ["", "How costs grow: a lane, a trailer; of the Jacobian, an entry that is not zero.", "", *GROWS]
     return "\n".join([note, *rows, *hand, *costs, *measured.growth(), ""])
 

@@ -1,7 +1,7 @@
-"""A small network for the missing velocities, the universal part of a universal differential equation.
+"""A small network for the missing velocities, fitted to derivatives.
 
-It is trained on derivatives, which SciML's tutorials do before they train along trajectories. It is a stand-in: Julia was
-not at hand, and training along trajectories is better where the pose is noisy.
+It is no universal differential equation, which is trained along trajectories as a rule, and says nothing of SciML: none was run, as
+SciML needs Julia, which was not at hand.
 """
 import numpy as np
 from sklearn.neural_network import MLPRegressor

@@ -5,24 +5,37 @@
 /// Only [`Isa::best`] and [`Isa::available`] make one other than the baseline, which is the default, so that whoever
 /// holds one may use it. No set contracts a product
 /// and a sum into one rounding: the results are the same bits on every one of them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Isa(Set);
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// A set other than the baseline is a token of `pulp`, which gives it out only where the processor was asked and has it.
+#[derive(Clone, Copy, Debug, Default)]
 enum Set {
     /// What every processor of the architecture has: SSE2 on x86-64, NEON on AArch64.
     #[default]
     Baseline,
     #[cfg(target_arch = "x86_64")]
-    Avx2,
+    Avx2(pulp::x86::V3),
     #[cfg(target_arch = "x86_64")]
-    Avx512,
+    Avx512(pulp::x86::V4),
 }
 
 /// Work that gains from wide vectors. `run` and all it calls have to be `#[inline(always)]`.
 pub trait Kernel {
     /// Does the work.
     fn run(self);
+}
+
+/// Work as `pulp` takes it.
+struct Call<K>(K);
+
+impl<K: Kernel> pulp::NullaryFnOnce for Call<K> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        self.0.run();
+    }
 }
 
 impl Isa {
@@ -33,27 +46,26 @@ impl Isa {
     /// assert!(Isa::available().contains(&Isa::best()));
     /// ```
     pub fn best() -> Self {
-        #[cfg(target_arch = "x86_64")]
-        {
-            if avx512_is_there() {
-                return Self(Set::Avx512);
-            }
-            if std::is_x86_feature_detected!("avx2") {
-                return Self(Set::Avx2);
-            }
-        }
-        Self(Set::Baseline)
+        Self::wide().next().unwrap_or_default()
     }
 
     /// Every set, the narrowest first.
     pub fn available() -> Vec<Self> {
-        let mut found = vec![Self(Set::Baseline)];
-        #[cfg(target_arch = "x86_64")]
-        {
-            found.extend(std::is_x86_feature_detected!("avx2").then_some(Self(Set::Avx2)));
-            found.extend(avx512_is_there().then_some(Self(Set::Avx512)));
-        }
+        let mut found: Vec<Self> = Self::wide().chain([Self::default()]).collect();
+        found.reverse();
         found
+    }
+
+    /// The sets that not every processor has, the widest first.
+    #[cfg(target_arch = "x86_64")]
+    fn wide() -> impl Iterator<Item = Self> {
+        use pulp::x86::{V3, V4};
+        [V4::try_new().map(Set::Avx512), V3::try_new().map(Set::Avx2)].into_iter().flatten().map(Self)
+    }
+
+    #[cfg(not(target_arch = "x86_64"))]
+    fn wide() -> impl Iterator<Item = Self> {
+        std::iter::empty()
     }
 
     /// Its name.
@@ -61,41 +73,29 @@ impl Isa {
         match self.0 {
             Set::Baseline => "baseline",
             #[cfg(target_arch = "x86_64")]
-            Set::Avx2 => "AVX2",
+            Set::Avx2(_) => "AVX2",
             #[cfg(target_arch = "x86_64")]
-            Set::Avx512 => "AVX-512",
+            Set::Avx512(_) => "AVX-512",
         }
     }
 
     /// Does the work with these instructions.
-    #[allow(unsafe_code)]
     pub fn dispatch(self, work: impl Kernel) {
         match self.0 {
             Set::Baseline => work.run(),
-            // SAFETY: a value of this set exists only where the processor was asked and has it.
             #[cfg(target_arch = "x86_64")]
-            Set::Avx2 => unsafe { with_avx2(work) },
-            // SAFETY: as above.
+            Set::Avx2(set) => set.vectorize(Call(work)),
             #[cfg(target_arch = "x86_64")]
-            Set::Avx512 => unsafe { with_avx512(work) },
+            Set::Avx512(set) => set.vectorize(Call(work)),
         }
     }
 }
 
-#[cfg(target_arch = "x86_64")]
-fn avx512_is_there() -> bool {
-    use std::is_x86_feature_detected as has;
-    has!("avx512f") && has!("avx512dq") && has!("avx512vl") && has!("avx512bw")
+/// There is one set of each name.
+impl PartialEq for Isa {
+    fn eq(&self, other: &Self) -> bool {
+        self.name() == other.name()
+    }
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn with_avx2(work: impl Kernel) {
-    work.run();
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
-fn with_avx512(work: impl Kernel) {
-    work.run();
-}
+impl Eq for Isa {}

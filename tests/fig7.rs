@@ -164,6 +164,53 @@ fn rolling_angle_of_reading_a_has_its_closed_form() {
     }
 }
 
+/// φ = (ω/α)·√(a/c)·[tan ϑ·Δ + F(ϑ|k²) − E(ϑ|k²)] between the rates at both ends, tan ϑ = √(c/a)·u, k² = 1 − b/c and
+/// Δ = √(1 − k²·sin²ϑ); the difference of the elliptic integrals is that of k²·sin²ϑ/Δ.
+#[test]
+fn heading_of_reading_a_has_its_closed_form() {
+    for (case, e_rc, e_tc) in CASES {
+        let kappa = (1.0f64 - e_rc).abs() * 1f64.hypot(e_tc);
+        let (a, b, c) = (0.5f64, 1.25f64, 0.25 * kappa * kappa + 1.0);
+        let square = 1.0 - b / c;
+        let delta = |angle: f64| (1.0 - square * angle.sin().powi(2)).sqrt();
+        let angle = |u: f64| ((c / a).sqrt() * u).atan();
+        let (from, to) = (angle(2.0), angle(2.0 - 0.05 * TAU));
+        let n = 2000;
+        let h = (to - from) / f64::from(n);
+        let integrand = |i: i32| {
+            let x = from + h * f64::from(i);
+            square * x.sin().powi(2) / delta(x)
+        };
+        let inside: f64 = (1..n).map(|i| integrand(i) * if i % 2 == 1 { 4.0 } else { 2.0 }).sum();
+        let elliptic = h / 3.0 * (integrand(0) + inside + integrand(n));
+        let ends = to.tan() * delta(to) - from.tan() * delta(from);
+        let phi = (a / c).sqrt() / -0.05 * (ends + elliptic);
+        let found = fig7_case(e_rc, e_tc, Reading::A).unwrap();
+        assert!((found.phi - phi).abs() < 1e-11, "{case}: {} {phi}", found.phi);
+    }
+}
+
+/// What would refute the adopted reading: its curves nearly lie upon the non-conservative ones, those of B do not.
+#[test]
+fn curves_of_reading_a_overlap_and_those_of_b_are_apart() {
+    let times: Vec<f64> = (0..=4000).map(|i| TAU * f64::from(i) / 4000.0).collect();
+    let apart = |p: &EndPoint, q: &EndPoint| (p.x - q.x).hypot(p.y - q.y);
+    let (mut off, mut lag) = (0.0f64, 0.0f64);
+    for (_, e_rc, e_tc) in CASES {
+        let path = |reading| fig7_path(e_rc, e_tc, reading, &times).unwrap();
+        let (solid, dashed) = (path(Reading::NonConservative), path(Reading::A));
+        let nearest = |p: &EndPoint| solid.iter().map(|q| apart(p, q)).fold(f64::INFINITY, f64::min);
+        off = dashed.iter().step_by(40).map(nearest).fold(off, f64::max);
+        lag = lag.max(apart(&solid[4000], &dashed[4000]));
+    }
+    assert!((off - 0.0041).abs() < 1e-4 && (lag - 0.133).abs() < 5e-4, "{off} {lag}");
+    let (_, e_rc, e_tc) = CASES[1];
+    let path = |reading| fig7_path(e_rc, e_tc, reading, &times).unwrap();
+    let (solid, separate) = (path(Reading::NonConservative), path(Reading::B));
+    let gap = solid.iter().zip(&separate).map(|(p, q)| apart(p, q)).fold(0.0, f64::max);
+    assert!((gap - 0.054).abs() < 5e-4, "{gap}");
+}
+
 /// Rates rescaled once a step tend to reading A: order 1 from the start of the step, 2 from its middle.
 #[test]
 fn rescaling_in_steps_converges_to_reading_a() {

@@ -54,6 +54,16 @@ pub enum Gives {
     Refutation,
 }
 
+/// How the two sides of an equation of a piece of evidence belong together.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Relation {
+    /// left = right.
+    #[default]
+    Equal,
+    /// left is undefined exactly where right = 0.
+    UndefinedWhereZero,
+}
+
 /// A check: what became of a statement.
 pub type Check = Arc<dyn Fn(&Statement, &Sampling) -> Outcome + Send + Sync>;
 
@@ -66,6 +76,8 @@ pub struct Evidence {
     pub gives: Gives,
     /// The equations; of a refutation, the false ones.
     pub equations: Vec<(String, String)>,
+    /// How their sides belong together.
+    pub relation: Relation,
     /// The check.
     pub check: Check,
     /// Sabotage made by hand, where a slip in a formula would not be a false statement: these must not hold.
@@ -194,6 +206,7 @@ impl Claim {
             shows: shows.into(),
             gives: Gives::Refutation,
             equations: owned(printed),
+            relation: Relation::Equal,
             check,
             sabotage: None,
             truth,
@@ -210,10 +223,37 @@ impl Claim {
         self
     }
 
+    /// The left sides of all evidence so far are said to be undefined exactly where the right sides vanish.
+    pub fn on_domains(mut self) -> Self {
+        self.evidence.iter_mut().for_each(|e| e.relation = Relation::UndefinedWhereZero);
+        self
+    }
+
     fn with(mut self, gives: Gives, shows: &str, equations: &[(&str, &str)], check: Check) -> Self {
         let equations = owned(equations);
-        self.evidence.push(Evidence { shows: shows.into(), gives, equations, check, sabotage: None, truth: None });
+        self.evidence.push(Evidence {
+            shows: shows.into(),
+            gives,
+            equations,
+            relation: Relation::Equal,
+            check,
+            sabotage: None,
+            truth: None,
+        });
         self
+    }
+}
+
+impl Evidence {
+    /// What it states, an equation an item, formulas written by a function.
+    pub fn statements(&self, formula: impl Fn(&str) -> String) -> Vec<String> {
+        let statement = |(left, right): &(String, String)| match self.relation {
+            Relation::Equal => formula(&format!("{left} = {right}")),
+            Relation::UndefinedWhereZero => {
+                format!("{} is undefined exactly where {}", formula(left), formula(&format!("{right} = 0")))
+            }
+        };
+        self.equations.iter().map(statement).collect()
     }
 }
 

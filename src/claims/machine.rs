@@ -94,7 +94,11 @@ impl Machine {
     /// The formula of a name with everything it rests on written out, so that derivatives of it are total; zero for a
     /// name without one.
     pub fn written_out(&self, name: &str) -> Expr {
-        let mut e = self.formula(name).cloned().unwrap_or_default();
+        self.put_into(self.formula(name).cloned().unwrap_or_default())
+    }
+
+    /// A formula with everything that is defined here written out.
+    pub fn put_into(&self, mut e: Expr) -> Expr {
         // Definitions are a few deep; a chain ends when nothing is left to put in.
         for _ in 0..24 {
             let next = e.substitute(&|s| self.formula(s.as_str()).cloned());

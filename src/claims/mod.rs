@@ -34,7 +34,7 @@ mod user;
 mod verify;
 
 pub use checks::{at_points, counterexample, near, prove, proving, value_said};
-pub use claim::{Check, Claim, Evidence, Gives};
+pub use claim::{Check, Claim, Evidence, Gives, Relation};
 pub use machine::Machine;
 pub use mutants::{Mutant, mutants};
 pub use outcome::{Counterexample, Outcome};

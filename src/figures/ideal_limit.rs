@@ -14,7 +14,7 @@ use crate::picture::svg::Element;
 pub const FIGURE: Figure = Figure {
     name: "ideal-limit",
     title: "creep motion approaches the ideal one with order one",
-    source: "beyond the paper; THEORY §4d",
+    source: "beyond the paper; theory/07-ideal-limit",
     draw,
 };
 

@@ -15,7 +15,7 @@ use crate::picture::svg::Element;
 pub const FIGURE: Figure = Figure {
     name: "off-tracking",
     title: "off-tracking of a car with trailers",
-    source: "beyond the paper; THEORY §4c",
+    source: "beyond the paper; theory/06-trailers",
     draw,
 };
 

@@ -101,7 +101,7 @@ pub struct Judged {
 
 /// Computes the table; S1 and S1' compare the distance from the ideal wheel after half a second, S1' at −0.05.
 ///
-/// Source: paper, *Simulation*; THEORY §3, errata E22–E24.
+/// Source: paper, *Simulation*; theory/08-simulation, errata E22–E24.
 ///
 /// ```
 /// let judged = creepage::figures::readings::table().unwrap();

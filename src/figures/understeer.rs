@@ -14,7 +14,7 @@ use crate::picture::svg::Element;
 pub const FIGURE: Figure = Figure {
     name: "understeer",
     title: "understeer of a car whose front axle creeps",
-    source: "beyond the paper; THEORY §4b",
+    source: "beyond the paper; theory/05b-corrected-single-body",
     draw,
 };
 

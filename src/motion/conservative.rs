@@ -2,7 +2,7 @@
 //!
 //! The paper asks that m·v² + I·φ̇² + J·θ̇² stay what it is for the ideal wheel and does not say how. Each
 //! [`Reading`] is one way to do so; A is adopted, the others are kept because the paper's plot was not at
-//! hand to decide (THEORY §3).
+//! hand to decide (theory/08-simulation).
 
 use super::{Drive, Formulas, Integrator, assembled};
 use crate::error::{Error, Result};
@@ -38,7 +38,7 @@ const SHARED: [(&str, &str); 7] = [
 /// | λ | 1 | √((a + b·u²)/(a + c·u²)) |
 /// | E₀ | J | twice the ideal energy at t = 0 |
 ///
-/// Source: paper, *Simulation*; THEORY §3.
+/// Source: paper, *Simulation*; theory/08-simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reading {
     /// φ̇ = w, θ̇ = u: no rule.
@@ -72,7 +72,7 @@ impl Reading {
         Reading::F,
     ];
 
-    /// Its name in THEORY §3.
+    /// Its name in theory/08-simulation.
     pub fn name(self) -> &'static str {
         self.row().0
     }

@@ -24,7 +24,7 @@ pub struct Instantaneous {
 /// | v | m/s | velocity of the wheel, v_l and v_t both, from the model's equations of motion |
 ///
 /// The rule of the paper is that m·v² + I·ω_z² + J·ω² is that of the ideal wheel. Source: paper, *Simulation*;
-/// THEORY §3, errata E22 and E23.
+/// theory/08-simulation, errata E22 and E23.
 ///
 /// # Errors
 /// When the rule leaves nothing for a rate.

@@ -17,7 +17,8 @@ const ARRIVED: f64 = 1e-13;
 ///
 /// Newton's method on the hidden rates with their exact Jacobian, from zero, else from 1 and −1, since a law
 /// with |v| has no derivative at standstill. Zero for all of them where there is no such state or it is not
-/// isolated, as for a vehicle at standstill whose creep builds up over a distance. Source: the quasi-static values of the contract's table of effects, −mass_over_bT·v_l·φ̇ and others.
+/// isolated, as for a vehicle at standstill whose creep builds up over a distance. Source: the quasi-static values of the
+/// effects, −mass_over_bT·v_l·φ̇ and others.
 ///
 /// ```
 /// use creepage::effects::{self, Applied};

@@ -16,7 +16,7 @@ use nalgebra::DMatrix;
 /// | p | values of [`Equations::free`] |
 ///
 /// Times may rise or fall. The integration restarts where a derivative of an input jumps, so that the
-/// method keeps its order. Source: equations (22)–(25) and THEORY §4 for f.
+/// method keeps its order. Source: equations (22)–(25) and theory/06-trailers for f.
 ///
 /// # Errors
 /// As [`Integrator::solve`]; and when the sizes of `z0`, `p` or the inputs do not fit the equations.

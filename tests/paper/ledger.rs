@@ -1,7 +1,7 @@
 //! The claims with what they earned.
 
 use super::markup::{head, inline, string};
-use creepage::claims::{self, Entry, Gives, Ledger, Options, Outcome, Statement, Status, verify};
+use creepage::claims::{self, Entry, Gives, Ledger, Options, Outcome, Relation, Statement, Status, verify};
 use std::fmt::Write;
 use std::sync::LazyLock;
 
@@ -53,7 +53,10 @@ fn wrong(e: &Entry) -> Option<String> {
         _ => None,
     });
     let (evidence, found) = refuted?;
-    let equation = |(l, r): &(String, String)| format!("#{} $=$ #{}", code(l), code(r));
+    let equation = |(l, r): &(String, String)| match evidence.relation {
+        Relation::Equal => format!("#{} $=$ #{}", code(l), code(r)),
+        Relation::UndefinedWhereZero => format!("#{} undefined exactly where #{} $= 0$", code(l), code(r)),
+    };
     let printed = evidence.equations.iter().map(equation).collect::<Vec<_>>().join(", ");
     let value = |(name, value): &(String, String)| format!("#{} $=$ #{}", code(name), code(value));
     let case = found.values.iter().map(value).collect::<Vec<_>>().join(", ");

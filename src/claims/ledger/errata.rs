@@ -18,6 +18,9 @@ pub fn errata(ledger: &Ledger) -> String {
     ];
     for (title, statuses) in parts {
         let wanted = |e: &&Entry| statuses.contains(&e.earned);
+        if !ledger.entries.iter().any(|e| wanted(&e)) {
+            continue;
+        }
         let _ = writeln!(out, "\n## {title}");
         ledger.entries.iter().filter(wanted).for_each(|e| erratum(&mut out, e));
     }
@@ -31,8 +34,7 @@ fn erratum(out: &mut String, e: &Entry) {
         let _ = writeln!(out, "{}\n", c.remark);
     }
     for (evidence, shown) in c.evidence.iter().zip(&e.shown) {
-        let statement: Vec<String> = evidence.equations.iter().map(|(l, r)| format!("`{l} = {r}`")).collect();
-        let statement = statement.join(", ");
+        let statement = evidence.statements(|formula| format!("`{formula}`")).join(", ");
         match (&shown.outcome, evidence.gives) {
             (Outcome::Fails(found), Gives::Refutation) => {
                 let _ = writeln!(out, "- As printed: {}: {statement}. False at {found}.", evidence.shows);

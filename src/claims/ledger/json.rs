@@ -29,8 +29,7 @@ pub(super) fn claim(c: &Claim) -> Value {
 }
 
 fn evidence(e: &Evidence) -> Value {
-    let statement: Vec<String> = e.equations.iter().map(|(l, r)| format!("{l} = {r}")).collect();
-    json!({ "gives": e.gives.name(), "shows": e.shows, "statement": statement })
+    json!({ "gives": e.gives.name(), "shows": e.shows, "statement": e.statements(str::to_string) })
 }
 
 fn entry(e: &Entry) -> Value {

@@ -1,18 +1,29 @@
 //! Where formulas are undefined.
 
-use crate::claims::{Counterexample, Equation, Outcome, Point, Statement, domains, simplest, written};
+use crate::claims::{Counterexample, Equation, Machine, Outcome, Point, Statement, domains, simplest, written};
 use crate::formula::{Exact, Expr, Fun, Node, Normal, Scalar, Symbol};
 
-/// Shows, for each equation, that its left side is undefined exactly where its right side is zero.
+/// Shows, for each equation, that what a machine derives of its left side is undefined exactly where its right side is
+/// zero.
 ///
 /// Proved by comparing the product of the left side's divisors with the right side in normal form; refuted by the
 /// simplest numbers at which one is the case and not the other.
-pub(super) fn undefined_exactly_where(statement: &Statement) -> Outcome {
-    Outcome::all(statement.equations().iter().map(|equation| match mismatch(equation) {
-        Some(found) => Outcome::Fails(found),
-        None if same_zeros(&divisors(&equation.left), &equation.right) => Outcome::PROVED,
-        None => Outcome::Undefined(format!("the divisors of {} are not {}", equation.left, equation.right)),
+pub(super) fn undefined_exactly_where(machine: &Machine, statement: &Statement) -> Outcome {
+    Outcome::all(statement.equations().iter().map(|equation| {
+        let derived = machine.put_into(equation.left.clone());
+        match mismatch(equation, &derived) {
+            Some(found) => Outcome::Fails(found),
+            None if same_zeros(&divisors(&derived), &equation.right) => Outcome::PROVED,
+            None => Outcome::Undefined(format!("the divisors of {} are not {}", equation.left, equation.right)),
+        }
     }))
+}
+
+/// A formula that is of the first degree in a coefficient, solved for it: where it is `value`.
+pub(super) fn solved_for(coefficient: &str, formula: &Expr, value: &Expr) -> Expr {
+    let name = Symbol::from(coefficient);
+    let without = formula.substitute(&|s| (*s == name).then(|| Expr::int(0)));
+    &(value - &without) / &formula.derivative(&name)
 }
 
 /// Shows that every right side has a value everywhere, whatever the values of its symbols.
@@ -37,10 +48,10 @@ fn value(e: &Expr, point: &Point) -> Option<Exact> {
     e.eval(&|s: &Symbol| point.get(s).unwrap_or_else(|| Exact::ratio(1, 0)))
 }
 
-fn mismatch(equation: &Equation) -> Option<Counterexample> {
-    let names = domains([&equation.left, &equation.right]);
+fn mismatch(equation: &Equation, derived: &Expr) -> Option<Counterexample> {
+    let names = domains([derived, &equation.right]);
     simplest(&names, |point| {
-        let (left, right) = (value(&equation.left, point), value(&equation.right, point)?);
+        let (left, right) = (value(derived, point), value(&equation.right, point)?);
         match (left, right.equals(&Exact::ratio(0, 1))) {
             (None, false) => {
                 Some(format!("{}, and {} is {}", undefined(&equation.left), equation.right, written(&right)))
@@ -95,12 +106,13 @@ mod tests {
 
     #[test]
     fn what_is_undefined_elsewhere_is_told_in_numbers() {
-        let told = |left: &str, right: &str| match undefined_exactly_where(&statement(left, right)) {
+        let asked = |left: &str, right: &str| undefined_exactly_where(&Machine::default(), &statement(left, right));
+        let told = |left: &str, right: &str| match asked(left, right) {
             Outcome::Fails(found) => found.says,
             other => format!("{other:?}"),
         };
-        assert!(undefined_exactly_where(&statement("u/v", "v")).holds());
-        assert!(undefined_exactly_where(&statement("tan(x)", "cos(x)")).holds());
+        assert!(asked("u/v", "v").holds());
+        assert!(asked("tan(x)", "cos(x)").holds());
         assert_eq!(told("u/v", "2"), "u/v is undefined, and 2 is 2");
         assert_eq!(told("u/v", "v*w"), "u/v is 1, and v*w is zero");
         let nowhere = match defined_everywhere(&statement("y", "u/v")) {
@@ -108,5 +120,24 @@ mod tests {
             other => format!("{other:?}"),
         };
         assert_eq!(nowhere, "u/v is undefined");
+    }
+
+    #[test]
+    fn what_is_derived_is_asked_and_named_as_it_is_stated() {
+        let machine = Machine::default().with_text("q", "u/v").with_text("v", "1 - w");
+        assert!(undefined_exactly_where(&machine, &statement("q", "1 - w")).holds());
+        let Outcome::Fails(found) = undefined_exactly_where(&machine, &statement("q", "w")) else {
+            panic!("q is undefined at w = 1 alone")
+        };
+        assert!(found.says.starts_with("q is "), "{}", found.says);
+    }
+
+    #[test]
+    fn a_formula_of_the_first_degree_is_solved_for_its_coefficient() {
+        let parsed = |text: &str| Expr::parse(text).unwrap();
+        let solved = solved_for("e", &parsed("a*(1 - e) + c"), &parsed("v"));
+        let at = |s: &Symbol| [("a", 2.0), ("c", 5.0), ("v", 6.0)].iter().find(|(n, _)| *n == s.as_str()).unwrap().1;
+        // 2·(1 − e) + 5 = 6.
+        assert_eq!(solved.eval(&at), Some(0.5));
     }
 }

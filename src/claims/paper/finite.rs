@@ -1,6 +1,7 @@
 //! Finite motions and their limits, (5)–(7) and (15)–(16), on simulated runs of the single wheel.
 
 use super::domain::undefined_exactly_where;
+use super::rotation::solved;
 use crate::claims::driven::{Creep, driven, model, undefined};
 use crate::claims::{Claim, Fault, Machine, Outcome, Sampling, Statement, Status, Verdict, near, proving, value_said};
 use crate::error::Result;
@@ -48,16 +49,17 @@ fn from_rest() -> Claim {
         .under("ω ≠ 0, resp. v_l ≠ 0; then they are")
         .remark(
             "At a start from rest the limits exist, 1 − a/(r·g) for accelerations a of the disk and g of its rolling, \
-             while the quotients of velocities are 0/0. This is not among the errata of THEORY.md.",
+             while the quotients of velocities are 0/0. This is none of the numbered errata.",
         )
         .chapter(CHAPTER)
         .code(&["src/mechanism/regime/rotation.rs"])
         .refutation(
-            "the quotient is there whenever the limit is, that is for r·g ≠ 0",
-            &[("1 - a*t/(r*g*t)", "r*g")],
-            &[("1 - a*t/(r*g*t)", "r*g*t")],
-            |s, _| undefined_exactly_where(s),
+            "the coefficient of velocities is there whenever the limit is, that is for r·g ≠ 0",
+            &[("e_rc", "r*g")],
+            &[("e_rc", "r*g*t")],
+            |s, _| undefined_exactly_where(&solved().with_text("v_l", "a*t").with_text("omega", "g*t"), s),
         )
+        .on_domains()
         .proof(
             "θ_rc/θ is the same for all t, and so is its limit",
             &[("(theta - d/r)/theta", "1 - a/(r*g)")],

@@ -1,6 +1,6 @@
 //! Section 2: rotation creep of a disk, equations (3)–(13).
 
-use crate::claims::paper::domain::undefined_exactly_where;
+use crate::claims::paper::domain::{solved_for, undefined_exactly_where};
 use crate::claims::paper::finite;
 use crate::claims::{Claim, Domain, Machine, Outcome, Sampling, Statement, Status, at_points, prove};
 use crate::formula::Expr;
@@ -20,6 +20,12 @@ fn disk() -> Machine {
     let by_x = rim.derivative(&"x".into());
     let velocity = &(&by_x * &Expr::sym("v_l")) + &(&by_u * &Expr::sym("theta'"));
     Machine::of("disk").with("v_A", velocity).with_text("f_R", "-b_R*v_A").with_text("omega", "theta'")
+}
+
+/// The derived speed of the disk solved for the coefficient, at any speed and rate.
+pub(super) fn solved() -> Machine {
+    let speed = Machine::of("disk").with_text("theta'", "omega").written_out("v_l");
+    Machine::default().with("e_rc", solved_for("e_rc", &speed, &Expr::sym("v_l")))
 }
 
 fn on_disk(s: &Statement, _: &Sampling) -> Outcome {
@@ -80,30 +86,27 @@ fn kinematics() -> Vec<Claim> {
                 &[("e_rc", "1 - v_l/(r*theta')"), ("v_l", "r*theta'*(1 - e_rc)")],
                 on_disk,
             ),
-        Claim::new("E7", Status::Corrected, "the coefficient (8) is undefined exactly where r·ω = 0")
+        Claim::new("E7", Status::Corrected, "the coefficient (8) is undefined for the disk at rest alone, v_l = ω = 0")
             .at("section 2, below (8); errata E7")
             .about(&[8])
             .remark(
-                "The paper leaves out only the disk at rest (v_l = ω = 0). A locked wheel that slides, ω = 0 and \
-                 v_l ≠ 0, has no coefficient either.",
+                "It is undefined exactly where r·ω = 0: a locked wheel that slides, ω = 0 and v_l ≠ 0, has no \
+                 coefficient either.",
             )
             .chapter(CHAPTER)
-            .code(&["src/mechanism/regime.rs"])
-            .tests(&["tests/formula_creep.rs"])
+            .code(&[FORMS, "src/mechanism/solve.rs"])
+            .tests(&["tests/formula_creep.rs", "tests/mechanism_regime.rs"])
             .refutation(
-                "only the disk at rest is left out",
-                &[("1 - v_l/(r*omega)", "v_l^2 + omega^2")],
-                &[("1 - v_l/(r*omega)", "r*omega")],
-                |s, _| undefined_exactly_where(s),
+                "the derived motion solved for its coefficient, only the disk at rest left out",
+                &[("e_rc", "v_l^2 + omega^2")],
+                &[("e_rc", "r*omega")],
+                |s, _| undefined_exactly_where(&solved(), s),
             )
-            .proof("left out where r·ω vanishes", &[("1 - v_l/(r*omega)", "r*omega")], |s, _| {
-                undefined_exactly_where(s)
+            .proof("left out where r·ω vanishes", &[("e_rc", "r*omega")], |s, _| {
+                undefined_exactly_where(&solved(), s)
             })
-            .sabotaged_by(&[
-                &[("1 - v_l/(r*omega)", "v_l")],
-                &[("1 - v_l/(r*omega)", "omega")],
-                &[("1 - v_l/(r*omega)", "v_l*omega*r")],
-            ]),
+            .sabotaged_by(&[&[("e_rc", "v_l")], &[("e_rc", "omega")], &[("e_rc", "v_l*omega*r")]])
+            .on_domains(),
     ]
 }
 
@@ -113,6 +116,11 @@ fn others() -> Machine {
     machine.with_text("i_b", "1 - r*omega/v_l")
 }
 
+/// The roll-slide number at any speed and rate.
+fn roll_slide() -> Machine {
+    Machine::default().with_text("rho_s", "r*omega/v_l")
+}
+
 fn on_others(s: &Statement, _: &Sampling) -> Outcome {
     static MACHINE: LazyLock<Machine> = LazyLock::new(others);
     prove(&MACHINE, s)
@@ -120,13 +128,13 @@ fn on_others(s: &Statement, _: &Sampling) -> Outcome {
 
 fn other_coefficients() -> Vec<Claim> {
     vec![
-        Claim::new("E4", Status::Corrected, "Wong's slip is the coefficient of rotation creep: e_rc = i")
+        Claim::new("E4", Status::Corrected, "e_rc = 1 − e_s, with e_s the slip of a driven wheel by Wong")
             .at("section 2, remark, (9); errata E4")
             .about(&[9])
             .under("i = 1 − V/(r·ω) for a driven wheel; for a braked one i_b = 1 − r·ω/V")
             .remark(
-                "(9) has e_rc = 1 − e_s, which would make ideal rolling a slip of 1. It holds only at 1/2, or if e_s \
-                 stands for V/(r·ω), the reciprocal of the roll-slide number.",
+                "Wong's slip is the coefficient itself, e_rc = i; (9) would make ideal rolling a slip of 1. It holds \
+                 only at 1/2, or if e_s stands for V/(r·ω), the reciprocal of the roll-slide number.",
             )
             .chapter(CHAPTER)
             .code(&["src/mechanism/regime.rs"])
@@ -144,20 +152,21 @@ fn other_coefficients() -> Vec<Claim> {
             .chapter(CHAPTER)
             .code(&["src/mechanism/regime.rs"])
             .proof("from (8)", &[("e_rc", "1 - 1/rho_s"), ("rho_s*(1 - e_rc)", "1")], on_others),
-        Claim::new("E5", Status::Corrected, "(10) needs v_l ≠ 0: the roll-slide number is undefined exactly there")
+        Claim::new("E5", Status::Corrected, "the roll-slide number of (10) is there whenever the coefficient is")
             .at("section 2, remark, (10); errata E5")
             .about(&[10])
-            .remark("A wheel that spins on the spot has e_rc = 1, which no roll-slide number gives.")
+            .remark("It needs v_l ≠ 0: a wheel that spins on the spot has e_rc = 1, which no roll-slide number gives.")
             .chapter(CHAPTER)
-            .code(&["src/mechanism/regime.rs"])
+            .code(&[FORMS])
             .refutation(
-                "ρ_s is there whenever e_rc is",
-                &[("r*omega/v_l", "r*omega")],
-                &[("r*omega/v_l", "v_l")],
-                |s, _| undefined_exactly_where(s),
+                "ρ_s = r·ω/v_l, only the wheel that does not turn left out",
+                &[("rho_s", "r*omega")],
+                &[("rho_s", "v_l")],
+                |s, _| undefined_exactly_where(&roll_slide(), s),
             )
-            .proof("ρ_s is undefined where v_l vanishes", &[("r*omega/v_l", "v_l")], |s, _| undefined_exactly_where(s))
-            .sabotaged_by(&[&[("r*omega/v_l", "omega")], &[("r*omega/v_l", "v_l*omega")]]),
+            .proof("left out where v_l vanishes", &[("rho_s", "v_l")], |s, _| undefined_exactly_where(&roll_slide(), s))
+            .sabotaged_by(&[&[("rho_s", "omega")], &[("rho_s", "v_l*omega")]])
+            .on_domains(),
     ]
 }
 

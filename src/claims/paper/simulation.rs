@@ -64,7 +64,7 @@ fn data() -> Claim {
     .under("all mass within the radius: J ≤ m·r²")
     .remark(
         "J would be four times that of a ring of this mass and radius. The kinematics is not affected, the energy \
-             rule takes J as a number. This is not among the errata of THEORY.md.",
+             rule takes J as a number. This is none of the numbered errata.",
     )
     .chapter(CHAPTER)
     .code(&[CONSERVATIVE])
@@ -84,7 +84,7 @@ fn energy_rule() -> Claim {
              vehicle. Which rates are scaled and when is the paper's to say and it does not; reading A is adopted.",
         )
         .chapter(CHAPTER)
-        .code(&[CONSERVATIVE, "src/model/equations.rs"])
+        .code(&["src/model/equations.rs"])
         .tests(&["tests/fig7.rs"])
         .sample(
             "energies of generated vehicles with up to three trailers through the compiled equations",
@@ -223,12 +223,16 @@ fn constant_energy() -> Claim {
 }
 
 fn traverse_first() -> Claim {
-    let apart = || {
-        Machine::default()
-            .with_text("apart_R", "(1 - e - 1)^2 + ((1 - e)*0)^2")
-            .with_text("apart_T", "(1 - 0 - 1)^2 + ((1 - 0)*e)^2")
+    // The derived velocities of the wheel, against those of the ideal one.
+    let of = |rotation: &str, traverse: &str| {
+        let wheel = Machine::of("unicycle").with_text("e_rc", rotation).with_text("e_tc", traverse);
+        wheel.with_text("apart", "((v_l - r*theta')^2 + v_t^2)/(r*theta')^2").written_out("apart")
     };
-    let sign = move |s: &Statement, sampling: &Sampling| at_points(&apart(), s, &[("e", Domain::Nonzero)], sampling);
+    let apart = move || Machine::default().with("apart_R", of("e", "0")).with("apart_T", of("0", "e"));
+    let sign = move |s: &Statement, sampling: &Sampling| {
+        let names = [("e", Domain::Nonzero), ("r", Domain::Positive), ("theta'", Domain::Positive)];
+        at_points(&apart(), s, &names, sampling)
+    };
     Claim::new("E24", Status::Corrected, "type T makes more positional difference than type R at the beginning")
         .at("section 4, simulation; errata E24")
         .about(&[24, 25])
@@ -238,7 +242,7 @@ fn traverse_first() -> Claim {
              The paper's own cases (iii) and (iv) compare 0.1 with 0.2.",
         )
         .chapter(CHAPTER)
-        .code(&[CONSERVATIVE])
+        .code(&["src/model/build.rs", CONSERVATIVE])
         .tests(&["tests/fig7.rs"])
         .refutation(
             "without the energy rule",

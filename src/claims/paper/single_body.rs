@@ -146,8 +146,8 @@ fn slips() -> Vec<Claim> {
             .at("section 4, first theorem; errata E17")
             .about(&[28])
             .remark(
-                "The counterexample in six numbers. Those of THEORY.md, θ̇₁ = θ̇₂ = 4 with e = (0.02, 0.05), r = 1/2, \
-                 a = 1, give a yaw rate of 3/50 and a circle of radius 193/6 where (28) says straight ahead.",
+                "The counterexample in six numbers. Others, θ̇₁ = θ̇₂ = 4 with e = (0.02, 0.05), r = 1/2, a = 1, \
+                 give a yaw rate of 3/50 and a circle of radius 193/6 where (28) says straight ahead.",
             )
             .chapter(CHAPTER)
             .code(&[BUILD])

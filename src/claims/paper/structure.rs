@@ -276,7 +276,7 @@ fn table(found: &Found) -> Claim {
 fn trains(found: &Found) -> Claim {
     base("growth-trailers", Status::Proved, "growth vectors of trains, with and without the angle of a wheel")
         .at("corrected theorem (c), growth")
-        .under("hitches on the axles")
+        .under("hitches on the axles; one general configuration each, bars of length 1")
         .proof(
             "regular, perpendicular, and with the last angle alone at right angles, which does not matter",
             &[
@@ -303,7 +303,7 @@ fn trains(found: &Found) -> Claim {
 fn degrees(found: &Found) -> Claim {
     base("jean-degree", Status::Proved, "the degree of nonholonomy of a train is N + 2 where no hitch is perpendicular, and Fibonacci's F(N + 3) where all are")
         .at("corrected theorem (c); Jean 1996")
-        .under("hitches on the axles; N ≤ 5, and N ≤ 3 with all hitches perpendicular")
+        .under("hitches on the axles; N ≤ 5, and N ≤ 3 with all hitches perpendicular; one general configuration each, bars of length 1")
         .proof(
             "exact brackets",
             &[

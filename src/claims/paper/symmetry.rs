@@ -252,8 +252,8 @@ fn two_hinges() -> Claim {
     base("three-link", Status::Sampled, "three bodies on two hinges, floating freely, are not holonomic: the phase of a small loop is its area times the curvature")
         .under("uniform rods of mass 1 and length 1, angular momentum zero; angles of each hinge from straight")
         .remark(
-            "THEORY.md gives −0.00609466 for the curvature at (0.7, −0.4) and does not say for which masses; for equal \
-             uniform rods it is −0.00676934.",
+            "A curvature of −0.00609466 at (0.7, −0.4) is on record, without the masses it is for; for equal uniform \
+             rods it is −0.00676934.",
         )
         .code(&["src/connection/bodies.rs", CONNECTION])
         .tests(&["tests/symmetry_bodies.rs"])

@@ -84,7 +84,7 @@ fn recursion() -> Vec<Claim> {
                 ],
                 proving(on_axle(2)),
             ),
-        base("trailers-in-courses", "in courses χ_i = θ_i + arctan e_i a creeping trailer turns as an ideal one of length d_i·cos α_i", PLACE)
+        base("trailers-in-courses", "in courses χ_i = θ_i + arctan e_i each creeping bar turns as an ideal one of length d_i·cos α_i that is drawn with V_(i−1)", PLACE)
             .under("c_i = 0, e_i = tan α_i")
             .remark("The speed passed on is V_(i−1)·cos(χ_(i−1) − θ_i)/cos α_i and not that of an ideal train: for several trailers the hitches move sideways by d_i·sin α_i as well.")
             .proof(
@@ -109,8 +109,11 @@ fn recursion() -> Vec<Claim> {
             ),
         base("trailer-breaks", "a trailer across its hitch has no coefficient: e_i is undefined exactly where v_i = 0", PLACE)
             .under("at β = ±π/2 without creep ahead a trailer may only slide sideways, which type T does not express")
-            .proof("quotient of its velocities", &[("vt_1/v_1", "v_1")], |s, _| undefined_exactly_where(s))
+            .proof("quotient of its velocities", &[("vt_1/v_1", "v_1")], |s, _| {
+                undefined_exactly_where(&Machine::default(), s)
+            })
             .sabotaged_by(&[&[("vt_1/v_1", "vt_1")], &[("vt_1/v_1", "v_1*vt_1")]])
+            .on_domains()
             .proof(
                 "forward speed at right angles",
                 &[("v_1", "-e_0*v_l")],

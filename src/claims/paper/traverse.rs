@@ -1,9 +1,10 @@
 //! Section 3: traverse creep of a sleigh, equations (14)–(19).
 
 use super::blade::{on_row, on_sleigh, sleigh};
-use super::domain::undefined_exactly_where;
+use super::domain::{solved_for, undefined_exactly_where};
 use super::finite;
 use crate::claims::{Claim, Domain, Machine, Sampling, Statement, Status, at_points, prove};
+use crate::formula::Expr;
 
 const CHAPTER: &str = "03-traverse-creep";
 const FORMS: &str = "src/mechanism/contact.rs";
@@ -22,12 +23,12 @@ fn velocities() -> Vec<Claim> {
             .code(&[FORMS])
             .tests(&["tests/mechanism_forms.rs"])
             .proof("the derived row without creep", &[("ideal", "x'*sin(phi) - y'*cos(phi)")], on_row),
-        Claim::new("E1", Status::Corrected, "the lateral velocity, positive to the left, is v_t = −ẋ·sin φ + ẏ·cos φ")
+        Claim::new("E1", Status::Corrected, "the lateral velocity is v_t = ẋ·sin φ − ẏ·cos φ")
             .at("section 3, above (15); errata E1")
             .about(&[14, 17])
             .remark(
-                "Section 3 defines v_t with the opposite sign, against its own (16), (21), the words left and right, \
-                 and section 4.",
+                "Positive to the left it is −ẋ·sin φ + ẏ·cos φ: section 3 has the opposite sign, against its own (16), \
+                 (21), the words left and right, and section 4.",
             )
             .chapter(CHAPTER)
             .code(&["src/model/build.rs", FORMS])
@@ -81,7 +82,7 @@ fn coefficient() -> Vec<Claim> {
             )
             .chapter(CHAPTER)
             .code(&["src/mechanism/regime.rs"])
-            .refutation("with v = v_l", &[("theta_l", "atan(v_t/v_l)")], &[("theta_l", "2*atan(t)")], forward)
+            .refutation("with v = v_l, at v_t = v_l·2t/(1 + t²)", &[("theta_l", "atan(v_t/v_l)")], &[("theta_l", "2*atan(t)")], forward)
             .sample(
                 "with v = |ṙ|, speeds on rational points of the circle",
                 &[("theta_c", "atan(v_t/v_l)")],
@@ -114,24 +115,32 @@ fn coefficient() -> Vec<Claim> {
             .code(&[FORMS])
             .tests(&["tests/mechanism_forms.rs"])
             .proof("the derived row in the velocities of the body", &[("g", "e_tc*v_l - v_t")], on_sleigh),
-        Claim::new("E8", Status::Corrected, "the coefficient (17) is undefined exactly where v_l = 0")
+        Claim::new("E8", Status::Corrected, "the coefficient (17) is undefined for the sleigh that stands or turns on the spot alone")
             .at("section 3, below (17); errata E8")
             .about(&[17])
             .remark(
-                "The paper leaves out the static and the purely orienting sleigh; a pure slide to the side, v_l = 0 \
-                 and v_t ≠ 0, has no coefficient either.",
+                "It is undefined exactly where v_l = 0: a pure slide to the side, v_l = 0 and v_t ≠ 0, has no \
+                 coefficient either.",
             )
             .chapter(CHAPTER)
-            .code(&["src/mechanism/regime.rs"])
+            .code(&[FORMS])
+            .tests(&["tests/mechanism_regime.rs"])
             .refutation(
-                "only the sleigh that does not travel is left out",
-                &[("v_t/v_l", "v_l^2 + v_t^2")],
-                &[("v_t/v_l", "v_l")],
-                |s, _| undefined_exactly_where(s),
+                "the derived row solved for its coefficient, only the sleigh that does not travel left out",
+                &[("e_tc", "v_l^2 + v_t^2")],
+                &[("e_tc", "v_l")],
+                |s, _| undefined_exactly_where(&solved(), s),
             )
-            .proof("left out where v_l vanishes", &[("v_t/v_l", "v_l")], |s, _| undefined_exactly_where(s))
-            .sabotaged_by(&[&[("v_t/v_l", "v_t")], &[("v_t/v_l", "v_l*v_t")]]),
+            .proof("left out where v_l vanishes", &[("e_tc", "v_l")], |s, _| undefined_exactly_where(&solved(), s))
+            .sabotaged_by(&[&[("e_tc", "v_t")], &[("e_tc", "v_l*v_t")]])
+            .on_domains(),
     ]
+}
+
+/// The derived row of the sleigh solved for its coefficient.
+fn solved() -> Machine {
+    let row = sleigh().written_out("g");
+    Machine::default().with("e_tc", solved_for("e_tc", &row, &Expr::int(0)))
 }
 
 fn signs() -> Vec<Claim> {
@@ -145,13 +154,13 @@ fn signs() -> Vec<Claim> {
         Claim::new(
             "E11",
             Status::Corrected,
-            "the sign of a coefficient is relative to travel: e_tc with v_l·v_t, e_rc with −v_A·ω",
+            "a positive e_tc is a creep to the left, and a positive e_rc one backward",
         )
         .at("sections 2 and 3, left-creep, backward-creep; errata E11")
         .under("v_l ≠ 0, resp. ω ≠ 0")
         .remark(
-            "Left-creep and backward-creep are the signs of e_tc and e_rc only for v_l > 0 and ω > 0. With v_l² \
-                 and (r·ω)² positive the equations below are equalities of signs.",
+            "Only for v_l > 0, resp. ω > 0: signs are relative to travel, that of e_tc is that of v_l·v_t, that of e_rc \
+                 that of −v_A·ω. With v_l² and (r·ω)² positive the equations below are equalities of signs.",
         )
         .chapter(CHAPTER)
         .code(&["src/mechanism/regime.rs"])

@@ -98,13 +98,17 @@ fn disk_ideal() -> Claim {
         let force = &-&no_force(&slip) / &no_force(&slip.derivative(&"f".into()));
         Ok(disk_machine()?.with("f", force).with("v_i'", v))
     });
-    base("viscous-disk-limit", "the ideal disk has v' = (F + τ/r)/(m + J/r²), and the viscous one is ahead of it by J/(m·r² + J)·v_A: by O(1/b) for all time")
+    base("viscous-disk-limit", "the ideal disk has v' = (F + τ/r)/(m + J/r²), and the viscous one is ahead of it by J/(m·r² + J)·v_A, for all time at most J/(m·r² + J)·sup|F/m − r·τ/J|/λ with λ = b·(1/m + r²/J)")
         .at("section 2, (3), (11); introduction, reference [6]; corrected theorem (e)")
         .about(&[3, 11])
-        .under("both from rest; F and τ may depend on time")
-        .remark("With m = 1, r = 0.5, J = 1, F = 0, τ = 0.3 the largest gap within 3 s is 0.096/b.")
+        .under("both from rest; F and τ may depend on time, and are bounded")
+        .remark("From rest a solution of v_A' + λ·v_A = g has |v_A| ≤ sup|g|/λ, and λ grows as b. With m = 1, r = 0.5, J = 1, F = 0, τ = 0.3 the largest gap within 3 s is 0.096/b.")
         .proof("the multiplier solved for", &[("v_i'", "(F + tau/r)/(m + J/r^2)")], proving(machine.clone()))
-        .proof("the rate of the gap", &[("v' - v_i'", "J/(m*r^2 + J)*v_A'")], proving(machine))
+        .proof(
+            "the rate of the gap, and what drives it",
+            &[("v' - v_i'", "J/(m*r^2 + J)*v_A'"), ("v_A' + b*(1/m + r^2/J)*v_A", "F/m - r*tau/J")],
+            proving(machine),
+        )
 }
 
 const SLEIGH: [(&str, &str); 5] = [
@@ -187,10 +191,10 @@ fn slow_creep() -> Claim {
     let machine = SLEIGH_MOTION.iter().fold(Machine::default(), |m, (name, formula)| m.with_text(name, formula));
     let machine = machine.with_text("w", "e_tc*u").with_text("force_balance", "w'/u");
     let zero = Expr::parse("force_balance").unwrap_or_default();
-    base("creep-coefficient-emerges", "where friction is strong the sleigh creeps by e_tc = −m·I/((I + m·a²)·b)·φ̇ + O(1/b²), with the mass centre on the axle by −(m/b)·φ̇")
+    base("creep-coefficient-emerges", "the side force of the sleigh balances, w' = 0, at the creep e_tc = −m·I/((I + m·a²)·b)·φ̇, with the mass centre on the axle −(m/b)·φ̇")
         .at("section 3, (18)–(19); corrected theorem (e)")
         .about(&[18, 19])
-        .under("b large: after a time of order 1/b the slip follows its force")
+        .under("u ≠ 0; that a sleigh gets there within a time of order 1/b is measured: `creep-coefficient-measured`")
         .remark("A left turn creeps to the right. The coefficient is no constant: it is proportional to the yaw rate.")
         .proof("w' = 0 in the equations of the sleigh", &[("e_tc", "-m*I/((I + m*a^2)*b)*omega")], vanishing(machine, vec![zero]))
 }
@@ -210,7 +214,7 @@ fn constant_creep() -> Claim {
     let discriminant = &linear.pow(2) - &(&Expr::int(4) * &(&square * &zero));
     let machine = machine.with("discriminant", discriminant).with_text("e_star'", "e'");
     // b for which e stays, and the distance between its two places.
-    let staying = machine.clone().with_text("b", "-m*omega*(1 + e^2)/e");
+    let staying = machine.clone().with_text("b", "-m*omega*(1 + e^2)/e").with_text("root", "-omega*(1 - e^2)/e");
     base("constant-creep", "with the mass centre on the axle e' = −ω − βe − ωe², β = b/m: constant creep e* = (−β + √(β² − 4ω²))/(2ω) exists only for b ≥ 2m|ω|, and |e*| ≤ 1")
         .at("section 3, (17)–(19); corrected theorem (e)")
         .about(&[17, 18, 19])
@@ -220,6 +224,16 @@ fn constant_creep() -> Claim {
         .proof(
             "the friction that keeps a creep: at |e| = 1 it is 2m|ω|, everywhere else more",
             &[("e'", "0"), ("(b/m)^2 - 4*omega^2", "omega^2*(1 - e^2)^2/e^2"), ("b", "-m*omega*(1 + e^2)/e")],
+            proving(staying.clone()),
+        )
+        .proof(
+            "at that friction e is the one with + before the root, which is positive for b > 0 where |e| < 1; the other is 1/e",
+            &[
+                ("root^2", "(b/m)^2 - 4*omega^2"),
+                ("root", "b/m*(1 - e^2)/(1 + e^2)"),
+                ("(-b/m + root)/(2*omega)", "e"),
+                ("(-b/m - root)/(2*omega)", "1/e"),
+            ],
             proving(staying),
         )
 }

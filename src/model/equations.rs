@@ -63,6 +63,15 @@ impl Model {
         states
     }
 
+    /// The rates of the states, in their order.
+    pub(crate) fn state_rates(&self) -> Vec<Expr> {
+        let states = self.states();
+        let hidden = self.effects.iter().flat_map(|e| e.states()).map(|(_, rate)| rate);
+        let of_effects = self.effects.iter().map(|e| e.states().len()).sum::<usize>();
+        let own = states[..states.len() - of_effects].iter().map(|s| Expr::sym(s.rate()));
+        own.chain(hidden).collect()
+    }
+
     /// Compiles the equations of motion with the given symbols left free.
     ///
     /// # Errors
@@ -80,7 +89,7 @@ impl Model {
     /// The equations of motion for a simulation: the rates have no derivatives where nothing asks for them. Those of a
     /// train of N trailers are N² formulas.
     pub(crate) fn equations_to_simulate(&self) -> Result<Equations> {
-        let hidden = self.effects.iter().any(|e| !e.states().is_empty());
+        let hidden = self.states().len() > 3 + self.trailer_count();
         if hidden { self.equations(&[]) } else { self.compiled(&[], &[]) }
     }
 
@@ -91,11 +100,7 @@ impl Model {
         definitions.insert_into(&mut graph)?;
         let states = self.states();
         let visible = 3 + self.trailer_count();
-        let mut rates: Vec<NodeId> = states[..visible].iter().map(|s| graph.insert(&Expr::sym(s.rate()))).collect();
-        rates.extend(self.own_states().iter().map(|q| graph.insert(&Expr::sym(q.rate()))));
-        for (_, rate) in self.effects.iter().flat_map(|e| e.states()) {
-            rates.push(graph.insert(&rate));
-        }
+        let rates: Vec<NodeId> = self.state_rates().iter().map(|rate| graph.insert(rate)).collect();
         let inputs: Vec<Symbol> = self.inputs.iter().map(|i| Symbol::new(i)).collect();
         let values: Vec<(Symbol, f64)> = self.values().into_iter().filter(|(s, _)| !free.contains(s)).collect();
         let slots: Vec<Symbol> =
@@ -202,7 +207,8 @@ impl Equations {
         let n = self.n();
         let width = self.jacobian.outputs() / n - 1;
         let read = |j: usize| self.live.iter().any(|k| (k - n) % width == j);
-        (0..n).take_while(|j| !read(*j)).count()
+        // Those are poses: what a state that nobody reads begins with is nobody's parameter, and not left out.
+        (0..self.visible).take_while(|j| !read(*j)).count()
     }
 
     /// The columns that the rate of each state depends on: of (z, u, p), or of what the derivatives were asked by.

@@ -123,6 +123,12 @@ impl Model {
         Self::of(vehicle, &ones)
     }
 
+    /// The same with every effect kept at its values: nothing of it is fitted.
+    pub fn fixed(&self) -> Self {
+        let fixed = |e: &Applied| Applied { free: false, ..e.clone() };
+        Self { effects: self.effects.iter().map(fixed).collect(), ..self.clone() }
+    }
+
     /// How many trailers it has: those that are a part of the vehicle, then those behind it.
     pub fn trailer_count(&self) -> usize {
         self.vehicle.trailers.len() + self.trailers.len()

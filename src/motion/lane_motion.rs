@@ -8,7 +8,7 @@ use crate::model::{Equations, Workspace};
 /// z′ and S′ as functions of time.
 pub(super) struct Motion<'a, const L: usize> {
     equations: &'a Equations,
-    signals: &'a Signals,
+    pub signals: &'a Signals,
     workspace: Workspace<L>,
     lookup: Lookup<L>,
     delay: [f64; L],

@@ -33,8 +33,13 @@ pub(crate) struct LaneStepper<'a, const L: usize> {
     total: Arcs<L>,
     at: Arcs<L>,
     forgetting: Forgetting<L>,
+    /// Of each arc the knot of the signals that it comes to next.
+    ahead: [usize; L],
     isa: Isa,
 }
+
+/// A knot so near to the beginning or the end of a span, as a share of the interval before it, lies there.
+const SAME: f64 = 1e-6;
 
 /// How spans are divided.
 struct Steps<const L: usize> {
@@ -53,6 +58,7 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
             total: Arcs::default(),
             at: Arcs::default(),
             forgetting: Forgetting::default(),
+            ahead: [0; L],
             isa: Isa::best(),
         }
     }
@@ -79,8 +85,51 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
     }
 
     /// As [`LaneStepper::advance`], inlined into a kernel of the caller.
+    ///
+    /// Between two rows of poses there may be many of the inputs: each of their intervals has steps of its own, for what
+    /// a step does not look at would not have happened.
     #[inline(always)]
     pub fn advance_here(&mut self, z: &mut [[f64; L]], s: &mut [[f64; L]], from: &[f64; L], to: &[f64; L]) {
+        let mut at = *from;
+        loop {
+            let until = self.next_knots(&at, to);
+            self.advance_between(z, s, &at, &until);
+            if until == *to {
+                return;
+            }
+            at = until;
+        }
+    }
+
+    /// The knots of the signals that lie between, the next one of each arc, or the end where there are none. Spans that go
+    /// back in time are not divided.
+    #[inline(always)]
+    fn next_knots(&mut self, at: &[f64; L], to: &[f64; L]) -> [f64; L] {
+        let mut until = *to;
+        for l in 0..L {
+            if at[l] < to[l] {
+                until[l] = self.next_knot(l, at[l], to[l]);
+            }
+        }
+        until
+    }
+
+    #[inline(never)]
+    fn next_knot(&mut self, l: usize, at: f64, to: f64) -> f64 {
+        let knots = self.motion.signals.knots();
+        let i = self.ahead[l];
+        let stands = i > 0 && knots[i - 1] <= at && knots.get(i).is_none_or(|k| at < *k);
+        let mut i = if stands { i } else { knots.partition_point(|k| *k <= at) };
+        let interval = |i: usize| if i > 0 { knots[i] - knots[i - 1] } else { f64::INFINITY };
+        if knots.get(i).is_some_and(|k| k - at < SAME * interval(i)) {
+            i += 1;
+        }
+        self.ahead[l] = i;
+        knots.get(i).copied().filter(|k| to - k > SAME * interval(i)).unwrap_or(to)
+    }
+
+    #[inline(always)]
+    fn advance_between(&mut self, z: &mut [[f64; L]], s: &mut [[f64; L]], from: &[f64; L], to: &[f64; L]) {
         let Self { motion, rate, total, at, .. } = self;
         for arcs in [&mut *rate, &mut *total, &mut *at] {
             arcs.make_room(z.len(), s.len());

@@ -115,10 +115,7 @@ impl LaneEquations {
         }
         definitions.insert_into(&mut graph)?;
         let (states, visible) = (model.states(), 3 + model.trailer_count());
-        let mut rates: Vec<NodeId> = states[..visible].iter().map(|s| graph.insert(&Expr::sym(s.rate()))).collect();
-        for (_, rate) in model.effects.iter().flat_map(|e| e.states()) {
-            rates.push(graph.insert(&rate));
-        }
+        let rates: Vec<NodeId> = model.state_rates().iter().map(|rate| graph.insert(rate)).collect();
         let sensor =
             ["x_m", "y_m", "heading_m"].map(Symbol::from).into_iter().chain(states[3..visible].iter().cloned());
         let mut readings: Vec<NodeId> = sensor.map(|s| graph.insert(&Expr::sym(s))).collect();

@@ -302,3 +302,66 @@ fn the_unaligned_run_is_answered_with_its_clock() {
     let gap = report.gap[0].fit.unwrap();
     assert!(gap.position_rms_after < 0.5 * gap.position_rms_before, "{gap:?}");
 }
+
+/// The delay of the model file is one with the offset of the clocks: the file is read, and the offset has it.
+#[test]
+fn a_delay_of_the_model_file_goes_into_the_clock() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), "run", &drive(Tractor::Unicycle, vec![], 21), SKEW);
+    let path = folder.path().join("model.toml");
+    let text = std::fs::read_to_string(&path).unwrap() + "[[effects]]\nid = \"input-delay\"\ndelay = 0.02\n";
+    std::fs::write(&path, text).unwrap();
+    let (file, run) = read(folder.path(), "run");
+    let of = Checked { file: &file, runs: std::slice::from_ref(&run), library: effects::all() };
+    let checked = check_aligned(&of, None, &|_| ()).unwrap();
+    let [offset, _] = errors(&checked.data.clocks[0], SKEW);
+    assert!(offset.abs() < 4.0, "{offset}");
+    assert!(
+        checked.data.findings.iter().any(|f| f.says.contains("input-delay is left out")),
+        "{:?}",
+        checked.data.findings
+    );
+    let request =
+        Request { file: &file, runs: &[run], held_out: &[], library: effects::all(), horizons: &[1.0], seed: 3 };
+    let report = discover_aligned(&request, None, &|_| ()).unwrap().report;
+    assert_eq!(report.verdict, Verdict::NoMissingEffect, "{}", report.summary);
+    assert!(report.data.warnings.iter().any(|w| w.contains("input-delay is left out")), "{:?}", report.data.warnings);
+}
+
+/// The last quarter of what both files have is held out, though the poses go on for as long again.
+#[test]
+fn held_out_poses_say_nothing_of_the_clock() {
+    let found = |spoilt: f64| {
+        let folder = tempfile::tempdir().unwrap();
+        let scenario = drive(Tractor::Unicycle, vec![], 25);
+        write(folder.path(), "run", &scenario, SKEW);
+        // Inputs of the first half alone.
+        let path = folder.path().join("run.csv");
+        let text = std::fs::read_to_string(&path).unwrap();
+        let kept: Vec<&str> = text.lines().take(1 + 30 * 50).collect();
+        std::fs::write(&path, kept.join("\n")).unwrap();
+        let (file, mut run) = read(folder.path(), "run");
+        let from = SKEW.offset + 0.76 * 30.0;
+        let held_out = run.time.iter().zip(&mut run.x).filter(|(t, _)| **t > from);
+        held_out.enumerate().for_each(|(i, (_, x))| *x += spoilt * if i % 2 == 0 { 1.0 } else { -1.0 });
+        let runs = [run];
+        let request =
+            Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[1.0], seed: 3 };
+        discover_aligned(&request, None, &|_| ()).unwrap().report.data.clocks.remove(0)
+    };
+    let (clean, spoilt) = (found(0.0), found(0.01));
+    assert_eq!((clean.offset_s, clean.drift, clean.at_s), (spoilt.offset_s, spoilt.drift, spoilt.at_s));
+}
+
+#[test]
+fn two_short_files_are_too_short_and_not_of_two_drives() {
+    let folder = tempfile::tempdir().unwrap();
+    let scenario = Scenario { duration: 7.0, ..drive(Tractor::Unicycle, vec![], 26) };
+    write(folder.path(), "run", &scenario, SKEW);
+    let (file, run) = read(folder.path(), "run");
+    let runs = [run];
+    let request = Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[], seed: 3 };
+    let report = discover_aligned(&request, None, &|_| ()).unwrap().report;
+    assert_eq!(report.verdict, Verdict::NotIdentifiable, "{}", report.summary);
+    assert!(report.summary.contains("too short"), "{}", report.summary);
+}

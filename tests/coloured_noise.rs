@@ -55,6 +55,26 @@ fn where_the_sensor_wanders_and_nothing_is_missing_nothing_is_named() {
     }
 }
 
+/// A pose that wanders within a fraction of a second is no disagreement of the model, and the floor knows how it wanders.
+#[test]
+fn a_sensor_that_wanders_is_no_disagreement() {
+    for (seed, time) in [(75, 0.05), (76, 0.1), (77, 0.2)] {
+        for tractor in [Tractor::Unicycle, Tractor::DifferentialDrive] {
+            let report = report(&drive(tractor, vec![], seed), time);
+            assert_eq!(
+                report.verdict,
+                Verdict::NoMissingEffect,
+                "{tractor:?}, {time} s: {} {:?}",
+                report.summary,
+                report.remaining
+            );
+            let gap = &report.gap[0];
+            let ratio = gap.held_out.as_ref().unwrap().position_rms_after / gap.noise_floor.position_rms;
+            assert!((0.7..1.7).contains(&ratio), "{tractor:?}, {time} s: {ratio}");
+        }
+    }
+}
+
 #[test]
 fn what_is_missing_is_named_although_the_sensor_wanders() {
     let track = Hidden::TrackWidth { scale: 0.05 };

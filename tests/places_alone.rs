@@ -47,6 +47,8 @@ fn nothing_is_named_where_it_only_stops() {
     for seed in [4, 5, 6] {
         let report = stopping(&[], seed);
         assert!(report.effects.is_empty() && report.unnamed.is_empty(), "{seed}: {}", report.summary);
+        assert!(report.disagreement.is_empty(), "{seed}: {:?}", report.disagreement);
+        assert_eq!(report.remaining.as_ref().unwrap().heading_noise, None, "no heading is measured");
         let open = [Verdict::NoMissingEffect, Verdict::NotIdentifiable];
         assert!(open.contains(&report.verdict), "{seed}: {}", report.summary);
     }

@@ -51,13 +51,13 @@ pub struct Arguments {
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = runs::seconds, requires = "truth")]
     clock_offset: Option<f64>,
     /// A horizon of the gap, s (repeatable) [default: 1, 5 and 30]
-    #[arg(long = "horizon", value_name = "S", value_parser = horizon)]
+    #[arg(long = "horizon", value_name = "S", allow_negative_numbers = true, value_parser = horizon)]
     horizons: Vec<f64>,
     /// What to print: the summary, or the report as JSON
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
     /// Seed of the noise floor's random numbers
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, allow_negative_numbers = true, default_value_t = 0)]
     seed: u64,
     #[command(flatten)]
     own: Own,

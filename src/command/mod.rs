@@ -35,7 +35,7 @@ struct Common {
     #[arg(long, short, global = true)]
     quiet: bool,
     /// Threads to use; the output is the same for every number [default: all cores]
-    #[arg(long, global = true, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, global = true, allow_negative_numbers = true, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
 }
 

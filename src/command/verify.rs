@@ -25,10 +25,10 @@ pub struct Arguments {
     #[arg(value_name = "CLAIM")]
     only: Vec<String>,
     /// Cases of each sampled check
-    #[arg(long, value_name = "N", default_value_t = Options::default().cases, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = Options::default().cases, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     cases: u32,
     /// Everything generated follows from it
-    #[arg(long, value_name = "S", default_value_t = 0)]
+    #[arg(long, value_name = "S", allow_negative_numbers = true, default_value_t = 0)]
     seed: u64,
     /// Adds claims of your own: identities of formulas, see the README
     #[arg(long, value_name = "FILE.toml")]

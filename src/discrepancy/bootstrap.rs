@@ -54,7 +54,8 @@ impl ChanceGains {
         let reached = self.gains.iter().filter(|g| **g >= gain).count();
         let rarest = 1.0 / (self.gains.len() + 1) as f64;
         match reached {
-            0 => (self.share() * tail(gain / self.scale(), self.k)).min(rarest),
+            // Where no draw gains anything at all, or none could be made, the share is not known to be zero.
+            0 => (self.share().max(rarest) * tail(gain / self.scale(), self.k)).min(rarest),
             n => (n + 1) as f64 * rarest,
         }
     }
@@ -108,7 +109,7 @@ impl Problem {
             let signals = record.signals.clone();
             let mut stepper = Stepper::new(equations, &signals, &[]);
             let first = segment.windows[0].start;
-            let hidden = carry::before(equations, &[], record, first, &poses[0]);
+            let hidden = carry::carried(equations, &[], record, first, &poses[0]);
             let mut arc = Arc { z: [&poses[0][..], &hidden.z].concat(), s: vec![] };
             let mut of_segment = Vec::with_capacity(poses.len());
             for (k, rows) in segment.windows.iter().enumerate() {
@@ -159,6 +160,9 @@ mod tests {
         assert_eq!((chance.p_value(5.0), chance.p_value(3.0)), (2.0 / 7.0, 3.0 / 7.0));
         // χ²₂ exceeds x with probability exp(-x/2).
         assert!((chance.p_value(20.0) - 0.5 * (-5.0_f64).exp()).abs() < 1e-12);
+        // None of the draws gains: that is no proof that none ever does.
+        let none = ChanceGains { k: 2, gains: vec![0.0; 9] }.p_value(6.0);
+        assert!((none - 0.1 * (-3.0_f64).exp()).abs() < 1e-12, "{none}");
         // What no draw has reached is rarer than what one has.
         assert_eq!(ChanceGains { k: 2, gains: vec![6.0; 6] }.p_value(6.1), 1.0 / 7.0);
     }

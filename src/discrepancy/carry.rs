@@ -1,5 +1,6 @@
-//! States that no sensor sees: at rest at the start of a log, then carried along.
+//! States that no sensor sees: carried along from the start of a log, as far as they hang on it by what the poses show.
 
+use super::begun::Carried;
 use super::record::Record;
 use crate::model::Equations;
 use crate::motion::{Arc, Stepper, initial_hidden};
@@ -8,24 +9,73 @@ use nalgebra::DMatrix;
 /// How long before the first window hidden states are carried from rest, s.
 const LEAD: f64 = 3.0;
 
-/// Hidden states and all sensitivities at a row, carried there from rest through what the log says before it.
+/// Hidden states and all sensitivities at a row, carried there from rest through what the log says before it; as far as
+/// they still hang on how they began, by what the rows after it show.
 pub fn before(equations: &Equations, p: &[f64], record: &Record, row: usize, visible: &[f64]) -> Arc {
     if equations.n() == equations.visible {
         return Arc::default();
     }
-    let mut stepper = Stepper::new(equations, &record.signals, p);
-    let time = &record.time;
-    let gap = record.gap();
-    let joined = |i: &usize| time[i + 1] - time[*i] <= gap && time[row] - time[*i] <= LEAD;
-    let first = (0..row).rev().take_while(joined).last().unwrap_or(row);
-    let mut hidden = at_rest(equations, p, &mut stepper, time[first], visible);
-    for i in first..row {
-        // The pose a hidden state sees is the measured one; only the hidden states are carried.
-        let mut arc = stepper.start(&[visible, &hidden.z].concat(), Some(&hidden.s));
-        stepper.advance(&mut arc, time[i], time[i + 1]);
-        hidden = Arc { z: arc.z[equations.visible..].to_vec(), s: arc.s };
+    let way = Way::to(equations, p, record, row, visible);
+    let rest = way.at_rest();
+    let arc = way.along(rest.clone());
+    let elsewhere = Arc { z: rest.z.iter().map(|z| z + 1.0).collect(), s: rest.s };
+    let memory = way.along(elsewhere).z.iter().zip(&arc.z).map(|(a, b)| (a - b).abs()).collect();
+    Carried { arc, pose: visible, memory }.settled(equations, p, record, row)
+}
+
+/// As [`before`], without a look at the rows after it.
+pub fn carried(equations: &Equations, p: &[f64], record: &Record, row: usize, visible: &[f64]) -> Arc {
+    if equations.n() == equations.visible {
+        return Arc::default();
     }
-    hidden
+    let way = Way::to(equations, p, record, row, visible);
+    way.along(way.at_rest())
+}
+
+/// Hidden states at the first row of a log, by what the rows after it show.
+pub fn at_start(equations: &Equations, record: &Record, pose: &[f64]) -> Vec<f64> {
+    let way = Way::to(equations, &[], record, 0, pose);
+    let memory = vec![1.0; equations.n() - equations.visible];
+    Carried { arc: way.at_rest(), pose, memory }.settled(equations, &[], record, 0).z
+}
+
+/// The rows that hidden states are carried through to one.
+struct Way<'a> {
+    equations: &'a Equations,
+    p: &'a [f64],
+    record: &'a Record,
+    visible: &'a [f64],
+    first: usize,
+    row: usize,
+}
+
+impl<'a> Way<'a> {
+    fn to(equations: &'a Equations, p: &'a [f64], record: &'a Record, row: usize, visible: &'a [f64]) -> Self {
+        let time = &record.time;
+        let gap = record.gap();
+        let joined = |i: &usize| time[i + 1] - time[*i] <= gap && time[row] - time[*i] <= LEAD;
+        let first = (0..row).rev().take_while(joined).last().unwrap_or(row);
+        Self { equations, p, record, visible, first, row }
+    }
+
+    fn stepper(&self) -> Stepper<'a> {
+        Stepper::new(self.equations, &self.record.signals, self.p)
+    }
+
+    fn at_rest(&self) -> Arc {
+        at_rest(self.equations, self.p, &mut self.stepper(), self.record.time[self.first], self.visible)
+    }
+
+    fn along(&self, mut hidden: Arc) -> Arc {
+        let (mut stepper, time) = (self.stepper(), &self.record.time);
+        for i in self.first..self.row {
+            // The pose a hidden state sees is the measured one; only the hidden states are carried.
+            let mut arc = stepper.start(&[self.visible, &hidden.z].concat(), Some(&hidden.s));
+            stepper.advance(&mut arc, time[i], time[i + 1]);
+            hidden = Arc { z: arc.z[self.equations.visible..].to_vec(), s: arc.s };
+        }
+        hidden
+    }
 }
 
 /// Hidden states and all sensitivities at a time, the hidden ones in their equilibrium under the inputs there.

@@ -82,9 +82,32 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &d
     let Sampled { dropped: unsampled, missed } = keep_sampled(&selection, &mut grown, progress)?;
     // Where something went, the values no longer stand where they stood.
     let scatter = scatter.filter(|_| unsampled.is_empty());
-    let chosen = selection.examined(&grown.fit, scatter.as_ref(), &missed)?;
+    let mut missed = missed;
+    let mut chosen = selection.examined(&grown.fit, scatter.as_ref(), &missed)?;
+    // What others left of an effect may be less than it costs, when they have gone or found their places.
+    while let Some(idle) =
+        chosen.iter().filter(|c| c.delta_bic <= 0.0).min_by(|a, b| a.delta_bic.total_cmp(&b.delta_bic))
+    {
+        let Some(smaller) = selection.reduced(&grown.fit, &idle.applied)? else { break };
+        forget(&mut missed, &grown.fit, &idle.applied);
+        grown.go_back_to(smaller);
+        chosen = selection.examined(&grown.fit, None, &missed)?;
+    }
     let Grown { fit: after, steps, candidates } = grown;
     Ok(Some(Choice { before, after, chosen, steps, candidates, unshared, unsampled }))
+}
+
+/// Numbers that stand for the free values of a fit, without those of an effect.
+fn forget(numbers: &mut Vec<f64>, fit: &Fit, effect: &Applied) {
+    let mut at = 0;
+    for e in fit.model.free_effects() {
+        let values = e.values.len();
+        if e.same_as(effect) && at + values <= numbers.len() {
+            numbers.drain(at..at + values);
+            return;
+        }
+        at += values;
+    }
 }
 
 impl Selection<'_> {

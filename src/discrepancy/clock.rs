@@ -9,7 +9,7 @@ use crate::model::Model;
 use rayon::prelude::*;
 
 /// The effect that shifts the inputs in time.
-const DELAY: &str = "input-delay";
+pub(super) const DELAY: &str = "input-delay";
 /// Shortest run whose clocks are compared, s.
 const SHORTEST: f64 = 30.0;
 /// The drift over a run that a search begins with, s.

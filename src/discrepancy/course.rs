@@ -41,6 +41,11 @@ impl Course {
         self.reach > LONG_ENOUGH * record.position_noise()
     }
 
+    /// The variance of the heading in units of that of a position, where errors are independent.
+    pub fn share(&self) -> f64 {
+        self.weights.iter().map(|(_, a, b)| a * a + b * b).sum()
+    }
+
     /// What errors of the positions do to the heading.
     pub fn error(&self, of: impl Fn(usize) -> [f64; 2]) -> f64 {
         self.weights.iter().map(|(i, a, b)| [*a, *b].iter().zip(of(*i)).map(|(w, e)| w * e).sum::<f64>()).sum()
@@ -100,7 +105,7 @@ fn path(equations: &Equations, record: &Record, rows: Range<usize>, heading: f64
     let mut start = record.smoothed(rows.start);
     start[2] = heading;
     let start = pose_of(equations, &start);
-    let hidden = carry::before(equations, &[], record, rows.start, &start);
+    let hidden = carry::carried(equations, &[], record, rows.start, &start);
     let mut arc = Arc { z: [start, hidden.z].concat(), s: vec![] };
     let mut found = Vec::with_capacity(rows.len());
     for i in rows.clone() {

@@ -2,6 +2,7 @@
 
 use super::discover::Request;
 use super::outliers;
+use super::problem::has_windows;
 use super::record::Record;
 use crate::error::Result;
 use crate::files::Run;
@@ -36,11 +37,15 @@ impl Data {
         Ok(Self { fitted, held_out, gross: a.iter().chain(&b).sum() })
     }
 
-    /// Where logs were interrupted.
+    /// Where logs were interrupted, and which are too short to be fitted beside others.
     pub fn warnings(&self) -> impl Iterator<Item = String> + '_ {
-        self.fitted.iter().chain(&self.held_out).filter_map(|r| {
+        let interrupted = self.fitted.iter().chain(&self.held_out).filter_map(|r| {
             let pieces = r.segments(0.0).len();
             (pieces > 1).then(|| format!("{}: the log is interrupted; it is used in {pieces} pieces", r.name))
-        })
+        });
+        let some = self.fitted.iter().any(has_windows);
+        let short = self.fitted.iter().filter(move |r| some && !has_windows(r));
+        let said = |r: &Record| format!("{}: too short for a window of one second; it is not fitted", r.name);
+        interrupted.chain(short.map(said))
     }
 }

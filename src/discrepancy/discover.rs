@@ -62,7 +62,7 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
     let roles = common_roles(request.runs, request.held_out)?;
     let model = Model::from_file(request.file, request.library, &roles)?;
     if let Some(why) = slips::too_sparse(&model, request.runs.iter().chain(request.held_out))? {
-        return unusable(request, why);
+        return cut_short(request, verdict::unusable(why));
     }
     let data = Data::of(request, &model)?;
     let known = request.file.noise;
@@ -77,7 +77,7 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
         return Ok(nothing_to_fit(request, &data, paths, verdict::undefined_motion()));
     };
     progress("opening the held-out data");
-    let noise = choice.after.variances.noise;
+    let noise = choice.after.noise();
     let before = problem.violations(&model, &noise)?;
     let after = problem.violations(&choice.after.model, &noise)?;
     // What is explained to its noise needs no other clock.
@@ -95,7 +95,7 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
         report.unnamed = without_name(&terms, &data, &choice.after, &model)?;
     }
     report.disagreement = locate::disagreements(&before);
-    report.remaining = Some(remaining(&choice.after, &after));
+    report.remaining = Some(remaining(&choice.after, data.fitted[0].has_heading, &after));
     let judged = Judged::of(&data, &model, &choice, request.seed)?;
     report.gap = judged.gaps(&horizons(request));
     report.data.warnings.extend(too_long(request, &report));
@@ -176,10 +176,10 @@ fn empty_report(request: &Request, data: &Data) -> Report {
     }
 }
 
-/// The answer for runs that cannot be put to the model, and why.
-pub(super) fn unusable(request: &Request, why: String) -> Result<Discovery> {
+/// The answer for runs that are not even put to the model.
+pub(super) fn cut_short(request: &Request, outcome: verdict::Outcome) -> Result<Discovery> {
     let data = Data { fitted: vec![], held_out: vec![], gross: 0 };
-    Ok(nothing_to_fit(request, &data, vec![], verdict::unusable(why)))
+    Ok(nothing_to_fit(request, &data, vec![], outcome))
 }
 
 fn nothing_to_fit(request: &Request, data: &Data, paths: Vec<PathPicture>, outcome: verdict::Outcome) -> Discovery {
@@ -220,9 +220,8 @@ fn without_name(terms: &[&Chosen], data: &Data, after: &Fit, model: &Model) -> R
     let judged = if data.held_out.is_empty() { &data.fitted } else { &data.held_out };
     let mut bare = after.model.clone();
     bare.effects.retain(|e| !unnamed::is_term(e));
-    let violations = |m: &Model| -> Result<Vec<_>> {
-        judged.iter().map(|r| locate::Violation::of(m, r, &after.variances.noise)).collect()
-    };
+    let violations =
+        |m: &Model| -> Result<Vec<_>> { judged.iter().map(|r| locate::Violation::of(m, r, &after.noise())).collect() };
     let (without, with) = (violations(&bare)?, violations(&after.model)?);
     let one = |c: &&Chosen| Unnamed {
         place: c.applied.effect.place.clone(),

@@ -5,10 +5,11 @@
 
 use super::chain::{Variances, eliminate};
 use super::choose::{Choice, Scored};
+use super::course;
 use super::envelope::Envelope;
 use super::fit::Fit;
 use super::manoeuvre::{LENGTH, Manoeuvre, library};
-use super::problem::{Problem, pose_of};
+use super::problem::Problem;
 use super::record::Record;
 use super::relatives::Relative;
 use super::report::{NextExperiment, Verdict};
@@ -84,7 +85,9 @@ pub fn next(
 ) -> Result<Option<NextExperiment>> {
     let own = match outcome.verdict {
         Verdict::MissingEffect | Verdict::UnnamedEffect => between(problem, choice, relatives)?,
-        Verdict::NotIdentifiable => missed(&choice.candidates).and_then(|c| revealing(problem, choice, c)),
+        Verdict::NotIdentifiable => {
+            missed(&choice.candidates, choice.before.dependence()).and_then(|c| revealing(problem, choice, c))
+        }
         _ => None,
     };
     Ok(own.or_else(|| outcome.next_experiment.clone()))
@@ -169,6 +172,11 @@ fn most_different(relatives: &[Relative]) -> Vec<&Relative> {
     if by_data.is_empty() { relatives.iter().filter(|r| r.differs()).collect() } else { by_data }
 }
 
+/// Whether a worth, which may be negative, is nearly as much as the most.
+fn nearly(worth: f64, most: f64) -> bool {
+    worth >= most - (1.0 - ALIKE) * most.abs()
+}
+
 impl<'a> Thought<'a> {
     pub(super) fn of(problem: &'a Problem, fit: &Fit) -> Option<Self> {
         let like = problem.records.first()?;
@@ -188,7 +196,7 @@ impl<'a> Thought<'a> {
         let all: Vec<&Manoeuvre> = library(&self.envelope).collect();
         let worths: Vec<Option<f64>> = all.par_iter().map(|m| worth(m)).collect();
         let most = worths.iter().flatten().copied().fold(f64::NEG_INFINITY, f64::max);
-        all.into_iter().zip(worths).find_map(|(m, w)| w.filter(|w| *w >= ALIKE * most).map(|w| (m, w)))
+        all.into_iter().zip(worths).find_map(|(m, w)| w.filter(|w| nearly(*w, most)).map(|w| (m, w)))
     }
 
     /// By how much the BIC of `other` is expected to exceed that of `truth` after a manoeuvre.
@@ -197,8 +205,7 @@ impl<'a> Thought<'a> {
         let equations = other.model.free_equations().ok()?;
         let records = [record];
         let plan = plan(&records);
-        let start = |w: &std::ops::Range<usize>| pose_of(&equations, &records[0].smoothed(w.start));
-        let mut starts: Starts = plan.iter().map(|s| s.windows.iter().map(start).collect()).collect();
+        let mut starts: Starts = plan.iter().map(|s| course::starts(&equations, &records[0], &s.windows)).collect();
         let mut p = other.p.clone();
         let mut left = f64::NAN;
         for _ in 0..PASSES {

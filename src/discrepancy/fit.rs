@@ -3,6 +3,7 @@
 use super::bounds::Bounds;
 use super::chain::{Eliminated, Variances, eliminate};
 use super::damped::damped_step;
+use super::noise::Noise;
 use super::problem::Problem;
 use super::variances;
 use super::whiteness;
@@ -73,6 +74,11 @@ impl Fit {
     pub fn dependence(&self) -> f64 {
         self.colour * self.correlation
     }
+
+    /// The noise that was estimated.
+    pub fn noise(&self) -> Noise {
+        Noise { variance: self.variances.noise, colour: self.colour }
+    }
 }
 
 impl Problem {
@@ -128,7 +134,7 @@ impl Problem {
         for _ in 0..effort.passes {
             let Some(delta) = step(&here.eliminated, damping) else { return here };
             // What lies beyond a bound promises nothing.
-            let delta = bounds.within(&here.p, &delta) - &here.p;
+            let delta = bounds.step(&here.p, &delta);
             if settled && promised(&here.eliminated, &delta) < effort.enough {
                 break;
             }

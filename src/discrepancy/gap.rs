@@ -3,6 +3,7 @@
 use super::angle::wrapped;
 use super::carry;
 use super::course::{Course, heading_at, measured_at};
+use super::noise::Noise;
 use super::problem::pose_of;
 use super::record::Record;
 use super::smooth;
@@ -10,9 +11,8 @@ use super::windows::MARGIN;
 use crate::error::Result;
 use crate::model::{Equations, Model};
 use crate::motion::{Arc, Stepper};
-use rand::{Rng, SeedableRng};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_distr::StandardNormal;
 
 /// Sum of squared errors over windows.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -138,14 +138,15 @@ impl<'a> Predictor<'a> {
     ///
     /// Noise enters twice: at the restart, whose smoothed pose it shifts and turns, and at the end. A model of
     /// a vehicle on a plane moves rigidly with its start, so no trajectory has to be integrated anew.
-    pub fn floors(&self, horizons: &[f64], noise: &[f64; 3], seed: u64) -> Vec<Errors> {
+    ///
+    /// `draws` says how often noise is drawn for each horizon.
+    pub fn floors(&self, horizons: &[f64], draws: &[usize], noise: &Noise, seed: u64) -> Vec<Errors> {
         let each: Vec<Vec<Restart>> = horizons.iter().map(|h| self.restarts(*h)).collect();
-        let draws = |restarts: &Vec<Restart>| (2000 / restarts.len().max(1)).clamp(4, 200);
         let mut errors = vec![Errors::default(); horizons.len()];
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        for draw in 0..each.iter().map(draws).max().unwrap_or(0) {
-            let noisy = with_noise(self.record, noise, &mut rng);
-            for (restarts, errors) in each.iter().zip(&mut errors).filter(|(r, _)| draw < draws(r)) {
+        for draw in 0..draws.iter().copied().max().unwrap_or(0) {
+            let noisy = noise.added_to(self.record, &mut rng);
+            for ((restarts, errors), _) in each.iter().zip(&mut errors).zip(draws).filter(|(_, n)| draw < **n) {
                 restarts.iter().for_each(|r| r.add_error(self.record, &noisy, errors));
             }
         }
@@ -201,24 +202,15 @@ fn displacement(path: &[Vec<f64>]) -> [f64; 2] {
     }
 }
 
-/// The measured columns with noise added.
-fn with_noise(record: &Record, noise: &[f64; 3], rng: &mut ChaCha8Rng) -> Vec<Vec<f64>> {
-    let mut noisy = record.columns.clone();
-    for (column, channel) in noisy.iter_mut().zip(record.channels()) {
-        let sigma = noise[channel as usize].sqrt();
-        column.iter_mut().for_each(|y| *y += sigma * rng.sample::<f64, _>(StandardNormal));
-    }
-    noisy
-}
-
-/// Hidden states at every row of a log, from rest at its start; empty when there are none.
+/// Hidden states at every row of a log, from how they begin by its first rows; empty when there are none.
 fn hidden_along(equations: &Equations, record: &Record) -> Vec<Vec<f64>> {
     if equations.n() == equations.visible {
         return vec![];
     }
     let mut stepper = Stepper::new(equations, &record.signals, &[]);
     let visible = |i: usize| record.measured(i);
-    let mut hidden = carry::at_rest(equations, &[], &mut stepper, record.time[0], &visible(0)).z;
+    let pose = pose_of(equations, &measured_at(equations, record, 0));
+    let mut hidden = carry::at_start(equations, record, &pose);
     let mut found = Vec::with_capacity(record.time.len());
     for i in 0..record.time.len() {
         found.push(hidden.clone());

@@ -3,6 +3,7 @@
 use super::choose::Choice;
 use super::data::Data;
 use super::gap::{Errors, Predictor};
+use super::noise::Noise;
 use super::record::Record;
 use super::report::{BeforeAfter, Floor, Gap, GapCurve, Step};
 use super::summary;
@@ -44,8 +45,11 @@ impl<'a> Predictors<'a> {
     }
 
     /// The noise floor at some horizons, over all runs.
-    fn floors(&self, horizons: &[f64], noise: &[f64; 3], seed: u64) -> Vec<Errors> {
-        let of = |(i, p): (usize, &Predictor)| p.floors(horizons, noise, seed.wrapping_add(i as u64));
+    fn floors(&self, horizons: &[f64], noise: &Noise, seed: u64) -> Vec<Errors> {
+        // As often for every run, so that a window weighs in the floor what it weighs in the gap.
+        let often = |h: &f64| (2000 / self.windows(*h).max(1)).clamp(4, 200);
+        let draws: Vec<usize> = horizons.iter().map(often).collect();
+        let of = |(i, p): (usize, &Predictor)| p.floors(horizons, &draws, noise, seed.wrapping_add(i as u64));
         let each: Vec<Vec<Errors>> = self.0.par_iter().enumerate().map(of).collect();
         let zero = vec![Errors::default(); horizons.len()];
         each.iter().fold(zero, |sum, floors| sum.into_iter().zip(floors).map(|(s, f)| s.joined(*f)).collect())
@@ -59,7 +63,7 @@ pub struct Judged<'a> {
     pub fitted: [Predictors<'a>; 2],
     /// Along the held-out runs, before and after.
     pub held_out: [Predictors<'a>; 2],
-    noise: [f64; 3],
+    noise: Noise,
     seed: u64,
 }
 
@@ -72,7 +76,7 @@ impl<'a> Judged<'a> {
         let both = |records: &'a [Record]| -> Result<[Predictors<'a>; 2]> {
             Ok([Predictors::new(model, records)?, Predictors::new(&choice.after.model, records)?])
         };
-        let noise = choice.after.variances.noise;
+        let noise = choice.after.noise();
         Ok(Self { data, fitted: both(&data.fitted)?, held_out: both(&data.held_out)?, noise, seed })
     }
 
@@ -120,7 +124,8 @@ impl<'a> Judged<'a> {
     /// # Errors
     /// When a model's formulas are malformed.
     pub fn steps(&self, choice: &Choice, gaps: &[Gap]) -> Result<Vec<Step>> {
-        let Some(horizon) = summary::middle(gaps).map(|g| g.horizon_s) else { return Ok(vec![]) };
+        let fitted: Vec<Gap> = gaps.iter().filter(|g| g.fit.is_some()).cloned().collect();
+        let Some(horizon) = summary::middle(&fitted).map(|g| g.horizon_s) else { return Ok(vec![]) };
         let step = |(added, model): &(String, Model)| {
             let gap_after = Predictors::new(model, &self.data.fitted)?.errors(horizon).position_rms();
             Ok(Step { added: added.clone(), gap_after })

@@ -15,6 +15,7 @@
 pub mod align;
 mod along;
 pub mod angle;
+mod begun;
 pub mod bootstrap;
 mod bounds;
 pub mod carry;
@@ -41,6 +42,7 @@ mod judged;
 mod limits;
 pub mod locate;
 pub mod manoeuvre;
+pub mod noise;
 pub mod outliers;
 pub mod picture;
 pub mod problem;

@@ -29,12 +29,14 @@ pub(super) fn pictures(data: &Data, choice: &Choice, report: &Report, judged: &J
         chosen: choice.chosen.iter().any(|c| c.applied.same_as(&s.applied)),
         rival: rivals.iter().any(|r| r.same_as(&s.applied)),
     });
+    let named = report.effects.iter().map(|e| (e.place.clone(), e.equation.clone()));
+    let without_name = report.unnamed.iter().map(|u| (u.place.clone(), u.equation.clone()));
     Pictures {
         paths,
         gap: judged.curve(),
         residuals: vec![],
         candidates: candidates.collect(),
-        equations: report.effects.iter().map(|e| (e.place.clone(), e.equation.clone())).collect(),
+        equations: named.chain(without_name).collect(),
     }
 }
 

@@ -26,7 +26,14 @@ pub struct Problem {
 impl Problem {
     /// Cuts runs into windows and estimates their noise; a known standard deviation of position (m) or heading (rad)
     /// is kept.
+    ///
+    /// A run without a window says nothing, so it is left out where another one has some: whatever is asked of runs one
+    /// by one would take its silence for an answer.
     pub fn new(records: Vec<Record>, position: Option<f64>, heading: Option<f64>) -> Self {
+        let records = match records.iter().any(has_windows) {
+            true => records.into_iter().filter(has_windows).collect(),
+            false => records,
+        };
         let plan = super::windows::plan(&records);
         let channels = [Channel::Position, Channel::Heading, Channel::Trailer];
         let known = [position, heading, heading];
@@ -59,6 +66,11 @@ impl Problem {
         let of_segment = |s: &Segment| course::starts(&equations, &self.records[s.record], &s.windows);
         Ok(self.plan.iter().map(of_segment).collect())
     }
+}
+
+/// Whether a run is long enough to be cut into windows.
+pub(super) fn has_windows(record: &Record) -> bool {
+    !super::windows::plan(std::slice::from_ref(record)).is_empty()
 }
 
 /// The median noise of a channel over the runs.

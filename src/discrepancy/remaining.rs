@@ -12,18 +12,20 @@ use super::report::{Remaining, RemainingConstraint};
 /// | RMS, noise | the violated rate over windows, and what smoothing noise alone makes of it |
 /// | p | probability of so much unexplained motion by chance: half of χ²₁, for a variance is never negative |
 /// | rows, windows alike | integrated correlations, see [`super::whiteness`]: 1 where noise and jumps are white |
-pub fn remaining(fit: &Fit, after: &[Violation]) -> Remaining {
+pub fn remaining(fit: &Fit, has_heading: bool, after: &[Violation]) -> Remaining {
     let noise = fit.variances.noise.map(f64::sqrt);
     let constraints = CONSTRAINTS.iter().enumerate().filter_map(|(c, (place, unit))| {
         let (rms, noise) = Violation::rms(after, c)?;
+        // Of noise that is not white the poses wander: what that makes of the rate is no motion.
+        let moved = if fit.colour > 1.0 { (1.0 - (noise / rms).powi(2)).max(0.0) } else { 1.0 };
+        let gain = moved * fit.unexplained[c] / fit.dependence();
         // Half of the weight lies on zero.
-        let gain = fit.unexplained[c] / fit.dependence();
         let p_value = if gain > 0.0 { 0.5 * tail(gain, 1) } else { 1.0 };
         Some(RemainingConstraint { place: (*place).into(), unit: (*unit).into(), rms, noise, p_value })
     });
     Remaining {
         position_noise: noise[0],
-        heading_noise: noise[1],
+        heading_noise: has_heading.then_some(noise[1]),
         rows_alike: fit.colour,
         windows_alike: fit.correlation,
         constraints: constraints.collect(),

@@ -137,8 +137,8 @@ pub struct Disagreement {
 pub struct Remaining {
     /// Standard deviation of a measured coordinate, m.
     pub position_noise: f64,
-    /// Standard deviation of a measured heading, rad.
-    pub heading_noise: f64,
+    /// Standard deviation of a measured heading, rad, where one is measured.
+    pub heading_noise: Option<f64>,
     /// How many rows in a row the noise is alike: 1 where it is white.
     pub rows_alike: f64,
     /// How many windows in a row what no effect explains is alike: 1 where it is white or nothing.

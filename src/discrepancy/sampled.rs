@@ -9,9 +9,9 @@ use super::fit::Fit;
 use super::problem::Problem;
 use super::record::Record;
 use super::selection::{FULL, Grown, Selection};
-use super::summary::listed;
 use crate::effects::Applied;
 use crate::error::Result;
+use crate::motion::Signals;
 
 /// An effect of which more than this share may be what the interpolation misses is none.
 const MOST: f64 = 0.5;
@@ -46,19 +46,24 @@ pub(super) fn keep_sampled(selection: &Selection, grown: &mut Grown, progress: &
         }
         let worst = worst.clone();
         let Some(smaller) = selection.reduced(&grown.fit, &worst)? else { break };
-        let step = (listed(smaller.model.free_effects().map(Applied::label)), smaller.model.clone());
-        grown.steps = if smaller.p.is_empty() { vec![] } else { vec![step] };
-        grown.fit = smaller;
+        grown.go_back_to(smaller);
         found.dropped.push(worst);
     }
     Ok(found)
 }
 
-/// The same poses with inputs logged half as often; `None` where there are too few to leave any out.
+/// The same poses with inputs logged half as often, but for runs that are too short to leave any out; `None` where all
+/// are.
 fn with_half_the_inputs(problem: &Problem) -> Option<Problem> {
-    let of = |r: &Record| Some(Record { signals: r.signals.thinned()?, ..r.clone() });
-    let records = problem.records.iter().map(of).collect::<Option<Vec<_>>>()?;
-    Some(Problem { records, ..problem.clone() })
+    let thinned: Vec<Option<Signals>> = problem.records.iter().map(|r| r.signals.thinned()).collect();
+    if thinned.iter().all(Option::is_none) {
+        return None;
+    }
+    let of = |(r, thin): (&Record, Option<Signals>)| {
+        let signals = thin.unwrap_or_else(|| r.signals.clone());
+        Record { signals, ..r.clone() }
+    };
+    Some(Problem { records: problem.records.iter().zip(thinned).map(of).collect(), ..problem.clone() })
 }
 
 /// How much of the distance of an effect's values from neutral the interpolation may make up.

@@ -1,10 +1,11 @@
 //! Effects added to a model one or two at a time, asked again, exchanged and dropped.
 
-use super::bounds::vanishes;
+use super::bounds::{is_at_an_end, vanishes};
 use super::evidence::{repeats, wald};
 use super::fit::{Effort, Fit};
 use super::problem::Problem;
 use super::screen::{self, Promise, Promises};
+use super::summary::listed;
 use super::unnamed::is_term;
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
@@ -42,6 +43,15 @@ pub(super) struct Grown {
     pub steps: Vec<(String, Model)>,
     /// All candidates as they stood against the model the search began with.
     pub candidates: Vec<Scored>,
+}
+
+impl Grown {
+    /// To a smaller model, which is then the only step.
+    pub fn go_back_to(&mut self, smaller: Fit) {
+        let step = (listed(smaller.model.free_effects().map(Applied::label)), smaller.model.clone());
+        self.steps = if smaller.p.is_empty() { vec![] } else { vec![step] };
+        self.fit = smaller;
+    }
 }
 
 /// Candidates by what they promise, the most promising with a fit; and pairs of them.
@@ -124,7 +134,8 @@ impl Selection<'_> {
         // A gain must be large, and large still when what hangs together counts once.
         let independent = |fit: &Fit| worth(fit, base, base.sample_size.max(fit.sample_size)) > self.margin();
         let counts = |s: &Scored, fit: &Fit| s.delta_bic > bar(s) && independent(fit);
-        let good = fitted.filter(|(s, fit)| counts(s, fit) && !vanishes(&s.applied) && repeats(fit, &s.applied));
+        let inside = |s: &Scored| !vanishes(&s.applied) && !is_at_an_end(&s.applied);
+        let good = fitted.filter(|(s, fit)| counts(s, fit) && inside(s) && repeats(fit, &s.applied));
         let singles: Vec<(Scored, Fit)> = good.collect();
         let pair = self.pair(base, &ranked.pairs, singles.first().map(|(_, f)| f))?;
         let singles = singles.into_iter().map(|(s, fit)| (s.applied.label(), fit, is_term(&s.applied)));
@@ -242,7 +253,7 @@ impl Selection<'_> {
                 continue;
             }
             let Some(fit) = self.refined(&rough)? else { continue };
-            if ![a, b].iter().all(|p| repeats(&fit, &p.applied)) {
+            if fit.model.free_effects().any(is_at_an_end) || ![a, b].iter().all(|p| repeats(&fit, &p.applied)) {
                 continue;
             }
             let n = n.max(fit.sample_size);

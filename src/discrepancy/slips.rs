@@ -21,14 +21,17 @@ const DEGREES: f64 = 1e-4;
 /// How near, as a logarithm, a ratio is to that of a usual slip.
 const NEAR: f64 = 0.25;
 
-/// Why inputs say nothing of the motion: the vehicle turns by more than half a turn from row to row, as a rule, so that
-/// nobody knows where it points in between.
+/// Why inputs say nothing of the motion: an angle is beyond half a turn, or the vehicle turns by more than that from row to
+/// row, as a rule, so that nobody knows where it points in between.
 ///
 /// # Errors
 /// When the model's formulas are malformed.
 pub fn too_sparse<'a>(model: &Model, runs: impl IntoIterator<Item = &'a Run>) -> Result<Option<String>> {
     let equations = model.equations(&[])?;
     for run in runs {
+        if let Some(why) = beyond_half_a_turn(model, run) {
+            return Ok(Some(why));
+        }
         let (turn, step) = between_rows(&equations, run);
         if turn > PI {
             let [turn, step] = [turn, step].map(|x| significant(x, 3));
@@ -40,6 +43,24 @@ pub fn too_sparse<'a>(model: &Model, runs: impl IntoIterator<Item = &'a Run>) ->
         }
     }
     Ok(None)
+}
+
+/// Rows of an angle beyond half a turn that are no gross errors, as a share.
+const SOME: f64 = 0.05;
+
+/// Steering angles that no wheel has.
+fn beyond_half_a_turn(model: &Model, run: &Run) -> Option<String> {
+    let is_angle = |role: &str| model.vehicle.inputs.get(role).is_some_and(|input| input.unit == "rad");
+    let (role, column) = run.roles.iter().zip(&run.inputs).find(|(role, column)| {
+        let beyond = column.iter().filter(|u| u.abs() > PI).count();
+        is_angle(role) && beyond as f64 > SOME * column.len() as f64
+    })?;
+    let largest = column.iter().map(|u| u.abs()).fold(0.0, f64::max);
+    Some(format!(
+        "In {} {role} reaches {} rad, more than half a turn: is it in degrees, or the angle of the steering wheel?",
+        run.name,
+        significant(largest, 3)
+    ))
 }
 
 /// Medians of the turn between neighbouring rows of the inputs, rad, and of the time, s.
@@ -171,6 +192,25 @@ fn usual_turn(ratio: f64) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files::ModelFile;
+
+    #[test]
+    fn an_angle_beyond_half_a_turn_is_none_of_a_wheel() {
+        let text = "vehicle = \"car\"\n[parameters]\nwheel_radius = 0.3\nwheelbase = 2.6\n";
+        let file = ModelFile::parse(text, "model.toml", &crate::model::known(crate::effects::all())).unwrap();
+        let said = |angle: &dyn Fn(i32) -> f64| {
+            let rows: Vec<String> = (0..100).map(|i| format!("{},0,0,0,9,{}", 0.1 * f64::from(i), angle(i))).collect();
+            let log = format!("time,x,y,heading,wheel_rate,steering_angle\n{}\n", rows.join("\n"));
+            let run = Run::parse("run.csv", &log, &file).unwrap();
+            let model = Model::from_file(&file, crate::effects::all(), &run.roles).unwrap();
+            too_sparse(&model, [&run]).unwrap()
+        };
+        let degrees = said(&|i| 20.0 * (0.1 * f64::from(i)).sin()).unwrap();
+        assert!(degrees.contains("steering_angle reaches 20.0 rad") && degrees.contains("degrees"), "{degrees}");
+        assert_eq!(said(&|i| 0.5 * (0.1 * f64::from(i)).sin()), None);
+        // A gross error here and there is no unit.
+        assert_eq!(said(&|i| if i % 25 == 3 { 50.0 } else { 0.1 }), None);
+    }
 
     #[test]
     fn usual_slips_of_units_are_named() {

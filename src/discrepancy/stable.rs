@@ -8,7 +8,6 @@ use super::fit::Fit;
 use super::problem::Problem;
 use super::record::Record;
 use super::selection::{FULL, Grown, Selection};
-use super::summary::listed;
 use super::unnamed::{self, is_term, remains, still_open};
 use super::windows::plan;
 use crate::effects::Applied;
@@ -126,9 +125,7 @@ impl Stable {
             let Some(worst) = worst else { break };
             let Some(smaller) = selection.reduced(&self.grown.fit, &worst)? else { break };
             self.unshared.push(worst);
-            let step = (listed(smaller.model.free_effects().map(Applied::label)), smaller.model.clone());
-            self.grown.steps = if smaller.p.is_empty() { vec![] } else { vec![step] };
-            self.grown.fit = smaller;
+            self.grown.go_back_to(smaller);
             self.scatter = None;
         }
         Ok(self.unshared.len() > known)

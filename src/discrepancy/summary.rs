@@ -98,7 +98,7 @@ pub fn summary_text(report: &Report) -> String {
     let mut tail = Vec::new();
     if let Some(next) = &report.next_experiment {
         tail.push(String::new());
-        tail.extend(wrapped(&format!("Next: {}: {}", next.manoeuvre, next.why), 0, 3));
+        tail.extend(wrapped(&format!("Next: {}: {}", next.manoeuvre, next.why), 0, 5));
     }
     tail.extend(data_lines(report));
     lines.truncate(LINES - gap.len() - tail.len());
@@ -140,7 +140,8 @@ fn effect_lines(effects: &[Named]) -> Vec<String> {
     let mut lines = vec![String::new(), row("effect", "parameter", "value ± std", "unit", "ΔBIC")];
     lines.extend(effects.iter().take(3).flat_map(one_effect));
     if effects.len() > 3 {
-        lines.push(format!("  … and {} more", effects.len() - 3));
+        let others: Vec<&str> = effects[3..].iter().map(|e| e.id.as_str()).collect();
+        lines.extend(wrapped(&format!("and {}: see the report", others.join(", ")), 2, 2));
     }
     lines
 }
@@ -154,7 +155,12 @@ fn one_effect(effect: &Named) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for (name, estimate) in effect.parameters.iter().take(3) {
         let (id, bic) = if lines.is_empty() { (effect.id.as_str(), bic.as_str()) } else { ("", "") };
-        lines.push(row(id, name, &brief(estimate), &estimate.unit, bic));
+        // Trailers are counted.
+        let (value, unit) = match name.as_str() {
+            "trailer" => (estimate.value.to_string(), ""),
+            _ => (brief(estimate), estimate.unit.as_str()),
+        };
+        lines.push(row(id, name, &value, unit, bic));
     }
     if lines.is_empty() {
         lines.push(row(&effect.id, "", "", "", &bic));
@@ -225,7 +231,7 @@ pub fn clock_line(c: &RunClock) -> String {
 fn reason(why_dropped: &BTreeMap<String, usize>) -> String {
     match why_dropped.iter().max_by_key(|(_, n)| **n) {
         Some((why, n)) if why_dropped.len() == 1 && *n > 0 => format!(": {why}"),
-        Some((why, n)) if *n > 0 => format!(": {why}, and other reasons"),
+        Some((why, n)) if *n > 0 => format!(": {why}, …"),
         _ => String::new(),
     }
 }
@@ -244,7 +250,7 @@ fn data_lines(report: &Report) -> Vec<String> {
     if let Some(first) = data.warnings.first() {
         let more =
             if data.warnings.len() > 1 { format!(" (and {} more)", data.warnings.len() - 1) } else { String::new() };
-        lines.extend(wrapped(&format!("warning: {first}{more}"), 2, 2));
+        lines.extend(wrapped(&format!("warning: {first}{more}"), 2, 3));
     }
     lines
 }

@@ -100,7 +100,7 @@ fn material(selection: &Selection, mut fit: Fit) -> Result<Fit> {
     let terms: Vec<Applied> = fit.model.free_effects().filter(|e| is_term(e)).cloned().collect();
     for term in &terms {
         let Some(smaller) = selection.reduced(&fit, term)? else { continue };
-        let violations = |f: &Fit| selection.problem.violations(&f.model, &fit.variances.noise);
+        let violations = |f: &Fit| selection.problem.violations(&f.model, &fit.noise());
         if reduction(&term.effect.place, &violations(&smaller)?, &violations(&fit)?) < MATERIAL {
             fit = smaller;
         }
@@ -122,9 +122,10 @@ pub fn equation(term: &Applied, model: &Model) -> String {
     }
 }
 
-/// The share of a constraint's violation on some data that is gone, noise apart: at most one, negative where it grew.
+/// The share of a constraint's violation on some data that is gone, noise apart and in the windows that both models
+/// have: at most one, negative where it grew.
 pub fn reduction(place: &str, before: &[Violation], after: &[Violation]) -> f64 {
-    let excess = |all: &[Violation]| all.iter().map(|v| v.excess(place)).sum::<f64>();
-    let (before, after) = (excess(before), excess(after));
+    let both = before.iter().zip(after).map(|(before, after)| before.in_common(after).map(|v| v.excess(place)));
+    let [before, after] = both.fold([0.0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]]);
     if before > 0.0 { (1.0 - after / before).clamp(-1.0, 1.0) } else { 0.0 }
 }

@@ -4,7 +4,7 @@ use super::choose::{Choice, Scored};
 use super::clock::Drift;
 use super::contested::{oftener, partly, settling, too_seldom};
 use super::fit::Fit;
-use super::locate::Violation;
+use super::locate::{CONSTRAINTS, Violation};
 use super::problem::Problem;
 use super::report::{NextExperiment, Verdict};
 use super::selection::find;
@@ -165,7 +165,7 @@ fn fitted(choice: &Choice, after: &[Violation], clocks: &[Drift]) -> Outcome {
         let sentence = format!("Model and measurement disagree, {why}: nothing can be named.");
         return outcome(Verdict::NotIdentifiable, &sentence, Some(settling(choice)));
     }
-    match missed(&choice.candidates) {
+    match missed(&choice.candidates, choice.before.dependence()) {
         Some(candidate) => {
             let label = candidate.applied.label();
             let sentence =
@@ -176,8 +176,20 @@ fn fitted(choice: &Choice, after: &[Violation], clocks: &[Drift]) -> Outcome {
                 Some(drive(&format!("a plausible {label} would have been missed"))),
             )
         }
-        None => Outcome { verdict: Verdict::NoMissingEffect, sentence: None, next_experiment: None },
+        None => Outcome { verdict: Verdict::NoMissingEffect, sentence: trace(&choice.after), next_experiment: None },
     }
+}
+
+/// What a model leaves beyond chance without standing out of the noise to the eye; `None` where it leaves nothing.
+fn trace(after: &Fit) -> Option<String> {
+    let places: Vec<&str> = unnamed::remaining(after).map(|c| CONSTRAINTS[c].0).collect();
+    (!places.is_empty()).then(|| {
+        format!(
+            "No effect is missing that can be named: the model explains these runs but for a trace at the {}, more than \
+             chance and less than their noise.",
+            listed(places.iter().map(ToString::to_string))
+        )
+    })
 }
 
 /// Effects of the model file that the runs ask for with other values.
@@ -206,7 +218,7 @@ fn hopeless(after: &[Violation]) -> Option<String> {
     let sums = squares.fold([[0.0; 3]; 2], |sum, of| [0, 1].map(|k| [0, 1, 2].map(|i| sum[k][i] + of[k][i])));
     // What turns on the spot goes no way of which a share could be missed.
     let moves = sums[0][1] > OUT_OF_NOISE.powi(2) * sums[0][2];
-    let turns = sums[1][1] > TURNING.powi(2) * after.len() as f64;
+    let turns = sums[1][1] > TURNING.powi(2) * after.iter().map(Violation::count).sum::<usize>() as f64;
     let share = |[miss, motion, _]: [f64; 3]| (miss / motion.max(f64::MIN_POSITIVE)).sqrt();
     let asked = [("motion", moves, share(sums[0])), ("turning", turns, share(sums[1]))];
     let (what, _, share) = asked.into_iter().find(|(_, asked, share)| *asked && *share > HOPELESS)?;
@@ -248,11 +260,12 @@ pub(super) const BASIC: [&str; 7] = [
     "steering-gain",
 ];
 
-/// A basic effect that would not have stood out at its plausible size.
-pub(super) fn missed(candidates: &[Scored]) -> Option<&Scored> {
+/// A basic effect that would not have stood out at its plausible size, where so many values say what one would.
+pub(super) fn missed(candidates: &[Scored], dependence: f64) -> Option<&Scored> {
     candidates.iter().find(|c| {
         let sizes = c.applied.effect.parameters.values().map(|p| p.size);
-        BASIC.contains(&c.applied.effect.id.as_str()) && sizes.zip(&c.std).any(|(size, std)| 4.0 * std > size)
+        let hides = |(size, std): (f64, &f64)| 4.0 * std * dependence.sqrt() > size;
+        BASIC.contains(&c.applied.effect.id.as_str()) && sizes.zip(&c.std).any(hides)
     })
 }
 
@@ -269,9 +282,11 @@ mod tests {
             Scored { applied: Applied::new(effect, None, vec![0.0]), std, delta_bic: 0.0 }
         };
         let known = [scored("rotation-creep", 0.2), scored("yaw-rate-bias", 0.01), scored("wheel-radius", 9.0)];
-        assert!(missed(&known).is_none(), "what is known to a quarter of its size would have been seen");
+        assert!(missed(&known, 1.0).is_none(), "what is known to a quarter of its size would have been seen");
+        let alike = missed(&known, 2.0).unwrap();
+        assert_eq!(alike.applied.effect.id, "rotation-creep", "rows that are alike say half as much");
         let open = [scored("rotation-creep", 0.2), scored("yaw-rate-scale", 0.3)];
-        assert_eq!(missed(&open).unwrap().applied.effect.id, "yaw-rate-scale");
+        assert_eq!(missed(&open, 1.0).unwrap().applied.effect.id, "yaw-rate-scale");
     }
 
     #[test]

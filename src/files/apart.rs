@@ -109,7 +109,12 @@ impl Run {
     /// The poses up to a share of the time from the first to the last.
     pub fn beginning(&self, share: f64) -> Self {
         let (Some(first), Some(last)) = (self.time.first(), self.time.last()) else { return self.clone() };
-        let end = self.time.partition_point(|t| *t <= first + share * (last - first));
+        self.until(first + share * (last - first))
+    }
+
+    /// The poses up to a time.
+    pub fn until(&self, time: f64) -> Self {
+        let end = self.time.partition_point(|t| *t <= time);
         self.with_poses(|column| column[..end].to_vec())
     }
 

@@ -54,7 +54,7 @@ pub struct Apart {
     pub truth: PathBuf,
     /// SHA-256 of its bytes, hexadecimal.
     pub truth_sha256: String,
-    /// Whether both have one clock, as the topics of a bag.
+    /// Whether both have one clock, as the topics of a bag or the rows of a log of which some have no pose.
     pub one_clock: bool,
 }
 
@@ -67,7 +67,12 @@ impl Run {
             return Self::read_bag(path, model);
         }
         let found = model.columns.resolve(log.header()).map_err(|e| log.at_header(e))?;
-        Self::of(path, log.numbers(&wanted(&found))?, found)
+        let inputs = driven(&found);
+        let run = Self::of(path, log.numbers(&wanted(&found))?, found)?;
+        if !run.lacks_cells() {
+            return Ok(run);
+        }
+        Ok(run.with_inputs(Log::open(path)?.numbers(&inputs)?))
     }
 
     /// A log that is at hand as text; `name` stands for its file.
@@ -78,7 +83,31 @@ impl Run {
         let path = Path::new(name);
         let sheet = Sheet::new(text.as_bytes(), path)?;
         let found = model.columns.resolve(&sheet.header).map_err(|e| sheet.at_header(e))?;
-        Self::of(path, sheet.numbers(&wanted(&found))?, found)
+        let inputs = driven(&found);
+        let run = Self::of(path, sheet.numbers(&wanted(&found))?, found)?;
+        if !run.lacks_cells() {
+            return Ok(run);
+        }
+        Ok(run.with_inputs(Sheet::new(text.as_bytes(), path)?.numbers(&inputs)?))
+    }
+
+    /// Whether rows were left out for what a cell of them holds.
+    fn lacks_cells(&self) -> bool {
+        self.why_dropped.keys().any(|why| why.contains("cell") || why.contains("value"))
+    }
+
+    /// The run with the inputs of all rows that have them. A row whose pose is blank says nothing of where the vehicle is,
+    /// and still what was done to it: without its inputs those around it would be taken to go on.
+    fn with_inputs(mut self, mut numbers: Numbers) -> Self {
+        arrange(&mut numbers);
+        let mut columns = numbers.columns.into_iter();
+        let time = columns.next().unwrap_or_default();
+        if time.len() <= self.time.len() {
+            return self;
+        }
+        self.inputs = columns.collect();
+        self.apart = Some(Apart { time, truth: self.path.clone(), truth_sha256: self.sha256.clone(), one_clock: true });
+        self
     }
 
     fn of(path: &Path, mut numbers: Numbers, found: Resolved) -> Result<Self> {
@@ -124,6 +153,11 @@ pub(super) fn wanted(found: &Resolved) -> Vec<usize> {
     wanted.extend(&found.trailer_headings);
     wanted.extend(found.inputs.iter().map(|input| input.index));
     wanted
+}
+
+/// The columns of times and inputs.
+fn driven(found: &Resolved) -> Vec<usize> {
+    std::iter::once(found.time).chain(found.inputs.iter().map(|input| input.index)).collect()
 }
 
 /// Sorts rows and settles repeated times; gives warnings.

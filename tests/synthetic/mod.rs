@@ -201,7 +201,7 @@ fn remaining() -> Remaining {
     let traverse = of(("traverse constraint", "m/s"), 0.00243, 0.00239, 0.5);
     Remaining {
         position_noise: 0.002,
-        heading_noise: 0.0021,
+        heading_noise: Some(0.0021),
         rows_alike: 1.0,
         windows_alike: 1.0,
         constraints: vec![rotation, traverse],

@@ -14,8 +14,10 @@ const PIECE: f64 = 120.0;
 const MOST_DRIFT: f64 = 0.03;
 /// A drift that moves the ends of a piece by less than this makes no difference, s.
 const SLACK: f64 = 0.3;
+/// Shorter files do not tell which offset is theirs, s.
+pub(super) const SHORTEST: f64 = 10.0;
 /// Least overlap of both files, s, and as a share of the shorter one.
-const OVERLAP: [f64; 2] = [10.0, 0.5];
+const OVERLAP: [f64; 2] = [SHORTEST, 0.5];
 /// Offsets this close are one, s.
 const APART: f64 = 1.5;
 /// Offsets that are looked at closely.

@@ -1,5 +1,6 @@
 //! The clocks to what the data can tell: by the fit of the model, offset and drift with their deviations.
 
+use crate::discrepancy::clock::DELAY;
 use crate::discrepancy::fit::{Effort, Fit};
 use crate::discrepancy::outliers::without_gross_errors;
 use crate::discrepancy::problem::Problem;
@@ -10,8 +11,6 @@ use crate::error::Result;
 use crate::files::{Clock, ModelFile, Run};
 use crate::model::Model;
 
-/// The effect that shifts the inputs in time.
-pub(super) const DELAY: &str = "input-delay";
 /// Rounds of offset and drift.
 const ROUNDS: usize = 8;
 /// A step within this share of its deviation is none.
@@ -122,8 +121,8 @@ impl<'a> Round<'a> {
         if aligned.time.len() < 2 {
             return Ok(None);
         }
-        let record = Record::of_run(&aligned, file.input_timing, model.trailers.len());
-        let (record, _) = without_gross_errors(&record, &still(model))?;
+        let record = Record::of_run(&aligned, file.input_timing, model.trailer_count());
+        let (record, _) = without_gross_errors(&record, &model.fixed())?;
         let problem = Problem::new(vec![record], file.noise.position, file.noise.heading);
         if problem.windows() == 0 {
             return Ok(None);
@@ -197,12 +196,6 @@ fn place(model: &Model) -> Option<usize> {
         at += e.values.len();
     }
     None
-}
-
-/// The model without parameters to fit.
-fn still(model: &Model) -> Model {
-    let fixed = |e: &Applied| Applied { free: false, ..e.clone() };
-    Model { effects: model.effects.iter().map(fixed).collect(), ..model.clone() }
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The top of the page: verdict, headline numbers, what was found, what to drive next.
 
 use super::part::holding;
-use crate::discrepancy::report::{Named, Report, Verdict};
+use crate::discrepancy::report::{Estimate, Named, Report, Verdict};
 use crate::discrepancy::summary::{judged, middle, verdict_name, verdict_sentence, why};
 use crate::picture::number::{plain, prefixed, significant, with_error};
 use crate::picture::svg::Element;
@@ -90,12 +90,14 @@ fn found(report: &Report) -> Option<Element> {
     (!items.is_empty()).then(|| Element::new("ul").with("class", "found").children(items))
 }
 
+/// A parameter with its value and unit; a pure number has none.
+pub(super) fn parameter(name: &str, e: &Estimate) -> String {
+    let unit = if e.unit == "1" { "" } else { e.unit.as_str() };
+    format!("{name} = {} {unit}", with_error(e.value, e.std)).trim_end().to_string()
+}
+
 fn one_line(effect: &Named) -> Element {
-    let values: Vec<String> = effect
-        .parameters
-        .iter()
-        .map(|(name, e)| format!("{name} = {} {}", with_error(e.value, e.std), e.unit).trim_end().to_string())
-        .collect();
+    let values: Vec<String> = effect.parameters.iter().map(|(name, e)| parameter(name, e)).collect();
     let line = Element::new("li").child(holding("strong", &effect.id));
     let line = match effect.says.is_empty() {
         true => line.text(format!(" {}", values.join(", "))),

@@ -1,6 +1,6 @@
 //! The tables under the pictures.
 
-use super::head::{counted, shrinkage};
+use super::head::{counted, parameter, shrinkage};
 use super::part::{Cell, holding, section, table};
 use crate::discrepancy::report::{BeforeAfter, Gap, Pictures, Report};
 use crate::discrepancy::summary::{seconds, why};
@@ -27,13 +27,12 @@ pub fn all(report: &Report, pictures: &Pictures) -> Vec<Element> {
 
 fn effects(report: &Report) -> Option<Element> {
     let row = |e: &crate::discrepancy::report::Named| {
-        let parameter = |(name, p): (&String, &crate::discrepancy::report::Estimate)| {
-            format!("{name} = {} {}", with_error(p.value, p.std), p.unit).trim_end().replace(' ', "\u{a0}")
-        };
+        let shown =
+            |(name, p): (&String, &crate::discrepancy::report::Estimate)| parameter(name, p).replace(' ', "\u{a0}");
         let rivals = e.indistinguishable_from.iter().map(|r| format!("{}: {}", r.id, why(r))).collect();
         vec![
             Cell::Lines(vec![e.id.clone(), e.place.clone()]),
-            Cell::Lines(e.parameters.iter().map(parameter).collect()),
+            Cell::Lines(e.parameters.iter().map(shown).collect()),
             Cell::Number(significant(e.evidence.delta_bic, 3)),
             Cell::Number(probability(e.evidence.p_value)),
             Cell::Code(e.equation.clone()),

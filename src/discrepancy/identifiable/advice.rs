@@ -4,10 +4,11 @@ use super::information::Driven;
 use super::marks::Ground;
 use super::pairs::{separating, told_apart};
 use super::prospects::{Bar, Candidate, Shown, gain};
+use crate::discrepancy::course;
 use crate::discrepancy::experiment::Thought;
 use crate::discrepancy::fit::Fit;
 use crate::discrepancy::manoeuvre::{Manoeuvre, library};
-use crate::discrepancy::problem::{Problem, pose_of};
+use crate::discrepancy::problem::Problem;
 use crate::discrepancy::report::NextExperiment;
 use crate::discrepancy::summary::listed_to;
 use crate::discrepancy::windows::{Starts, plan};
@@ -71,8 +72,7 @@ impl Open<'_> {
         let equations = fit.model.equations(&[])?;
         let records = vec![record];
         let plan = plan(&records);
-        let start = |w: &std::ops::Range<usize>| pose_of(&equations, &records[0].smoothed(w.start));
-        let starts: Starts = plan.iter().map(|s| s.windows.iter().map(start).collect()).collect();
+        let starts: Starts = plan.iter().map(|s| course::starts(&equations, &records[0], &s.windows)).collect();
         Ok(Some(Driven { records, plan, starts }))
     }
 

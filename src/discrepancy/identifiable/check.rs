@@ -56,7 +56,7 @@ pub fn check(of: &Checked, progress: &dyn Fn(&str)) -> Result<Check> {
     progress("looking at the rows");
     let sparse = too_sparse(&model, of.runs)?;
     let record = |r: &Run| {
-        let record = Record::of_run(r, of.file.input_timing, model.trailers.len());
+        let record = Record::of_run(r, of.file.input_timing, model.trailer_count());
         if sparse.is_some() { Ok((record, 0)) } else { without_gross_errors(&record, &model) }
     };
     let clean: Vec<(Record, usize)> = of.runs.par_iter().map(record).collect::<Result<_>>()?;
@@ -115,9 +115,9 @@ pub fn check(of: &Checked, progress: &dyn Fn(&str)) -> Result<Check> {
 }
 
 impl Check {
-    /// The answer for runs that cannot be put to the model, and why.
-    pub(in crate::discrepancy) fn unusable(why: String) -> Self {
-        without_fit(Health::default(), verdict::unusable(why))
+    /// The answer for runs that are not even put to the model.
+    pub(in crate::discrepancy) fn cut_short(outcome: verdict::Outcome) -> Self {
+        without_fit(Health::default(), outcome)
     }
 }
 

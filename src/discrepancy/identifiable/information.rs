@@ -32,9 +32,7 @@ impl Driven {
         effects: &[Applied],
         variances: &[Variances],
     ) -> Result<Option<Vec<Information>>> {
-        let fixed = |e: &Applied| Applied { free: false, ..e.clone() };
-        let bare = Model { effects: model.effects.iter().map(fixed).collect(), ..model.clone() };
-        let joint = effects.iter().fold(bare, |m, e| m.with_effect(e.clone().freed()));
+        let joint = effects.iter().fold(model.fixed(), |m, e| m.with_effect(e.clone().freed()));
         let free = joint.free_parameters();
         let equations = joint.equations(&free)?;
         let p = joint.free_values();

@@ -46,9 +46,7 @@ pub(super) struct Ground {
 impl Driven {
     /// The marks of effects; `None` where the motion is undefined.
     pub fn marks(&self, model: &Model, effects: &[&Applied]) -> Result<Option<Marks>> {
-        let fixed = |e: &Applied| Applied { free: false, ..e.clone() };
-        let bare = Model { effects: model.effects.iter().map(fixed).collect(), ..model.clone() };
-        let joint = effects.iter().fold(bare, |m, e| m.with_effect((*e).clone().freed()));
+        let joint = effects.iter().fold(model.fixed(), |m, e| m.with_effect((*e).clone().freed()));
         let free = joint.free_parameters();
         let equations = joint.equations(&free)?;
         let linear = linearise(&equations, &joint.free_values(), &self.records, &self.plan, &self.starts);

@@ -76,6 +76,25 @@ fn wrong_usage_is_exit_code_2() {
     assert!(!dir.path().join("report").exists() && !dir.path().join("out.csv").exists());
 }
 
+/// Rows that were sorted or left out are told on standard error, by `simulate` and of the log of a sweep.
+#[test]
+fn what_becomes_of_input_rows_is_told_unless_quiet() {
+    let spec = b"model = \"model.toml\"\n[inputs]\nlog = \"in.csv\"\n";
+    let model = b"vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 0.5\n";
+    let log = b"time,wheel_rate,yaw_rate\n1,2,0\n0,2,0\n1.5,,0\n";
+    let dir = folder(&[("model.toml", model), ("in.csv", log), ("spec.toml", spec)]);
+    for command in [&["simulate", "model.toml", "--inputs", "in.csv"][..], &["sweep", "spec.toml"]] {
+        let output = creepage(dir.path(), &[command, &["--out", "out.csv"]].concat());
+        assert!(output.status.success());
+        let sorted = "creepage: warning: in.csv: rows were out of order (1 steps back in time) and have been sorted\n";
+        let left =
+            "creepage: warning: in.csv: 1 of 3 rows is left out (blank or NaN cell in column \"wheel_rate\": 1)\n";
+        assert_eq!(stderr(&output), format!("{sorted}{left}"));
+        let quiet = creepage(dir.path(), &[command, &["--out", "out.csv", "--quiet"]].concat());
+        assert!(quiet.status.success() && quiet.stderr.is_empty(), "{}", stderr(&quiet));
+    }
+}
+
 /// A model file of the vehicle with every parameter one, and effects.
 fn model_of(vehicle: &str, effects: &str) -> String {
     let parameters = creepage::vehicles::named(vehicle).unwrap().parameters.keys();

@@ -42,6 +42,8 @@ pub struct Sweep {
     rows: usize,
     /// Columns of a row.
     width: usize,
+    /// What a user should know of the log.
+    warnings: Vec<String>,
 }
 
 impl Sweep {
@@ -59,7 +61,8 @@ impl Sweep {
         let model_file = ModelFile::read(&file.model, &dynamics::known_on(&vehicles, &library))?;
         model_file.no_forces("a sweep")?;
         Model::check_motion(&model_file)?;
-        let log = file.log.as_ref().map(|path| Inputs::read(path, &model_file)).transpose()?;
+        let mut log = file.log.as_ref().map(|path| Inputs::read(path, &model_file)).transpose()?;
+        let warnings = log.as_mut().map(|l| std::mem::take(&mut l.warnings)).unwrap_or_default();
         let roles = roles(&file, &model_file, log.as_ref())?;
         let model = Model::from_file(&model_file, &library, &roles)?;
         let (from, times) = times(&file, log.as_ref())?;
@@ -77,26 +80,28 @@ impl Sweep {
         let names: Vec<String> =
             file.grid.iter().map(|a| &a.name).chain(file.sampled.iter().map(|s| &s.name)).cloned().collect();
         let (rows, width) = (times.len(), 3 + names.len() + ensemble.columns().len());
-        let identity = identity(&file, &model_file, &library)?;
-        Ok(Self { file, names, cases, ensemble, plan, identity, rows, width })
+        let identity = identity(&file, &model_file, &library, log.as_ref());
+        Ok(Self { file, names, cases, ensemble, plan, identity, rows, width, warnings })
     }
 
     /// How many cases there are.
     pub fn cases(&self) -> usize {
         self.file.cases
     }
+
+    /// The log, and what a user should know of it, such as rows that are left out.
+    pub fn warnings(&self) -> Option<(&Path, &[String])> {
+        self.file.log.as_ref().map(|log| (log.as_path(), self.warnings.as_slice()))
+    }
 }
 
 /// What decides the result: every file that is read, and the program.
-fn identity(file: &SweepFile, model: &ModelFile, library: &[Effect]) -> Result<String> {
+fn identity(file: &SweepFile, model: &ModelFile, library: &[Effect], log: Option<&Inputs>) -> String {
     let mut all = vec![env!("CARGO_PKG_VERSION").to_string(), file.sha256.clone(), model.sha256.clone()];
     all.extend(model.vehicle_origin().map(|o| o.sha256.clone()));
     all.extend(library.iter().filter_map(|e| e.origin.as_ref()).map(|o| o.sha256.clone()));
-    if let Some(log) = &file.log {
-        let bytes = std::fs::read(log).map_err(|e| Error::input(format!("cannot be read: {e}")).at_file(log))?;
-        all.push(format!("{:x}", Sha256::digest(&bytes)));
-    }
-    Ok(format!("{:x}", Sha256::digest(all.join("\n"))))
+    all.extend(log.map(|l| l.sha256.clone()));
+    format!("{:x}", Sha256::digest(all.join("\n")))
 }
 
 /// The inputs of the model by role: those of the log, or those that have formulas.

@@ -212,6 +212,19 @@ fn what_does_not_fit_is_refused() {
     assert!(new(&good, &s.start, &[], 1e-10).is_err());
     assert!(new(&good, &s.start, &[0.0, f64::NAN], 1e-10).is_err());
     assert!(new(&good, &s.start, &[0.0, 1.0], 0.0).is_err());
+    for (varied, name) in [
+        (Varied::Model("trailer_length_1".into()), "trailer_length_1"),
+        (Varied::Initial(3), "component 3 of the initial pose"),
+    ] {
+        let error = Ensemble::new(&s.model, &good, &[varied], &s.start, 0.0, &[1.0], 1e-10).map(drop).unwrap_err();
+        assert!(error.to_string().contains(&format!("the model has no {name} that could vary")), "{error}");
+    }
+    for name in ["t", "wheel_radius"] {
+        let constants = [(Symbol::from(name), 1.0)].into();
+        assert!(new(&EnsembleInputs { constants, ..good.clone() }, &s.start, &[0.0, 1.0], 1e-10).is_err(), "{name}");
+        let varied = [Varied::Input(name.into())];
+        assert!(Ensemble::new(&s.model, &good, &varied, &s.start, 0.0, &[1.0], 1e-10).is_err(), "{name}");
+    }
     let stranger = EnsembleInputs { formulas: formulas(&["a", "1"]), ..EnsembleInputs::default() };
     let error = new(&stranger, &s.start, &[0.0, 1.0], 1e-10).unwrap_err();
     assert!(error.exit_code() == 2 && error.to_string().contains("a formula uses a,"), "{error}");

@@ -294,6 +294,38 @@ fn a_vehicle_of_a_file_moves_as_by_simulate() {
     assert_ne!(of_case(2), of_case(3), "the wheelbase matters");
 }
 
+/// The trailers of the file come behind those that are a part of the tractor, and it counts its own.
+#[test]
+fn trailers_behind_a_section_of_the_tractor_vary() {
+    const BUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/bus/bus.toml");
+    let spec =
+        "model = \"model.toml\"\nduration = 6.0\n[inputs]\nwheel_rate = \"5.0\"\nsteering_angle = \"0.2\"\n[grid]\n";
+    let dir = folder(spec);
+    let write = |name: &str, text: &str| std::fs::write(dir.path().join(name), text).unwrap();
+    let last = |spec: &str, [length, hitch]: [f64; 2]| -> Vec<f64> {
+        let model = format!(
+            "vehicles = \"{BUS}\"\nvehicle = \"n-trailer\"\ntractor = \"articulated-bus\"\n[parameters]\nwheel_radius = 0.478\n\
+             wheelbase = 5.9\njoint_offset = 1.65\nrear_length = 5.1\ntrailer_lengths = [{length}]\n\
+             hitch_offsets = [{hitch}]\n"
+        );
+        write("model.toml", &model);
+        write("spec.toml", spec);
+        good(dir.path(), &["--out", "all.csv"]);
+        let text = String::from_utf8(bytes(dir.path(), "all.csv")).unwrap();
+        let column = text.lines().next().unwrap().split(',').position(|n| n == "trailer_heading_2").unwrap();
+        text.lines().skip(1).map(|l| l.split(',').nth(column).unwrap().parse().unwrap()).collect()
+    };
+    for (name, values) in [("trailer_lengths.1", [3.0, 5.0]), ("hitch_offsets.1", [0.0, 1.0])] {
+        let varied = last(&format!("{spec}{name} = {values:?}\n"), [4.0, 0.5]);
+        let of = |v: f64| if name == "hitch_offsets.1" { [4.0, v] } else { [v, 0.5] };
+        for (v, found) in values.into_iter().zip(&varied) {
+            let alone = last(&format!("{spec}initial.x = [0.0]\n"), of(v))[0];
+            assert!((alone - found).abs() < 1e-9, "{name} = {v}: {found} and not {alone}");
+        }
+        assert!((varied[0] - varied[1]).abs() > 1e-3, "{name}: {varied:?}");
+    }
+}
+
 /// Equal ratios are equally likely.
 #[test]
 fn draws_lie_within_their_bounds_and_as_often_as_they_say() {

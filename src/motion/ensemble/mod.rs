@@ -111,8 +111,8 @@ impl Ensemble {
     /// | tolerance | | the error asked for |
     ///
     /// # Errors
-    /// When the constraints do not determine the motion, a formula uses a name that nothing defines, or sizes and times
-    /// do not fit.
+    /// When the constraints do not determine the motion, a formula uses a name that nothing defines, what varies is no
+    /// symbol of the model or no component of its pose, or sizes and times do not fit.
     pub fn new(
         model: &Model,
         inputs: &EnsembleInputs,
@@ -131,6 +131,7 @@ impl Ensemble {
         if !rising || !finite || tolerance <= 0.0 {
             return Err(Error::input("times have to rise from the start on, and the error has to be positive"));
         }
+        known(model, inputs, varied, wanted)?;
         let equations = LaneEquations::new(model, inputs, varied, None)?;
         Ok(Self {
             model: model.clone(),
@@ -224,6 +225,25 @@ impl Ensemble {
 
     fn alone(&self, case: &[f64]) -> Result<LaneEquations> {
         LaneEquations::new(&self.model, &self.inputs, &self.varied, Some(case))
+    }
+}
+
+/// That what varies is there: a symbol no formula reads would vary for nothing. So would a constant of the inputs under a
+/// name that means the time or a quantity of the model.
+fn known(model: &Model, inputs: &EnsembleInputs, varied: &[Varied], pose: usize) -> Result<()> {
+    let values = model.values();
+    let own = varied.iter().filter_map(|v| if let Varied::Input(s) = v { Some(s) } else { None });
+    if let Some(name) = inputs.constants.keys().chain(own).find(|s| s.as_str() == "t" || values.contains_key(s)) {
+        return Err(Error::input(format!("a constant of the inputs cannot be called {name}, which has a meaning")));
+    }
+    let stranger = varied.iter().find_map(|v| match v {
+        Varied::Model(s) if !values.contains_key(s) => Some(s.to_string()),
+        Varied::Initial(i) if *i >= pose => Some(format!("component {i} of the initial pose")),
+        _ => None,
+    });
+    match stranger {
+        Some(name) => Err(Error::input(format!("the model has no {name} that could vary"))),
+        None => Ok(()),
     }
 }
 

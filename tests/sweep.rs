@@ -236,6 +236,31 @@ fn what_a_file_gets_wrong_is_told_with_its_place() {
         ),
         ("normal = [0.5, 0.01]", "uniform = [-1.0, 0.5]", "spec.toml:16:1: wheel_radius = -1.0 is out of range"),
         ("u_0 = [1.0, 2.0]", "wheel_radius = [0.4]\nu_0 = [1.0]", "stands under [grid] and [sample.of]"),
+        (
+            "duration = 3.0",
+            "start = 1e308\nduration = 1e308",
+            "spec.toml:3:1: duration = 1e308 leads beyond all numbers",
+        ),
+        ("duration = 3.0", "start = 1e17\nduration = 3.0", "spec.toml:3:1: duration = 3.0 is lost in rounding"),
+        (
+            "duration = 3.0",
+            "start = 1e17\nevery = 1\nduration = 100.0",
+            "spec.toml:3:1: every = 1.0 is lost in rounding beside times of 1",
+        ),
+        ("w = 0.7", "t = 0.7", "spec.toml:7:1: t is the time and cannot be a constant"),
+        ("w = 0.7", "w = 0.7\nwheel_radius = 1", "spec.toml:8:1: the constant wheel_radius is a quantity of the model"),
+        ("w = 0.7", "w = 0.7\nu_0 = 1", "spec.toml:8:1: the constant u_0 is varied as well"),
+        (
+            "initial.heading",
+            "w = { uniform = [0, 1] }\ninitial.heading",
+            "spec.toml:7:1: the constant w is varied as well",
+        ),
+        ("u_0 = [", "u_0 = [1]\n\"rotation-creep.e_rc\" = [", "spec.toml:11:16: rotation-creep.e_rc is named twice"),
+        (
+            "initial.heading",
+            "\"initial.heading\" = { uniform = [0.0, 1.0] }\ninitial.heading",
+            "spec.toml:16:9: initial.heading is named twice",
+        ),
     ] {
         let changed = SPEC.replacen(change, by, 1);
         assert_ne!(changed, SPEC, "{change}");

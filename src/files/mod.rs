@@ -60,7 +60,7 @@ pub use output::{write_all_or_nothing, write_whole, write_whole_by};
 pub use patch::VEHICLES_FILE;
 pub use run_file::{Apart, Run};
 pub use spot::Spot;
-pub use sweep_axis::{Axis, Distribution, Sampled};
+pub use sweep_axis::{Axis, AxisValues, Distribution, Sampled};
 pub use sweep_file::{SweepFile, SweepInput, SweepRows};
 pub(crate) use text::open;
 pub use text::read_text;

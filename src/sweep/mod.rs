@@ -148,20 +148,26 @@ fn times(file: &SweepFile, log: Option<&Inputs>) -> Result<(f64, Vec<f64>)> {
             .at(1, 1)
             .help("write duration = 10.0, in seconds")
     })?;
-    let (line, column) = file.every_at;
-    let times = file.rows.times(start, start + duration);
-    Ok((start, times.map_err(|e| e.at_file(&file.path).at(line, column))?))
+    let at = |(line, column), e: Error| e.at_file(&file.path).at(line, column);
+    let end = start + duration;
+    if !end.is_finite() || end <= start {
+        let why = if end.is_finite() { "is lost in rounding beside" } else { "leads beyond all numbers from" };
+        let error = Error::input(format!("duration = {duration:?} {why} start = {start:?}"));
+        return Err(at(file.duration_at, error.help("count the time from another start")));
+    }
+    Ok((start, file.rows.times(start, end).map_err(|e| at(file.every_at, e))?))
 }
 
 /// What varies, and the values each may take.
 fn varied(file: &SweepFile, model_file: &ModelFile, model: &Model) -> Result<(Vec<Varied>, Vec<Allowed>)> {
     let known = names::quantities(model_file, model);
-    let own = |s: &Symbol| s.as_str() != "t" && !s.as_str().starts_with("log.");
+    let values = model.values();
+    let own = |s: &Symbol| s.as_str() != "t" && !s.as_str().starts_with("log.") && !values.contains_key(s);
     let used: Vec<Symbol> = file.inputs.iter().flat_map(|i| i.formula.formula.symbols()).filter(own).collect();
     let mut found: Vec<(Varied, Allowed)> = Vec::new();
     for axis in &file.grid {
         let (varied, allowed) = names::find(&axis.name, &axis.spot, &known, &used)?;
-        axis.values.iter().try_for_each(|v| allowed.check(&axis.name, *v, &axis.spot))?;
+        (0..axis.values.count()).try_for_each(|i| allowed.check(&axis.name, axis.values.at(i), &axis.spot))?;
         found.push((varied, allowed));
     }
     for sampled in &file.sampled {
@@ -174,7 +180,23 @@ fn varied(file: &SweepFile, model_file: &ModelFile, model: &Model) -> Result<(Ve
         bounds.iter().try_for_each(|v| allowed.check(&sampled.name, *v, &sampled.spot))?;
         found.push((varied, allowed));
     }
+    own_names(file, &known, &values)?;
     Ok(found.into_iter().unzip())
+}
+
+/// That a constant has its name alone: of two things of one name a formula would mean one, and the other be set in vain.
+fn own_names(file: &SweepFile, known: &[names::Quantity], values: &BTreeMap<Symbol, f64>) -> Result<()> {
+    for (name, (spot, _)) in &file.constants {
+        let varies = file.grid.iter().map(|a| &a.name).chain(file.sampled.iter().map(|s| &s.name)).any(|n| n == name);
+        let of_model = values.contains_key(&Symbol::new(name)) || known.iter().any(|q| q.name == *name);
+        let (is, help) = match (of_model, varies) {
+            (true, _) => ("a quantity of the model", "rename it, or vary the model's under [grid]"),
+            (_, true) => ("varied as well", "remove it from [constants], or from what varies"),
+            _ => continue,
+        };
+        return Err(spot.error(format!("the constant {name} is {is}")).help(help));
+    }
+    Ok(())
 }
 
 /// Formulas of the inputs in the model's order; a logged input without a formula is what was logged.

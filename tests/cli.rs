@@ -57,7 +57,7 @@ fn folders_and_missing_files_are_refused() {
 
 #[test]
 fn wrong_usage_is_exit_code_2() {
-    let dir = folder(&[("model.toml", MODEL.as_bytes()), ("run.csv", CSV)]);
+    let dir = folder(&[("model.toml", MODEL.as_bytes()), ("run.csv", CSV), ("other.csv", CSV)]);
     for arguments in [
         &["discover"][..],
         &["discover", "run.csv"],
@@ -65,6 +65,7 @@ fn wrong_usage_is_exit_code_2() {
         &["discover", "run.csv", "--model", "model.toml", "--threads", "0"],
         &["discover", "run.csv", "run.csv", "--model", "model.toml"],
         &["discover", "run.csv", "--held-out", "run.csv", "--model", "model.toml"],
+        &["discover", "run.csv", "--held-out", "other.csv", "./other.csv", "--model", "model.toml"],
         &["describe", "model.toml", "--format", "html"],
         &["effects", "--vehicle", "nonsense"],
         &["simulate", "model.toml", "--inputs", "run.csv", "--out", "out.csv", "--rtol", "0"],

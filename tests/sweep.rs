@@ -455,6 +455,53 @@ fn what_is_cut_off_is_not_joined() {
     good(dir.path(), &["--out", "all.csv", "--join", "1.csv", "2.csv"]);
 }
 
+/// A table has the rights of any new file, or those of the file it replaces, however it comes about.
+#[cfg(unix)]
+#[test]
+fn tables_have_the_rights_of_other_files() {
+    use std::os::unix::fs::PermissionsExt;
+    let dir = folder(SPEC);
+    let mode = |name: &str| std::fs::metadata(dir.path().join(name)).unwrap().permissions().mode() & 0o777;
+    let endings = if cfg!(feature = "parquet") { &["csv", "parquet"][..] } else { &["csv"] };
+    for ending in endings {
+        let [all, joined] = ["all", "joined"].map(|name| format!("{name}.{ending}"));
+        good(dir.path(), &["--out", &all]);
+        good(dir.path(), &["--out", &joined, "--join", &all]);
+        assert_eq!([mode(&all), mode(&joined)], [mode("spec.toml"); 2]);
+        for name in [&all, &joined] {
+            std::fs::set_permissions(dir.path().join(name), std::fs::Permissions::from_mode(0o640)).unwrap();
+        }
+        good(dir.path(), &["--out", &joined, "--join", &all]);
+        good(dir.path(), &["--out", &all]);
+        assert_eq!([mode(&all), mode(&joined)], [0o640; 2]);
+    }
+}
+
+/// A link may lead to another disk: everything is made where it leads, and nothing stays beside it.
+#[cfg(unix)]
+#[test]
+fn a_link_is_followed_before_anything_is_made() {
+    let (dir, there) = (folder(SPEC), elsewhere());
+    let (link, real) = (dir.path().join("all.csv"), there.path().join("real.csv"));
+    std::fs::write(&real, "old").unwrap();
+    std::os::unix::fs::symlink(&real, &link).unwrap();
+    good(dir.path(), &["--out", "all.csv"]);
+    let table = std::fs::read(&real).unwrap();
+    assert!(table.len() > 1000 && std::fs::symlink_metadata(&link).unwrap().is_symlink());
+    std::fs::copy(&real, dir.path().join("part.csv")).unwrap();
+    std::fs::write(&real, "old").unwrap();
+    good(dir.path(), &["--out", "all.csv", "--join", "part.csv"]);
+    assert!(std::fs::read(&real).unwrap() == table);
+    assert_eq!(names(dir.path()), ["all.csv", "model.toml", "part.csv", "spec.toml"]);
+    assert_eq!(names(there.path()), ["real.csv"]);
+}
+
+/// A folder on another disk where there is one.
+#[cfg(unix)]
+fn elsewhere() -> TempDir {
+    tempfile::tempdir_in("/dev/shm").or_else(|_| tempfile::tempdir()).unwrap()
+}
+
 #[test]
 fn forces_are_refused_with_a_place() {
     let dir = folder(SPEC);

@@ -55,7 +55,7 @@ pub use header::read_header;
 pub use inputs_file::Inputs;
 pub use known::{Known, KnownDynamics, KnownEffect, KnownInput, KnownLaw, KnownParameter, KnownVehicle};
 pub use model_file::{Initial, InputTiming, ModelFile, Noise, Sensor};
-pub(crate) use output::{check_target, put_in_place, unwritable};
+pub(crate) use output::{check_target, put_in_place, unwritable, write_whole_with};
 pub use output::{write_all_or_nothing, write_whole, write_whole_by};
 pub use patch::VEHICLES_FILE;
 pub use run_file::{Apart, Run};

@@ -111,6 +111,7 @@ impl ModelFile {
         let document = source.parse()?;
         let top = Section::top(source, &document);
         let machine = Machine::read(&top, known)?;
+        movable(&top, &machine)?;
         top.only(&top_keys(&machine))?;
         let parameters = Parameters::read(&top, &machine)?;
         let sections = machine.sections();
@@ -190,6 +191,17 @@ impl ModelFile {
                 .error(format!("no file of vehicles is at \"{}\"", near::shown(&found.display().to_string())))
                 .help("give its path from the folder of the model file")),
         }
+    }
+}
+
+/// That forces are known for the vehicle, where the file speaks of them.
+fn movable(top: &Section, machine: &Machine) -> Result<()> {
+    let vehicle = machine.tractor.unwrap_or(machine.vehicle);
+    match top.section("dynamics")? {
+        Some(section) if !vehicle.dynamics.allowed => Err(section
+            .error(format!("[dynamics] has no place here: no forces are known for the vehicle \"{}\"", vehicle.id))
+            .help("remove it; forces move a vehicle of one section in the plane and the trailers behind it")),
+        _ => Ok(()),
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod equations;
 mod refine;
+mod rounding;
 mod start;
 mod steps;
 
@@ -24,14 +25,16 @@ pub(super) const LANES: usize = 32;
 /// | z | states of a case |
 /// | N | steps of a run, h their length |
 /// | z_N, z_2N | results with N and 2N steps of order q |
-/// | error | max over rows and states of 4·\|z_2N − z_N\|/(2^q − 1)/max(1, \|z_2N\|) |
+/// | ε | what rounding leaves at best, see below |
+/// | error | max over rows and states of 4·\|z_2N − z_N\|/(2^q − 1)/max(1, \|z_2N\|), and ε |
 ///
 /// Every case is integrated twice, with N and with 2N steps between the times where the inputs have a kink and those
 /// that are asked for. The difference estimates the error of the finer run over the whole trajectory, growth of early
-/// errors included; N doubles until it is at most the error asked for. The result is z_2N + (z_2N − z_N)/(2^q − 1),
-/// which is better by an order than what the estimate speaks of. The first N and the order are found by the same check
-/// on a few cases spread over all of them, so a case's result depends neither on its neighbours in a block nor on
-/// the number of threads.
+/// errors included; N doubles until it is at most the error asked for, or until it does not help: the sums of the steps
+/// are compensated, so that rounding takes ε, four units in the last place, and from a place on the plane as much more as
+/// a heading rounded so moves it. The result is z_2N + (z_2N − z_N)/(2^q − 1), which is better by an order than what the
+/// estimate speaks of. The first N and the order are found by the same check on a few cases spread over all of them, so a
+/// case's result depends neither on its neighbours in a block nor on the number of threads.
 ///
 /// Validity: the motion is smooth between knots; where it is not, N grows to its limit and the case is reported as not
 /// converged.

@@ -98,12 +98,36 @@ pub struct Noise {
 
 impl ModelFile {
     /// Reads and checks a model file.
+    ///
+    /// # Errors
+    /// As [`read_text`](super::read_text) and [`ModelFile::parse`].
+    ///
+    /// ```
+    /// use creepage::files::ModelFile;
+    /// let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/runs/cornering/model.toml");
+    /// let file = ModelFile::read(path, &creepage::model::known(&[])).unwrap();
+    /// assert_eq!((file.vehicle.as_str(), file.sha256.len()), ("unicycle", 64));
+    /// ```
     pub fn read(path: impl AsRef<Path>, known: &Known) -> Result<Self> {
         let (text, sha256) = read_hashed(path.as_ref())?;
         Ok(Self { sha256, ..Self::parse(&text, path, known)? })
     }
 
     /// Checks the text of a model file; `path` is only named in errors.
+    ///
+    /// # Errors
+    /// With line and column and what to do: no TOML, an unknown vehicle or key, a key that is missing, a value of the
+    /// wrong kind or out of range.
+    ///
+    /// ```
+    /// use creepage::files::ModelFile;
+    /// let known = creepage::model::known(&[]);
+    /// let parse = |text: &str| ModelFile::parse(text, "model.toml", &known);
+    /// let file = parse("vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 0.5\n").unwrap();
+    /// assert_eq!(file.parameters["wheel_radius"], 0.5);
+    /// let error = parse("vehicle = \"unicycle\"\n[parameters]\nwheel_radius = -0.5\n").unwrap_err();
+    /// assert!(error.to_string().starts_with("model.toml:3:16: wheel_radius = -0.5 is out of range"));
+    /// ```
     pub fn parse(text: &str, path: impl AsRef<Path>, known: &Known) -> Result<Self> {
         let sha256 = hex(&Sha256::digest(text));
         let text = text.strip_prefix(BOM).unwrap_or(text);

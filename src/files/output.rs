@@ -7,11 +7,27 @@ use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile, TempPath};
 
 /// Writes a file in one step: whatever fails, `path` holds the new bytes whole or what it held before.
+///
+/// # Errors
+/// When the path cannot be written: a folder, a read-only file, no folder to be in, a link that leads to nothing, a full
+/// disk.
+///
+/// ```
+/// use creepage::files::write_whole;
+/// # let path = std::env::temp_dir().join("creepage-write-whole");
+/// write_whole(&path, b"old").unwrap();
+/// write_whole(&path, b"new").unwrap();
+/// assert_eq!(std::fs::read(&path).unwrap(), b"new");
+/// assert!(write_whole(std::env::temp_dir(), b"").unwrap_err().to_string().contains("is a folder"));
+/// ```
 pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<()> {
     write_whole_by(path, |to| to.write_all(bytes))
 }
 
 /// As [`write_whole`], of bytes that are written piece by piece and never held together.
+///
+/// # Errors
+/// As [`write_whole`], and what `write` gives.
 ///
 /// ```
 /// use creepage::files::write_whole_by;
@@ -70,6 +86,17 @@ pub(crate) fn put_in_place(finished: &Path, path: &Path) -> Result<()> {
 /// The names are plain file names. Every file is first written beside its place; when one of the
 /// final renames fails, those already done are undone. Only a crash between two renames can leave a
 /// mixture, and even then every single file is whole.
+///
+/// # Errors
+/// As [`write_whole`], for the folder and each of the files; the folder is then as it was before.
+///
+/// ```
+/// use creepage::files::write_all_or_nothing;
+/// # let dir = std::env::temp_dir().join("creepage-write-all-or-nothing");
+/// write_all_or_nothing(&dir, &[("one", b"1"), ("two", b"2")]).unwrap();
+/// assert!(write_all_or_nothing(&dir, &[("one", b"new"), ("no/such/folder", b"")]).is_err());
+/// assert_eq!(std::fs::read(dir.join("one")).unwrap(), b"1");
+/// ```
 pub fn write_all_or_nothing(dir: impl AsRef<Path>, files: &[(&str, &[u8])]) -> Result<()> {
     let dir = dir.as_ref();
     let made = make_dir(dir)?;

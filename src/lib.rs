@@ -1,4 +1,41 @@
-//! Creep kinematics of nonholonomic vehicles.
+//! Creep kinematics of nonholonomic vehicles: constraints derived, theorems checked, and models corrected by measured runs.
+//!
+//! What holds a wheel or an axle is a row that is linear in rates, in one of two generic forms (paper, (13) and (20)):
+//!
+//! ```text
+//! π̇ − σ(e)·q̇ = 0          σ = r·(1 − e)           type R: it rolls
+//! q̇₁ − σ(q₂, e)·q̇₃ = 0    σ = cot(q₂ + arctan e)   type T: it keeps a direction
+//! ```
+//!
+//! From the rows follows the motion; a measured run is the motion within windows, a jump at the end of each, and a sensor:
+//!
+//! ```text
+//! z′ = f(z, u, p)    z jumps by w ~ N(0, W·diag(q))    y = h(z, p) + v, v ~ N(0, σ²)
+//! ```
+//!
+//! | symbol | unit | meaning |
+//! |---|---|---|
+//! | π̇, q̇ | m/s, rad/s | speed along the wheel, rate of the wheel |
+//! | q₁, q₂, q₃ | m, rad, m | x, heading, y |
+//! | e | 1 | creep, zero where the constraint is ideal |
+//! | z, u, p | SI | pose and hidden states, logged inputs, parameters |
+//! | w, v | SI | what no effect of the model explains, over windows of W seconds; noise of the sensor |
+//!
+//! Modules, each using only those above it:
+//!
+//! | module | what it is |
+//! |---|---|
+//! | [`error`], [`origin`] | one message with its place and an exit code; which file something comes from |
+//! | [`formula`] | expressions as data: values, derivatives, proofs, units, vector lanes |
+//! | [`mechanism`], [`vehicles`], [`effects`] | rows and what follows from them; the catalogues, as data |
+//! | [`files`] | model files, logs, results that are whole or absent |
+//! | [`model`], [`motion`] | a vehicle with parameters and effects; its trajectories and their sensitivities |
+//! | [`library`] | the catalogues together with a user's own, held against every vehicle |
+//! | [`connection`], [`dynamics`] | shapes that turn a body; motion by forces |
+//! | [`describe`], [`starter`], [`sweep`] | what `describe`, `init` and `sweep` do |
+//! | [`picture`], [`figures`] | drawings as pure functions; the paper's figures |
+//! | [`claims`], [`theory`] | what the paper says with evidence that runs; the long form of it |
+//! | [`discrepancy`] | where model and measurement disagree, which effect is missing, how much it mends |
 #![warn(missing_docs)]
 
 pub mod claims;

@@ -57,7 +57,7 @@ fn folders_and_missing_files_are_refused() {
 
 #[test]
 fn wrong_usage_is_exit_code_2() {
-    let dir = folder(&[("model.toml", MODEL.as_bytes()), ("run.csv", CSV)]);
+    let dir = folder(&[("model.toml", MODEL.as_bytes()), ("run.csv", CSV), ("other.csv", CSV)]);
     for arguments in [
         &["discover"][..],
         &["discover", "run.csv"],
@@ -65,6 +65,7 @@ fn wrong_usage_is_exit_code_2() {
         &["discover", "run.csv", "--model", "model.toml", "--threads", "0"],
         &["discover", "run.csv", "run.csv", "--model", "model.toml"],
         &["discover", "run.csv", "--held-out", "run.csv", "--model", "model.toml"],
+        &["discover", "run.csv", "--held-out", "other.csv", "./other.csv", "--model", "model.toml"],
         &["describe", "model.toml", "--format", "html"],
         &["effects", "--vehicle", "nonsense"],
         &["simulate", "model.toml", "--inputs", "run.csv", "--out", "out.csv", "--rtol", "0"],
@@ -74,6 +75,25 @@ fn wrong_usage_is_exit_code_2() {
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
     }
     assert!(!dir.path().join("report").exists() && !dir.path().join("out.csv").exists());
+}
+
+/// Rows that were sorted or left out are told on standard error, by `simulate` and of the log of a sweep.
+#[test]
+fn what_becomes_of_input_rows_is_told_unless_quiet() {
+    let spec = b"model = \"model.toml\"\n[inputs]\nlog = \"in.csv\"\n";
+    let model = b"vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 0.5\n";
+    let log = b"time,wheel_rate,yaw_rate\n1,2,0\n0,2,0\n1.5,,0\n";
+    let dir = folder(&[("model.toml", model), ("in.csv", log), ("spec.toml", spec)]);
+    for command in [&["simulate", "model.toml", "--inputs", "in.csv"][..], &["sweep", "spec.toml"]] {
+        let output = creepage(dir.path(), &[command, &["--out", "out.csv"]].concat());
+        assert!(output.status.success());
+        let sorted = "creepage: warning: in.csv: rows were out of order (1 steps back in time) and have been sorted\n";
+        let left =
+            "creepage: warning: in.csv: 1 of 3 rows is left out (blank or NaN cell in column \"wheel_rate\": 1)\n";
+        assert_eq!(stderr(&output), format!("{sorted}{left}"));
+        let quiet = creepage(dir.path(), &[command, &["--out", "out.csv", "--quiet"]].concat());
+        assert!(quiet.status.success() && quiet.stderr.is_empty(), "{}", stderr(&quiet));
+    }
 }
 
 /// A model file of the vehicle with every parameter one, and effects.

@@ -237,3 +237,26 @@ fn a_model_without_forces_is_simulated_as_before() {
     assert_eq!(table[0], ["time", "x", "y", "heading", "speed", "lateral_speed", "yaw_rate"]);
     assert!((last(&table, "x") - 1.0).abs() < 1e-12);
 }
+
+/// Of a section that is a part of the vehicle no masses are known, and the trailers behind it hang on them.
+#[test]
+fn no_forces_are_known_for_a_vehicle_of_sections() {
+    let vehicles = creepage::library::vehicles_with_own("examples/bus/bus.toml").unwrap();
+    let known = creepage::dynamics::known_on(&vehicles, &[]);
+    let lengths = "wheel_radius = 0.478\nwheelbase = 5.9\njoint_offset = 1.65\nrear_length = 5.1\n";
+    let forces = "[dynamics]\nmass = 1.0\ninertia = 1.0\n";
+    for (vehicle, trailers, line) in [
+        ("vehicle = \"articulated-bus\"\n", "", 7),
+        ("vehicle = \"n-trailer\"\ntractor = \"articulated-bus\"\n", "trailer_lengths = [3.0]\n", 9),
+    ] {
+        let text = format!("{vehicle}[parameters]\n{lengths}{trailers}{forces}");
+        let error = ModelFile::parse(&text, "model.toml", &known).unwrap_err().to_string();
+        let place = format!("model.toml:{line}:1: [dynamics] has no place here: no forces are known for");
+        assert!(error.starts_with(&place) && error.contains("\"articulated-bus\""), "{error}");
+    }
+    let bus = vehicles.iter().find(|v| v.id == "articulated-bus").unwrap();
+    let lengths = [("wheel_radius", 0.478), ("wheelbase", 5.9), ("joint_offset", 1.65), ("rear_length", 5.1)];
+    let bus = creepage::model::Model::of(bus, &lengths).unwrap();
+    let error = Dynamics::new(&bus, &creepage::dynamics::Masses::default()).unwrap_err().to_string();
+    assert!(error.contains("which has sections of its own"), "{error}");
+}

@@ -117,6 +117,44 @@ fn inputs_bring_a_pose_where_it_is_whole() {
     assert_eq!((pose.x, pose.y, pose.heading, pose.trailer_headings.len()), (3.0, 4.0, 0.7, 0));
 }
 
+/// A row needs its time and its inputs: poses further on may be missing or contradict each other.
+#[test]
+fn inputs_are_kept_where_a_pose_is_missing() {
+    let model = model_of("unicycle", "wheel_radius = 0.5\n");
+    let read = |rows: &str| {
+        let text = format!("time,wheel_rate,yaw_rate,x,y,heading\n{rows}");
+        reads("drive.csv", &text, |path| Inputs::read(path, &model)).unwrap()
+    };
+    let rest = "1,2,0.25,,NaN,\n2,3,0,inf,6,0.8\n2,3,0,9,6,0.8\n";
+    let whole = read(&format!("0,1,0.5,3,4,0.7\n{rest}"));
+    assert_eq!((whole.time, &whole.columns[0]), (vec![0.0, 1.0, 2.0], &vec![1.0, 2.0, 3.0]));
+    assert_eq!(whole.pose.map(|p| [p.x, p.y, p.heading]), Some([3.0, 4.0, 0.7]));
+    assert_eq!(whole.warnings, ["1 of 4 rows is left out (repeated row: 1)"]);
+    // Of the first row alone: not of the next one, and not where two rows of its time contradict each other.
+    for first in ["0,1,0.5,3,,0.7\n", "0,1,0.5,3,4,0.7\n0,1,0.5,3,5,0.7\n"] {
+        let part = read(&format!("{first}{rest}"));
+        assert_eq!((part.pose, part.time.len()), (None, 3), "{first}");
+        assert!(part.warnings[1].contains("it begins at the origin"), "{:?}", part.warnings);
+    }
+    let twice = read(&format!("0,1,0.5,3,4,0.7\n0,1,0.5,3,,0.7\n{rest}"));
+    assert_eq!(twice.pose.map(|p| p.y), Some(4.0));
+}
+
+/// What is sorted or left out is told with its reason, and the pose is that of the first row in time.
+#[test]
+fn inputs_say_what_was_sorted_and_left_out() {
+    let model = model_of("unicycle", "wheel_radius = 0.5\n");
+    let text =
+        "time,wheel_rate,yaw_rate,x,y,heading\n1,2,0,8,8,8\n0,1,0.5,3,4,0.7\n2,,0,,,\n3,4,inf,,,\n4,1,0,,,\n4,2,0,,,\n";
+    let inputs = reads("drive.csv", text, |path| Inputs::read(path, &model)).unwrap();
+    assert_eq!((inputs.time, inputs.pose.map(|p| p.x)), (vec![0.0, 1.0], Some(3.0)));
+    let why = "blank or NaN cell in column \"wheel_rate\": 1, infinite value in column \"yaw_rate\": 1, \
+               repeated time with conflicting values: 2";
+    let sorted = "rows were out of order (1 steps back in time) and have been sorted".to_string();
+    assert_eq!(inputs.warnings, [sorted, format!("4 of 6 rows are left out ({why})")]);
+    assert_eq!(inputs.sha256, format!("{:x}", Sha256::digest(text)));
+}
+
 /// Trailers start as they were logged; in line with the tractor where they were not.
 #[test]
 fn inputs_bring_the_headings_of_trailers() {

@@ -253,3 +253,18 @@ fn every_target_is_run() {
         assert!(!folder.is_dir() || folder.join(target.name).with_extension("rs").is_file(), "{}", target.name);
     }
 }
+
+/// How many cases there are is known before any of them takes room.
+#[test]
+fn axes_of_many_values_cost_no_memory() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("sweep.toml");
+    let axes: String = (0..8).map(|i| format!("a_{i} = {{ from = 0.0, to = 1.0, count = 10000000 }}\n")).collect();
+    std::fs::write(&path, format!("model = \"sweep.toml\"\nduration = 1.0\n[grid]\n{axes}")).unwrap();
+    let _alone = ALONE.lock().unwrap_or_else(|e| e.into_inner());
+    let before = MEMORY.current_usage();
+    MEMORY.reset_peak_usage();
+    let error = creepage::files::SweepFile::read(&path).map(drop).unwrap_err();
+    let taken = MEMORY.peak_usage() - before;
+    assert!(error.to_string().contains("more than 10^15 cases") && taken < 1 << 20, "{error}, {taken} bytes");
+}

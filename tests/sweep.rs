@@ -236,6 +236,31 @@ fn what_a_file_gets_wrong_is_told_with_its_place() {
         ),
         ("normal = [0.5, 0.01]", "uniform = [-1.0, 0.5]", "spec.toml:16:1: wheel_radius = -1.0 is out of range"),
         ("u_0 = [1.0, 2.0]", "wheel_radius = [0.4]\nu_0 = [1.0]", "stands under [grid] and [sample.of]"),
+        (
+            "duration = 3.0",
+            "start = 1e308\nduration = 1e308",
+            "spec.toml:3:1: duration = 1e308 leads beyond all numbers",
+        ),
+        ("duration = 3.0", "start = 1e17\nduration = 3.0", "spec.toml:3:1: duration = 3.0 is lost in rounding"),
+        (
+            "duration = 3.0",
+            "start = 1e17\nevery = 1\nduration = 100.0",
+            "spec.toml:3:1: every = 1.0 is lost in rounding beside times of 1",
+        ),
+        ("w = 0.7", "t = 0.7", "spec.toml:7:1: t is the time and cannot be a constant"),
+        ("w = 0.7", "w = 0.7\nwheel_radius = 1", "spec.toml:8:1: the constant wheel_radius is a quantity of the model"),
+        ("w = 0.7", "w = 0.7\nu_0 = 1", "spec.toml:8:1: the constant u_0 is varied as well"),
+        (
+            "initial.heading",
+            "w = { uniform = [0, 1] }\ninitial.heading",
+            "spec.toml:7:1: the constant w is varied as well",
+        ),
+        ("u_0 = [", "u_0 = [1]\n\"rotation-creep.e_rc\" = [", "spec.toml:11:16: rotation-creep.e_rc is named twice"),
+        (
+            "initial.heading",
+            "\"initial.heading\" = { uniform = [0.0, 1.0] }\ninitial.heading",
+            "spec.toml:16:9: initial.heading is named twice",
+        ),
     ] {
         let changed = SPEC.replacen(change, by, 1);
         assert_ne!(changed, SPEC, "{change}");
@@ -292,6 +317,38 @@ fn a_vehicle_of_a_file_moves_as_by_simulate() {
         assert!(apart < 1e-8 && end[4] != end[3], "{apart} {end:?} {:?}", of_case(case));
     }
     assert_ne!(of_case(2), of_case(3), "the wheelbase matters");
+}
+
+/// The trailers of the file come behind those that are a part of the tractor, and it counts its own.
+#[test]
+fn trailers_behind_a_section_of_the_tractor_vary() {
+    const BUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/bus/bus.toml");
+    let spec =
+        "model = \"model.toml\"\nduration = 6.0\n[inputs]\nwheel_rate = \"5.0\"\nsteering_angle = \"0.2\"\n[grid]\n";
+    let dir = folder(spec);
+    let write = |name: &str, text: &str| std::fs::write(dir.path().join(name), text).unwrap();
+    let last = |spec: &str, [length, hitch]: [f64; 2]| -> Vec<f64> {
+        let model = format!(
+            "vehicles = \"{BUS}\"\nvehicle = \"n-trailer\"\ntractor = \"articulated-bus\"\n[parameters]\nwheel_radius = 0.478\n\
+             wheelbase = 5.9\njoint_offset = 1.65\nrear_length = 5.1\ntrailer_lengths = [{length}]\n\
+             hitch_offsets = [{hitch}]\n"
+        );
+        write("model.toml", &model);
+        write("spec.toml", spec);
+        good(dir.path(), &["--out", "all.csv"]);
+        let text = String::from_utf8(bytes(dir.path(), "all.csv")).unwrap();
+        let column = text.lines().next().unwrap().split(',').position(|n| n == "trailer_heading_2").unwrap();
+        text.lines().skip(1).map(|l| l.split(',').nth(column).unwrap().parse().unwrap()).collect()
+    };
+    for (name, values) in [("trailer_lengths.1", [3.0, 5.0]), ("hitch_offsets.1", [0.0, 1.0])] {
+        let varied = last(&format!("{spec}{name} = {values:?}\n"), [4.0, 0.5]);
+        let of = |v: f64| if name == "hitch_offsets.1" { [4.0, v] } else { [v, 0.5] };
+        for (v, found) in values.into_iter().zip(&varied) {
+            let alone = last(&format!("{spec}initial.x = [0.0]\n"), of(v))[0];
+            assert!((alone - found).abs() < 1e-9, "{name} = {v}: {found} and not {alone}");
+        }
+        assert!((varied[0] - varied[1]).abs() > 1e-3, "{name}: {varied:?}");
+    }
 }
 
 /// Equal ratios are equally likely.
@@ -396,6 +453,53 @@ fn what_is_cut_off_is_not_joined() {
     assert!(refused(dir.path(), &["--out", "all.csv", "--join", "1.csv"]).contains("case 35 of 70 was to follow"));
     assert!(!dir.path().join("all.csv").exists());
     good(dir.path(), &["--out", "all.csv", "--join", "1.csv", "2.csv"]);
+}
+
+/// A table has the rights of any new file, or those of the file it replaces, however it comes about.
+#[cfg(unix)]
+#[test]
+fn tables_have_the_rights_of_other_files() {
+    use std::os::unix::fs::PermissionsExt;
+    let dir = folder(SPEC);
+    let mode = |name: &str| std::fs::metadata(dir.path().join(name)).unwrap().permissions().mode() & 0o777;
+    let endings = if cfg!(feature = "parquet") { &["csv", "parquet"][..] } else { &["csv"] };
+    for ending in endings {
+        let [all, joined] = ["all", "joined"].map(|name| format!("{name}.{ending}"));
+        good(dir.path(), &["--out", &all]);
+        good(dir.path(), &["--out", &joined, "--join", &all]);
+        assert_eq!([mode(&all), mode(&joined)], [mode("spec.toml"); 2]);
+        for name in [&all, &joined] {
+            std::fs::set_permissions(dir.path().join(name), std::fs::Permissions::from_mode(0o640)).unwrap();
+        }
+        good(dir.path(), &["--out", &joined, "--join", &all]);
+        good(dir.path(), &["--out", &all]);
+        assert_eq!([mode(&all), mode(&joined)], [0o640; 2]);
+    }
+}
+
+/// A link may lead to another disk: everything is made where it leads, and nothing stays beside it.
+#[cfg(unix)]
+#[test]
+fn a_link_is_followed_before_anything_is_made() {
+    let (dir, there) = (folder(SPEC), elsewhere());
+    let (link, real) = (dir.path().join("all.csv"), there.path().join("real.csv"));
+    std::fs::write(&real, "old").unwrap();
+    std::os::unix::fs::symlink(&real, &link).unwrap();
+    good(dir.path(), &["--out", "all.csv"]);
+    let table = std::fs::read(&real).unwrap();
+    assert!(table.len() > 1000 && std::fs::symlink_metadata(&link).unwrap().is_symlink());
+    std::fs::copy(&real, dir.path().join("part.csv")).unwrap();
+    std::fs::write(&real, "old").unwrap();
+    good(dir.path(), &["--out", "all.csv", "--join", "part.csv"]);
+    assert!(std::fs::read(&real).unwrap() == table);
+    assert_eq!(names(dir.path()), ["all.csv", "model.toml", "part.csv", "spec.toml"]);
+    assert_eq!(names(there.path()), ["real.csv"]);
+}
+
+/// A folder on another disk where there is one.
+#[cfg(unix)]
+fn elsewhere() -> TempDir {
+    tempfile::tempdir_in("/dev/shm").or_else(|_| tempfile::tempdir()).unwrap()
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! Progress on a terminal.
 
 use indicatif::{ProgressBar, ProgressStyle};
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
+use std::path::Path;
 use std::time::Duration;
 
 /// A line that says what is being done, drawn only on a terminal and gone at the end.
@@ -40,6 +41,13 @@ impl Progress {
             self.0.reset_eta();
         }
         self.0.set_position(done as u64);
+    }
+
+    /// What a user should know of a file, above the line and on standard error.
+    pub fn warn(&self, file: &Path, warnings: &[String]) {
+        // Where a warning cannot be written the result is still good.
+        let write = |w: &String| drop(writeln!(std::io::stderr(), "creepage: warning: {}: {w}", file.display()));
+        self.0.suspend(|| warnings.iter().for_each(write));
     }
 
     /// What is being done now.

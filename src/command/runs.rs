@@ -24,15 +24,17 @@ fn counted(n: usize, noun: &str) -> String {
     if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
 }
 
-/// A run that is fitted cannot be held out.
+/// A run that is fitted cannot be held out, and none counts twice.
 pub fn distinct(runs: &[PathBuf], held_out: &[PathBuf]) -> Result<()> {
     let same = |a: &Path, b: &Path| a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
-    for (i, run) in runs.iter().enumerate() {
+    for set in [runs, held_out] {
+        if let Some((_, twice)) = set.iter().enumerate().find(|(i, run)| set[..*i].iter().any(|r| same(run, r))) {
+            return Err(Error::input("the run is named twice").at_file(twice).help("name it once"));
+        }
+    }
+    for run in runs {
         if held_out.iter().any(|h| same(run, h)) {
             return Err(Error::input("the run is fitted and held out at once").at_file(run).help("name it once"));
-        }
-        if runs[..i].iter().any(|r| same(run, r)) {
-            return Err(Error::input("the run is named twice").at_file(run).help("name it once"));
         }
     }
     Ok(())

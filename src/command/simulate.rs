@@ -11,7 +11,7 @@ use creepage::motion::{Integrator, Signals, Table, simulate_model};
 use creepage::{Error, Result};
 use std::fmt::Write as _;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Integrate a (patched) model over given inputs
 #[derive(Args)]
@@ -55,15 +55,20 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     progress.say("integrating");
     let (file, library) = &arguments.own.read(&arguments.model)?;
     let integrator = Integrator::default().with_tolerance(arguments.rtol, arguments.atol);
+    if file.dynamics.is_none() {
+        Model::check_motion(file)?;
+    }
+    let inputs = Inputs::read(&arguments.inputs, file)?;
+    if !quiet {
+        progress.warn(&arguments.inputs, &inputs.warnings);
+    }
+    let integrator = Integrator { max_steps: most_steps(inputs.time.len()), ..integrator };
+    let (signals, start) = begun(file, &inputs);
     let table = match &file.dynamics {
-        Some(_) => forced(file, &arguments.inputs, integrator)?,
+        Some(_) => simulate_file(file, &signals, &inputs.time, &start, &integrator)?,
         None => {
-            Model::check_motion(file)?;
-            let inputs = Inputs::read(&arguments.inputs, file)?;
             let model = Model::from_file(file, library, &inputs.roles)?;
-            let (signals, start) = begun(file, &inputs);
             let start: Vec<f64> = [start.x, start.y, start.heading].into_iter().chain(start.trailer_headings).collect();
-            let integrator = Integrator { max_steps: most_steps(inputs.time.len()), ..integrator };
             simulate_model(&model, &signals, &inputs.time, &start, &integrator)?
         }
     };
@@ -81,14 +86,6 @@ fn begun(file: &ModelFile, inputs: &Inputs) -> (Signals, Initial) {
     let signals = Signals::new(&inputs.time, &inputs.columns, file.input_timing.into());
     let start = file.initial.clone().or_else(|| inputs.pose.clone());
     (signals, start.unwrap_or_else(|| at_origin(file)))
-}
-
-/// A motion by forces.
-fn forced(file: &ModelFile, inputs: &Path, integrator: Integrator) -> Result<Table> {
-    let inputs = Inputs::read(inputs, file)?;
-    let (signals, pose) = begun(file, &inputs);
-    let integrator = Integrator { max_steps: most_steps(inputs.time.len()), ..integrator };
-    simulate_file(file, &signals, &inputs.time, &pose, &integrator)
 }
 
 /// Enough for rows far apart, and an end in seconds for a motion no integrator can follow.

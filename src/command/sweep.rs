@@ -38,6 +38,9 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let progress = Progress::bar(quiet);
     let sweep = Sweep::read(&arguments.spec)?;
+    if let (Some((log, warnings)), false) = (sweep.warnings(), quiet) {
+        progress.warn(log, warnings);
+    }
     let out = &arguments.out;
     let text = if arguments.join.is_empty() {
         let tell = |p: creepage::sweep::Progress| progress.at(p.done, p.all, p.found);

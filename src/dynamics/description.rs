@@ -48,11 +48,15 @@ impl Dynamics {
     /// The dynamics of a model with masses, every contact ideal, driven by nothing but its steering.
     ///
     /// # Errors
-    /// When the model includes effects, or the masses do not fit its trailers.
+    /// When the model includes effects, its vehicle has sections of its own, or the masses do not fit its trailers.
     pub fn new(model: &Model, masses: &Masses) -> Result<Self> {
         if let Some(effect) = model.effects.first() {
             return Err(Error::input(format!("the effect {} has no place beside forces", effect.label()))
                 .help("remove it: with forces, creep follows from the laws of contact"));
+        }
+        if !model.vehicle.trailers.is_empty() {
+            let message = format!("no forces are known for {}, which has sections of its own", model.vehicle.id);
+            return Err(Error::input(message).help("forces move a vehicle of one section and the trailers behind it"));
         }
         if masses.trailers.len() != model.trailers.len() {
             let (given, wanted) = (masses.trailers.len(), model.trailers.len());

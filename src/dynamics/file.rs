@@ -45,8 +45,8 @@ fn known_dynamics(vehicle: &Vehicle) -> KnownDynamics {
         parameters: l.parameters.iter().map(|p| (p.name.clone(), p.unit.clone())).collect(),
     };
     KnownDynamics {
-        // A body in the air has no contacts and no pose in the plane.
-        allowed: vehicle.coordinates.is_empty(),
+        // A body in the air has no contacts and no pose in the plane; of sections behind it no masses are known.
+        allowed: vehicle.coordinates.is_empty() && vehicle.trailers.is_empty(),
         line: vehicle.line,
         wheels: vehicle.wheels.iter().filter(|w| w.rate.is_some()).map(|w| slug(&w.name)).collect(),
         castors: !super::bodies::castors(vehicle).is_empty(),

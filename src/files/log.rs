@@ -77,10 +77,15 @@ impl Log {
 
     /// Reads all rows; `wanted` are places in the header, the time first.
     pub fn numbers(self, wanted: &[usize]) -> Result<Numbers> {
+        self.numbers_and(wanted, &[])
+    }
+
+    /// Reads all rows, and with them columns for which no row is left out; topics, with times of their own, have none.
+    pub fn numbers_and(self, wanted: &[usize], more: &[usize]) -> Result<Numbers> {
         match self {
-            Self::Csv(sheet) => sheet.numbers(wanted),
+            Self::Csv(sheet) => sheet.numbers_and(wanted, more),
             #[cfg(feature = "parquet")]
-            Self::Parquet(log) => log.numbers(wanted),
+            Self::Parquet(log) => log.numbers_and(wanted, more),
             #[cfg(feature = "mcap")]
             Self::Bag(bag) => bag.numbers(wanted),
         }

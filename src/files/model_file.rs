@@ -98,12 +98,36 @@ pub struct Noise {
 
 impl ModelFile {
     /// Reads and checks a model file.
+    ///
+    /// # Errors
+    /// As [`read_text`](super::read_text) and [`ModelFile::parse`].
+    ///
+    /// ```
+    /// use creepage::files::ModelFile;
+    /// let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/runs/cornering/model.toml");
+    /// let file = ModelFile::read(path, &creepage::model::known(&[])).unwrap();
+    /// assert_eq!((file.vehicle.as_str(), file.sha256.len()), ("unicycle", 64));
+    /// ```
     pub fn read(path: impl AsRef<Path>, known: &Known) -> Result<Self> {
         let (text, sha256) = read_hashed(path.as_ref())?;
         Ok(Self { sha256, ..Self::parse(&text, path, known)? })
     }
 
     /// Checks the text of a model file; `path` is only named in errors.
+    ///
+    /// # Errors
+    /// With line and column and what to do: no TOML, an unknown vehicle or key, a key that is missing, a value of the
+    /// wrong kind or out of range.
+    ///
+    /// ```
+    /// use creepage::files::ModelFile;
+    /// let known = creepage::model::known(&[]);
+    /// let parse = |text: &str| ModelFile::parse(text, "model.toml", &known);
+    /// let file = parse("vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 0.5\n").unwrap();
+    /// assert_eq!(file.parameters["wheel_radius"], 0.5);
+    /// let error = parse("vehicle = \"unicycle\"\n[parameters]\nwheel_radius = -0.5\n").unwrap_err();
+    /// assert!(error.to_string().starts_with("model.toml:3:16: wheel_radius = -0.5 is out of range"));
+    /// ```
     pub fn parse(text: &str, path: impl AsRef<Path>, known: &Known) -> Result<Self> {
         let sha256 = hex(&Sha256::digest(text));
         let text = text.strip_prefix(BOM).unwrap_or(text);
@@ -111,6 +135,7 @@ impl ModelFile {
         let document = source.parse()?;
         let top = Section::top(source, &document);
         let machine = Machine::read(&top, known)?;
+        movable(&top, &machine)?;
         top.only(&top_keys(&machine))?;
         let parameters = Parameters::read(&top, &machine)?;
         let sections = machine.sections();
@@ -190,6 +215,17 @@ impl ModelFile {
                 .error(format!("no file of vehicles is at \"{}\"", near::shown(&found.display().to_string())))
                 .help("give its path from the folder of the model file")),
         }
+    }
+}
+
+/// That forces are known for the vehicle, where the file speaks of them.
+fn movable(top: &Section, machine: &Machine) -> Result<()> {
+    let vehicle = machine.tractor.unwrap_or(machine.vehicle);
+    match top.section("dynamics")? {
+        Some(section) if !vehicle.dynamics.allowed => Err(section
+            .error(format!("[dynamics] has no place here: no forces are known for the vehicle \"{}\"", vehicle.id))
+            .help("remove it; forces move a vehicle of one section in the plane and the trailers behind it")),
+        _ => Ok(()),
     }
 }
 

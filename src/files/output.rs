@@ -7,11 +7,27 @@ use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile, TempPath};
 
 /// Writes a file in one step: whatever fails, `path` holds the new bytes whole or what it held before.
+///
+/// # Errors
+/// When the path cannot be written: a folder, a read-only file, no folder to be in, a link that leads to nothing, a full
+/// disk.
+///
+/// ```
+/// use creepage::files::write_whole;
+/// # let path = std::env::temp_dir().join("creepage-write-whole");
+/// write_whole(&path, b"old").unwrap();
+/// write_whole(&path, b"new").unwrap();
+/// assert_eq!(std::fs::read(&path).unwrap(), b"new");
+/// assert!(write_whole(std::env::temp_dir(), b"").unwrap_err().to_string().contains("is a folder"));
+/// ```
 pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<()> {
     write_whole_by(path, |to| to.write_all(bytes))
 }
 
 /// As [`write_whole`], of bytes that are written piece by piece and never held together.
+///
+/// # Errors
+/// As [`write_whole`], and what `write` gives.
 ///
 /// ```
 /// use creepage::files::write_whole_by;
@@ -21,34 +37,48 @@ pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<()> {
 /// ```
 pub fn write_whole_by(path: impl AsRef<Path>, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     let path = path.as_ref();
+    write_whole_with(path, |file| buffered(file, write).map_err(|e| unwritable(path, &e)))
+}
+
+/// As [`write_whole_by`], by what needs the open file itself.
+pub(crate) fn write_whole_with(path: &Path, write: impl FnOnce(&File) -> Result<()>) -> Result<()> {
     let target = target(path)?;
+    let failed = |e: &io::Error| unwritable(path, e);
     if is_device(&target) {
         // A pipe or /dev/null takes bytes as they come; renaming a file over it would destroy it.
-        return write_through(&target, write).map_err(|e| unwritable(path, &e));
+        return write(&OpenOptions::new().write(true).open(&target).map_err(|e| failed(&e))?);
     }
-    let ready = prepare(&target, write).map_err(|e| unwritable(path, &e))?;
-    ready.persist(&target).map_err(|e| unwritable(path, &e.error))?;
+    let new = builder(&target).tempfile_in(folder_of(&target)).map_err(|e| failed(&e))?;
+    write(new.as_file())?;
+    new.as_file().sync_all().map_err(|e| failed(&e))?;
+    new.persist(&target).map_err(|e| failed(&e.error))?;
     Ok(())
 }
 
-/// That a file could be put at a path: no folder, not read-only, in a folder that exists.
-pub(crate) fn check_target(path: &Path) -> Result<()> {
+/// Where a file is made that is to be put at a path: no folder, not read-only, in a folder that exists. A link is
+/// followed, for what lies beside it may be on another disk than what it leads to.
+pub(crate) fn check_target(path: &Path) -> Result<PathBuf> {
     let target = target(path)?;
-    match folder_of(&target).is_dir() {
-        true => Ok(()),
-        false => Err(unwritable(path, &ErrorKind::NotFound.into())),
+    if !folder_of(&target).is_dir() {
+        return Err(unwritable(path, &ErrorKind::NotFound.into()));
     }
+    Ok(if is_link(path) && !is_device(&target) { target } else { path.into() })
 }
 
-/// Puts a finished file from the same folder in the place of another, in one step.
+/// Puts a finished file from the same folder in the place of another, in one step, with the permissions of the other.
 pub(crate) fn put_in_place(finished: &Path, path: &Path) -> Result<()> {
     let target = target(path)?;
-    if is_device(&target) {
-        let copied = File::open(finished)
-            .and_then(|mut from| io::copy(&mut from, &mut OpenOptions::new().write(true).open(&target)?));
-        return copied.and_then(|_| fs::remove_file(finished)).map_err(|e| unwritable(path, &e));
-    }
-    fs::rename(finished, &target).map_err(|e| unwritable(path, &e))
+    let put = || {
+        if is_device(&target) {
+            io::copy(&mut File::open(finished)?, &mut OpenOptions::new().write(true).open(&target)?)?;
+            return fs::remove_file(finished);
+        }
+        if let Ok(older) = fs::metadata(&target) {
+            fs::set_permissions(finished, older.permissions())?;
+        }
+        fs::rename(finished, &target)
+    };
+    put().map_err(|e| unwritable(path, &e))
 }
 
 /// Writes several files into a folder, which is made when missing: all of them, or none.
@@ -56,6 +86,17 @@ pub(crate) fn put_in_place(finished: &Path, path: &Path) -> Result<()> {
 /// The names are plain file names. Every file is first written beside its place; when one of the
 /// final renames fails, those already done are undone. Only a crash between two renames can leave a
 /// mixture, and even then every single file is whole.
+///
+/// # Errors
+/// As [`write_whole`], for the folder and each of the files; the folder is then as it was before.
+///
+/// ```
+/// use creepage::files::write_all_or_nothing;
+/// # let dir = std::env::temp_dir().join("creepage-write-all-or-nothing");
+/// write_all_or_nothing(&dir, &[("one", b"1"), ("two", b"2")]).unwrap();
+/// assert!(write_all_or_nothing(&dir, &[("one", b"new"), ("no/such/folder", b"")]).is_err());
+/// assert_eq!(std::fs::read(dir.join("one")).unwrap(), b"1");
+/// ```
 pub fn write_all_or_nothing(dir: impl AsRef<Path>, files: &[(&str, &[u8])]) -> Result<()> {
     let dir = dir.as_ref();
     let made = make_dir(dir)?;
@@ -137,10 +178,6 @@ fn is_link(path: &Path) -> bool {
 
 fn is_device(target: &Path) -> bool {
     fs::metadata(target).is_ok_and(|data| !data.is_file())
-}
-
-fn write_through(target: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
-    buffered(&OpenOptions::new().write(true).open(target)?, write)
 }
 
 /// What is written in a finished file beside the target, gone when dropped.
@@ -276,6 +313,22 @@ mod tests {
         write_whole(&pipe, b"gone").unwrap();
         assert!(std::os::unix::fs::FileTypeExt::is_fifo(&fs::symlink_metadata(&pipe).unwrap().file_type()));
         assert_eq!(read.recv_timeout(std::time::Duration::from_secs(60)).unwrap(), b"gone");
+    }
+
+    /// What is made beside a link would be on the wrong disk; what is made beside a device, in a system's folder.
+    #[cfg(unix)]
+    #[test]
+    fn a_file_is_made_where_its_link_leads() {
+        use std::os::unix::fs::symlink;
+        let [here, there] = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
+        let (link, real) = (here.path().join("link"), there.path().join("real"));
+        fs::write(&real, b"old").unwrap();
+        symlink(&real, &link).unwrap();
+        assert_eq!(check_target(&link).unwrap(), fs::canonicalize(&real).unwrap());
+        assert_eq!(check_target(&real).unwrap(), real);
+        let null = here.path().join("null");
+        symlink("/dev/null", &null).unwrap();
+        assert_eq!(check_target(&null).unwrap(), null);
     }
 
     #[cfg(unix)]

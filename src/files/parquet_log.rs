@@ -34,8 +34,8 @@ impl ParquetLog {
     }
 
     /// Reads all rows; `wanted` are places in the header.
-    pub fn numbers(self, wanted: &[usize]) -> Result<Numbers> {
-        let columns = wanted.iter().map(|c| self.column(*c)).collect::<Result<Vec<Vec<f64>>>>()?;
+    pub fn numbers_and(self, wanted: &[usize], more: &[usize]) -> Result<Numbers> {
+        let columns = wanted.iter().chain(more).map(|c| self.column(*c)).collect::<Result<Vec<Vec<f64>>>>()?;
         if columns.windows(2).any(|pair| pair[0].len() != pair[1].len()) {
             return Err(broken(&self.path, "its columns have different lengths"));
         }

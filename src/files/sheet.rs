@@ -80,14 +80,20 @@ impl<R: Read> Sheet<R> {
     }
 
     /// Reads all rows; `wanted` are places in the header.
-    pub fn numbers(mut self, wanted: &[usize]) -> Result<Numbers> {
-        let mut columns = vec![Vec::new(); wanted.len()];
-        let mut row = vec![0.0; wanted.len()];
+    pub fn numbers(self, wanted: &[usize]) -> Result<Numbers> {
+        self.numbers_and(wanted, &[])
+    }
+
+    /// Reads all rows, and with them columns for which no row is left out: a cell without a finite number is NaN there.
+    pub fn numbers_and(mut self, wanted: &[usize], more: &[usize]) -> Result<Numbers> {
+        let all = [wanted, more].concat();
+        let mut columns = vec![Vec::new(); all.len()];
+        let mut row = vec![0.0; all.len()];
         let (mut rows, mut dropped) = (0, BTreeMap::new());
         while self.advance()? {
             rows += 1;
             self.check_length()?;
-            match self.read_row(wanted, &mut row)? {
+            match self.read_row(&all, wanted.len(), &mut row)? {
                 None => columns.iter_mut().zip(&row).for_each(|(column, value)| column.push(*value)),
                 Some(why) => *dropped.entry(why).or_insert(0) += 1,
             }
@@ -127,13 +133,14 @@ impl<R: Read> Sheet<R> {
         Err(Error::input(message).at_file(&self.path).at(self.records.line(), 1).help(help))
     }
 
-    /// Fills the row, or says why it must be left out.
-    fn read_row(&self, wanted: &[usize], row: &mut [f64]) -> Result<Option<String>> {
+    /// Fills the row, or says why it must be left out: for one of the first cells, so many as are needed.
+    fn read_row(&self, places: &[usize], needed: usize, row: &mut [f64]) -> Result<Option<String>> {
         let mut why = None;
-        for (value, &index) in row.iter_mut().zip(wanted) {
+        for (i, (value, &index)) in row.iter_mut().zip(places).enumerate() {
             match Cell::read(&self.records.cell(index)) {
                 Cell::Number(number) => *value = number,
                 Cell::Word => return Err(self.word(index)),
+                Cell::Blank | Cell::Infinite if i >= needed => *value = f64::NAN,
                 // A word further on must still be found, so the row is read to its end.
                 Cell::Blank if why.is_none() => why = Some(("blank or NaN cell", index)),
                 Cell::Infinite if why.is_none() => why = Some(("infinite value", index)),

@@ -4,6 +4,7 @@ use super::near;
 use super::spot::Spot;
 use super::toml_table::{Section, Value};
 use crate::error::Result;
+use std::collections::BTreeSet;
 
 /// The most values of one axis.
 const MOST: usize = 10_000_000;
@@ -16,7 +17,48 @@ pub struct Axis {
     /// Where it stands.
     pub spot: Spot,
     /// Its values, in their order.
-    pub values: Vec<f64>,
+    pub values: AxisValues,
+}
+
+/// The values of an axis.
+#[derive(Clone, Debug, PartialEq)]
+pub enum AxisValues {
+    /// One by one.
+    List(Vec<f64>),
+    /// From one bound to the other in even steps.
+    Even {
+        /// The first.
+        from: f64,
+        /// The last.
+        to: f64,
+        /// How many, at least one.
+        count: usize,
+    },
+}
+
+impl AxisValues {
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        match self {
+            Self::List(values) => values.len(),
+            Self::Even { count, .. } => *count,
+        }
+    }
+
+    /// The i-th from zero, both bounds exactly.
+    ///
+    /// # Panics
+    /// When there is no such value in a list: a fault of the caller.
+    pub fn at(&self, i: usize) -> f64 {
+        match self {
+            Self::List(values) => values[i],
+            Self::Even { from, count: 1, .. } => *from,
+            Self::Even { from, to, count } => {
+                let s = i as f64 / (count - 1) as f64;
+                from * (1.0 - s) + to * s
+            }
+        }
+    }
 }
 
 /// A quantity that is drawn.
@@ -43,17 +85,28 @@ pub enum Distribution {
 
 /// Every axis of `[grid]`, in the order of the file.
 pub(super) fn read_grid(section: &Section) -> Result<Vec<Axis>> {
-    let leaves = leaves(section, &["from", "to", "count"])?;
+    let leaves = each_once(leaves(section, &["from", "to", "count"])?)?;
     leaves.into_iter().map(|(name, value)| Ok(Axis { name, spot: spot(&value), values: axis(&value)? })).collect()
 }
 
 /// Every quantity of `[sample.of]`, in the order of the file.
 pub(super) fn read_sampled(section: &Section) -> Result<Vec<Sampled>> {
-    let leaves = leaves(section, &KINDS)?;
+    let leaves = each_once(leaves(section, &KINDS)?)?;
     leaves
         .into_iter()
         .map(|(name, value)| Ok(Sampled { name, spot: spot(&value), from: distribution(&value)? }))
         .collect()
+}
+
+/// Refuses a name that comes twice: `a.b` and `"a.b"` are one name and two keys.
+fn each_once<'a, 'd>(leaves: Vec<(String, Value<'a, 'd>)>) -> Result<Vec<(String, Value<'a, 'd>)>> {
+    let mut seen = BTreeSet::new();
+    match leaves.iter().find(|(name, _)| !seen.insert(name)) {
+        Some((name, value)) => {
+            Err(value.key_error(format!("{} is named twice", near::shown(name))).help("name it once"))
+        }
+        None => Ok(leaves),
+    }
 }
 
 fn spot(value: &Value) -> Spot {
@@ -76,13 +129,13 @@ fn leaves<'a, 'd>(section: &Section<'a, 'd>, own_keys: &[&str]) -> Result<Vec<(S
     Ok(found)
 }
 
-fn axis(value: &Value) -> Result<Vec<f64>> {
+fn axis(value: &Value) -> Result<AxisValues> {
     let example = format!("{} = [0.0, 0.1] or {{ from = 0.0, to = 0.1, count = 11 }}", value.name);
     if !value.is_table() {
         let values: Vec<f64> = value.list(&example)?.iter().map(Value::number).collect::<Result<_>>()?;
         return match values.is_empty() {
             true => Err(value.error(format!("{} has no value", value.name)).help(format!("write {example}"))),
-            false => Ok(values),
+            false => Ok(AxisValues::List(values)),
         };
     }
     let table = value.section(value.name.clone())?;
@@ -94,16 +147,9 @@ fn axis(value: &Value) -> Result<Vec<f64>> {
         1 if from != to => {
             Err(count.error("one value cannot reach from one bound to the other").help("write count = 2"))
         }
-        1 => Ok(vec![from]),
         n if n > MOST => Err(count.error(format!("count = {n} is more than {MOST}")).help("give fewer values")),
-        n => Ok((0..n).map(|i| between(from, to, i, n - 1)).collect()),
+        count => Ok(AxisValues::Even { from, to, count }),
     }
-}
-
-/// The i-th of n + 1 values, both bounds exactly.
-fn between(from: f64, to: f64, i: usize, n: usize) -> f64 {
-    let s = i as f64 / n as f64;
-    from * (1.0 - s) + to * s
 }
 
 const KINDS: [&str; 3] = ["uniform", "log_uniform", "normal"];

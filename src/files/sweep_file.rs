@@ -45,6 +45,8 @@ pub struct SweepFile {
     pub inputs_at: (usize, usize),
     /// Line and column of `every`; of the beginning without it.
     pub every_at: (usize, usize),
+    /// Line and column of `duration`; of `start` or the beginning without it.
+    pub duration_at: (usize, usize),
     /// Times at which a formula has a kink.
     pub knots: Vec<f64>,
     /// Constants of the formulas.
@@ -117,7 +119,7 @@ impl SweepFile {
         let input = |key: &str| inputs.as_ref().and_then(|s| s.get(key));
         let grid = top.section("grid")?.map_or(Ok(vec![]), |s| read_grid(&s))?;
         let (sampled, count, seed) = read_sample(&top)?;
-        let cases = grid.iter().try_fold(count, |n, axis| n.checked_mul(axis.values.len()));
+        let cases = grid.iter().try_fold(count, |n, axis| n.checked_mul(axis.values.count()));
         let cases = cases.filter(|n| *n <= MOST_CASES);
         let cases = cases.ok_or_else(|| top.error("there are more than 10^15 cases").help("give fewer values"))?;
         if let Some(twice) = sampled.iter().find(|s| grid.iter().any(|a| a.name == s.name)) {
@@ -138,7 +140,8 @@ impl SweepFile {
             knots: input("knots").map_or(Ok(vec![]), |v| read_knots(&v))?,
             inputs: inputs.as_ref().map_or(Ok(vec![]), read_inputs)?,
             inputs_at: inputs.as_ref().map_or((1, 1), Section::place_of),
-            every_at: top.get("every").map_or((1, 1), |v| v.source.line_and_column(v.key_at)),
+            every_at: place(top.get("every")),
+            duration_at: place(top.get("duration").or_else(|| top.get("start"))),
             constants: top.section("constants")?.map_or(Ok(BTreeMap::new()), |s| read_constants(&s))?,
             grid,
             sampled,
@@ -147,6 +150,10 @@ impl SweepFile {
             cases,
         })
     }
+}
+
+fn place(value: Option<Value>) -> (usize, usize) {
+    value.map_or((1, 1), |v| v.source.line_and_column(v.key_at))
 }
 
 /// A file that the sweep names.
@@ -204,6 +211,9 @@ fn read_constants(section: &Section) -> Result<BTreeMap<String, (Spot, f64)>> {
             let error = value.key_error(format!("{:?} cannot be the name of a constant", near::shown(&value.name)));
             return Err(error.help("begin with a letter, go on with letters, digits and _"));
         }
+        if value.name == "t" {
+            return Err(value.key_error("t is the time and cannot be a constant").help("give it another name"));
+        }
         found.insert(value.name.clone(), (Spot::at(value.source, value.key_at), value.number()?));
     }
     Ok(found)
@@ -225,7 +235,7 @@ impl SweepRows {
     /// The times of the rows, from `start` to `end`.
     ///
     /// # Errors
-    /// When there are more than a million.
+    /// When there are more than a million, or so close that rounding makes two of them one.
     pub fn times(self, start: f64, end: f64) -> Result<Vec<f64>> {
         let SweepRows::Every(every) = self else { return Ok(vec![end]) };
         let whole = ((end - start) / every * (1.0 - 1e-12)).ceil();
@@ -234,6 +244,11 @@ impl SweepRows {
             return Err(error.help("write a larger one"));
         }
         let inner = (0..whole as usize).map(|i| start + every * i as f64);
-        Ok(inner.chain([end]).collect())
+        let times: Vec<f64> = inner.chain([end]).collect();
+        match times.windows(2).all(|w| w[0] < w[1]) {
+            true => Ok(times),
+            false => Err(crate::Error::input(format!("every = {every:?} is lost in rounding beside times of {end:?}"))
+                .help("write a larger one, or count the time from another start")),
+        }
     }
 }

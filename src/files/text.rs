@@ -11,7 +11,18 @@ const LARGEST: u64 = 16 << 20;
 /// The byte order mark some editors put in front of UTF-8.
 pub(super) const BOM: &str = "\u{feff}";
 
-/// The text of a file, without byte order mark; an unreadable, binary or empty file is an error that says so.
+/// The text of a file, without byte order mark.
+///
+/// # Errors
+/// When there is no such file, it cannot be read, or it is no text in UTF-8: empty, binary, too large.
+///
+/// ```
+/// use creepage::files::read_text;
+/// # let path = std::env::temp_dir().join("creepage-read-text");
+/// std::fs::write(&path, "\u{feff}a = 1\n").unwrap();
+/// assert_eq!(read_text(&path).unwrap(), "a = 1\n");
+/// assert!(read_text("no/such/file").unwrap_err().to_string().contains("no such file"));
+/// ```
 pub fn read_text(path: impl AsRef<Path>) -> Result<String> {
     Ok(read_hashed(path.as_ref())?.0)
 }

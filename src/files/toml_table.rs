@@ -184,9 +184,9 @@ impl<'a, 'd> Value<'a, 'd> {
     pub fn number(&self) -> Result<f64> {
         let number = match self.value.get_ref() {
             DeValue::Float(float) => float.as_str().parse().ok(),
+            // A whole number that is too long for a machine word is a number still.
             DeValue::Integer(int) if int.radix() == 10 => int.as_str().parse().ok(),
-            DeValue::Integer(int) => i64::from_str_radix(int.as_str(), int.radix()).ok().map(|i| i as f64),
-            _ => None,
+            _ => self.integer().map(|i| i as f64),
         };
         let number: f64 = number.ok_or_else(|| self.wrong("a number", &format!("{} = 0.5", self.name)))?;
         if number.is_finite() {
@@ -207,8 +207,14 @@ impl<'a, 'd> Value<'a, 'd> {
 
     /// A number of things, counted from one.
     pub fn count(&self) -> Result<usize> {
-        let count = self.value.get_ref().as_integer().and_then(|i| i.as_str().parse().ok()).filter(|&n| n > 0);
+        let count = self.integer().and_then(|i| usize::try_from(i).ok()).filter(|&n| n > 0);
         count.ok_or_else(|| self.wrong_count())
+    }
+
+    /// A whole number, decimal or not: its digits are kept without what tells their base.
+    fn integer(&self) -> Option<i64> {
+        let int = self.value.get_ref().as_integer()?;
+        i64::from_str_radix(int.as_str(), int.radix()).ok()
     }
 
     fn wrong_count(&self) -> Error {
@@ -273,6 +279,17 @@ mod tests {
             assert!(read(text).contains(&expect), "{text}: {}", read(text));
         }
         for text in ["inf", "-nan", "1e999", "true", "\"1\"", "[1]", "1979-05-27", "{}"] {
+            assert_eq!(read(text), "None", "{text}");
+        }
+    }
+
+    #[test]
+    fn counts_of_every_base() {
+        let read = |text: &str| with(&format!("a = {text}"), |s| format!("{:?}", s.get("a").unwrap().count().ok()));
+        for (text, value) in [("10", 10), ("+1_0", 10), ("0x10", 16), ("0o10", 8), ("0b10", 2), ("0xff", 255)] {
+            assert_eq!(read(text), format!("{:?}", Some(value)), "{text}");
+        }
+        for text in ["0", "0x0", "-1", "1.0", "99999999999999999999", "\"1\""] {
             assert_eq!(read(text), "None", "{text}");
         }
     }

@@ -8,13 +8,13 @@ use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::Path;
 
-/// Columns without the rows that lack a number; NaN is a blank cell.
+/// Columns without the rows that lack a number in one of those with a name; NaN is a blank cell.
 pub(super) fn usable(columns: Vec<Vec<f64>>, names: &[&str], sha256: String) -> Numbers {
     let rows = columns.first().map_or(0, Vec::len);
     let mut dropped: BTreeMap<String, usize> = BTreeMap::new();
     let mut kept: Vec<usize> = Vec::with_capacity(rows);
     for i in 0..rows {
-        match columns.iter().position(|c| !c[i].is_finite()) {
+        match columns.iter().take(names.len()).position(|c| !c[i].is_finite()) {
             None => kept.push(i),
             Some(c) => {
                 let why = if columns[c][i].is_nan() { "blank or NaN cell" } else { "infinite value" };

@@ -3,7 +3,7 @@
 use super::Model;
 use crate::effects::{Effect, Parameter};
 use crate::error::Result;
-use crate::formula::{Expr, Symbol};
+use crate::formula::{Expr, Size, Symbol};
 use crate::mechanism::Definitions;
 use std::collections::BTreeMap;
 
@@ -103,7 +103,7 @@ impl Model {
         let definitions = bare.definitions()?;
         let mut found = Vec::new();
         for target in TARGETS.iter().filter(|t| !self.vehicle.holds(&t.definition.into())) {
-            let symbols = Symbols::of(target, &definitions);
+            let Some(symbols) = Symbols::of(target, &definitions)? else { continue };
             // What does not move has no speed for a term.
             let moves =
                 |factors: &[&Factor; 2]| !self.vehicle.stays() || factors.iter().all(|f| !f.formula.contains('v'));
@@ -170,30 +170,43 @@ struct Symbols {
 impl Symbols {
     /// What a term adds to must not stand in its factors: not for a circle, and not for formulas that double with
     /// every term. So the speed in a term of v_l is what the wheels ask for, the yaw rate in one of phi' the logged one.
-    fn of(target: &Target, definitions: &Definitions) -> Self {
+    ///
+    /// None where the yaw rate is too long to be written out.
+    fn of(target: &Target, definitions: &Definitions) -> Result<Option<Self>> {
         let speed = if target.definition == "v_l" { "v_d" } else { "v_l" };
-        let yaw = definitions.get(&"phi'".into()).cloned().unwrap_or_default();
-        match target.definition {
-            "v_t" => Self { v: Expr::sym(speed), w: Expr::sym("phi'") },
-            _ => Self { v: Expr::sym(speed), w: written_out(&yaw, speed, definitions) },
+        let v = Expr::sym(speed);
+        if target.definition == "v_t" {
+            return Ok(Some(Self { v, w: Expr::sym("phi'") }));
         }
+        let yaw = Symbol::from("phi'");
+        let w = match written_out(speed, definitions)?.remove(&yaw) {
+            Some(hanging) => hanging.map(|(formula, _)| formula),
+            None => definitions.get(&yaw).cloned().or_else(|| Some(Expr::default())),
+        };
+        Ok(w.map(|w| Self { v, w }))
     }
 }
 
-/// A formula in which whatever hangs on v_l is written out, with another speed for v_l.
-fn written_out(formula: &Expr, speed: &str, definitions: &Definitions) -> Expr {
-    formula.substitute(&|s| match s.as_str() {
-        "v_l" => Some(Expr::sym(speed)),
-        _ => {
-            let known = definitions.get(s).filter(|f| hangs_on_speed(f, definitions));
-            known.map(|f| written_out(f, speed, definitions))
-        }
-    })
-}
+/// The most operations of a formula that is written out; a few short ones put into one another may fill any memory.
+const LONGEST: usize = 5000;
 
-fn hangs_on_speed(formula: &Expr, definitions: &Definitions) -> bool {
-    let of = |s: &Symbol| definitions.get(s).is_some_and(|f| hangs_on_speed(f, definitions));
-    formula.symbols().iter().any(|s| s.as_str() == "v_l" || of(s))
+/// Everything that hangs on v_l, written out with another speed for it, and how long that is; none where it is too long.
+///
+/// One pass in the order of the definitions: each asks only what stands before it.
+fn written_out(speed: &str, definitions: &Definitions) -> Result<BTreeMap<Symbol, Option<(Expr, Size)>>> {
+    let mut hanging = BTreeMap::from([(Symbol::from("v_l"), Some((Expr::sym(speed), Size::SYMBOL)))]);
+    for (name, formula) in definitions.sorted()? {
+        let parts: Vec<_> = formula.symbols().iter().filter_map(|s| hanging.get(s)).collect();
+        if name.as_str() == "v_l" || parts.is_empty() {
+            continue;
+        }
+        let of = |s: &Symbol| hanging.get(s).cloned().flatten();
+        let size = Size::of(formula, &|s| of(s).map_or(Size::SYMBOL, |(_, size)| size));
+        let short = parts.iter().all(|p| p.is_some()) && size.nodes <= LONGEST;
+        let out = short.then(|| (formula.substitute(&|s| of(s).map(|(formula, _)| formula)), size));
+        hanging.insert(name.clone(), out);
+    }
+    Ok(hanging)
 }
 
 /// Terms that say what an effect of the library says, exactly or as long as they are small.
@@ -275,10 +288,30 @@ mod tests {
         for (name, formula) in [("slow", "k*v_l^2"), ("slower", "1 + slow"), ("k", "4*load"), ("still", "k + 1")] {
             known.define(name, Expr::parse(formula).unwrap());
         }
-        let hangs = |text: &str| hangs_on_speed(&Expr::parse(text).unwrap(), &known);
-        assert_eq!(["v_l", "slower*k", "k", "still*v_t"].map(hangs), [true, true, false, false]);
-        let out = written_out(&Expr::parse("slower*still").unwrap(), "v_d", &known);
-        assert_eq!(out.to_string(), Expr::parse("(1 + k*v_d^2)*still").unwrap().to_string());
+        known.define("phi'", Expr::parse("slower*still").unwrap());
+        let out = written_out("v_d", &known).unwrap();
+        assert_eq!(out.keys().map(Symbol::as_str).collect::<Vec<_>>(), ["phi'", "slow", "slower", "v_l"]);
+        let yaw = &out[&"phi'".into()].as_ref().unwrap().0;
+        assert_eq!(yaw.to_string(), Expr::parse("(1 + k*v_d^2)*still").unwrap().to_string());
+        let symbols = Symbols::of(&TARGETS[0], &known).unwrap().unwrap();
+        assert_eq!([symbols.v, symbols.w.clone()], [Expr::sym("v_d"), yaw.clone()]);
+    }
+
+    /// Each definition uses two before it: written out they are longer than any memory, and asked one by one it takes for
+    /// ever. What does not hang on the speed keeps its names and has its terms.
+    #[test]
+    fn definitions_that_grow_beyond_bounds_are_not_written_out() {
+        let long = |first: &str| {
+            let mut known = Definitions::default();
+            for i in (0..200).rev() {
+                known.define(format!("q{i}").as_str(), Expr::parse(&format!("(q{} + q{})/2", i + 1, i + 2)).unwrap());
+            }
+            known.define("q200", Expr::parse(first).unwrap());
+            known.define("phi'", Expr::parse("yaw_rate*q0").unwrap());
+            Symbols::of(&TARGETS[2], &known).unwrap().map(|s| s.w.to_string())
+        };
+        assert_eq!(long("gain"), Some("yaw_rate*q0".into()));
+        assert_eq!(long("v_l"), None);
     }
 
     #[test]

@@ -205,7 +205,8 @@ impl Walk {
         let at = |s: f64| from + s * (to - from).signum();
         let end = match self.integrator.method {
             Method::Radau5 => self.implicit(&system, slopes, (to - from).abs(), y),
-            _ => self.step_through(system, (to - from).abs(), start),
+            Method::Rk4 { step } => self.even_steps(system, (to - from).abs(), start, step),
+            _ => self.order_5(system, (to - from).abs(), start),
         };
         let end = end.map_err(|e| self.explain(&e, undefined.get(), at))?;
         let end = &end.as_slice()[..y.len()];
@@ -263,37 +264,35 @@ impl Walk {
         }
     }
 
-    fn step_through<S>(&mut self, system: S, length: f64, y: DVector<f64>) -> Stepped
-    where
-        S: System<f64, DVector<f64>>,
-    {
-        let Integrator { method, rtol, atol, .. } = self.integrator;
-        let (first, n_max, never) = (self.first.min(length), self.left, u32::MAX);
-        let (steps, stats, end) = match method {
-            Method::Dopri5 | Method::Dop853 => {
-                let sparse = OutputType::Sparse;
-                let mut s = Dopri5::from_param(
-                    system, 0.0, length, length, y, rtol, atol, 0.9, 0.04, 0.2, 10.0, length, first, n_max, never,
-                    sparse,
-                );
-                let stats = s.integrate()?;
-                (longest(s.x_out()), stats, s.y_out().last().cloned())
-            }
-            Method::Rk4 { step } => {
-                let n = (length / step * (1.0 - 1e-12)).ceil().max(1.0);
-                if n > f64::from(n_max) {
-                    return Err(IntegrationError::MaxNumStepReached { x: 0.0, n_step: n_max });
-                }
-                let h = length / n;
-                let mut s = Rk4::new(system, 0.0, y, (n - 0.5) * h, h);
-                let stats = s.integrate()?;
-                (h, stats, s.y_out().last().cloned())
-            }
-            // Stepped elsewhere: it needs slopes.
-            Method::Radau5 => return Err(IntegrationError::StepSizeUnderflow { x: 0.0 }),
-        };
-        self.account(steps, stats.accepted_steps, stats.rejected_steps);
-        end.ok_or(IntegrationError::StepSizeUnderflow { x: 0.0 })
+    /// A span of order 5.
+    fn order_5(&mut self, system: impl System<f64, DVector<f64>>, length: f64, y: DVector<f64>) -> Stepped {
+        let Integrator { rtol, atol, .. } = self.integrator;
+        let (first, n_max, never, sparse) = (self.first.min(length), self.left, u32::MAX, OutputType::Sparse);
+        let mut s = Dopri5::from_param(
+            system, 0.0, length, length, y, rtol, atol, 0.9, 0.04, 0.2, 10.0, length, first, n_max, never, sparse,
+        );
+        let stats = s.integrate()?;
+        self.account(longest(s.x_out()), stats.accepted_steps, stats.rejected_steps);
+        s.y_out().last().cloned().ok_or(IntegrationError::StepSizeUnderflow { x: 0.0 })
+    }
+
+    /// A span of order 4 in steps of equal length, at most `step`.
+    fn even_steps(
+        &mut self,
+        system: impl System<f64, DVector<f64>>,
+        length: f64,
+        y: DVector<f64>,
+        step: f64,
+    ) -> Stepped {
+        let n = (length / step * (1.0 - 1e-12)).ceil().max(1.0);
+        if n > f64::from(self.left) {
+            return Err(IntegrationError::MaxNumStepReached { x: 0.0, n_step: self.left });
+        }
+        let h = length / n;
+        let mut s = Rk4::new(system, 0.0, y, (n - 0.5) * h, h);
+        let stats = s.integrate()?;
+        self.account(h, stats.accepted_steps, stats.rejected_steps);
+        s.y_out().last().cloned().ok_or(IntegrationError::StepSizeUnderflow { x: 0.0 })
     }
 
     /// Notes the work done. A span of one step says nothing against longer ones; where it took several, the next

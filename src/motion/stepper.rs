@@ -5,7 +5,14 @@ use super::lane_stepper::LaneStepper;
 use crate::model::Equations;
 
 /// Advances a state and its sensitivities S = ∂z/∂(visible start, p) along [`Signals`] in fixed steps of order four that
-/// adapt to the motion; see the docs of the equations' own chapter for S′.
+/// adapt to the motion.
+///
+/// S′ = J_z·S + [0 | J_p − J_u·u̇·∂delay/∂p]
+///
+/// | symbol | meaning |
+/// |---|---|
+/// | J_z, J_u, J_p | derivatives of the rates z′ = f(z, u, p) of [`Equations`] by states, inputs and free parameters |
+/// | u̇ | slopes of the inputs, s⁻¹; a delay that is free moves the time at which they are looked up |
 pub struct Stepper<'a> {
     equations: &'a Equations,
     lanes: LaneStepper<'a, 1>,

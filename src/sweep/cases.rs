@@ -1,7 +1,7 @@
 //! The values of a case: a point of the grid and a draw.
 
 use super::names::Allowed;
-use crate::files::{Distribution, SweepFile};
+use crate::files::{AxisValues, Distribution, SweepFile};
 use rand::Rng;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -15,7 +15,7 @@ const DRAWS: usize = 1000;
 /// A draw depends on the seed and the number of its case alone, so that any part of a sweep can be made by itself.
 #[derive(Clone)]
 pub(super) struct Cases {
-    grid: Vec<Vec<f64>>,
+    grid: Vec<AxisValues>,
     sampled: Vec<(Distribution, Allowed)>,
     count: usize,
     seed: u64,
@@ -34,8 +34,8 @@ impl Cases {
         let first = values.len();
         values.resize(first + self.grid.len(), 0.0);
         for (value, axis) in values[first..].iter_mut().zip(&self.grid).rev() {
-            *value = axis[point % axis.len()];
-            point /= axis.len();
+            *value = axis.at(point % axis.count());
+            point /= axis.count();
         }
         if !self.sampled.is_empty() {
             let mut rng = ChaCha8Rng::seed_from_u64(self.seed);

@@ -3,7 +3,7 @@
 use super::table::header;
 use super::{Format, Sweep};
 use crate::error::{Error, Result};
-use crate::files::{put_in_place, unwritable};
+use crate::files::{unwritable, write_whole_with};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
@@ -19,18 +19,13 @@ impl Sweep {
         if let Some(part) = parts.iter().find(|p| Format::of(p).ok() != Some(format)) {
             return Err(Error::input("is of another format than the output").at_file(part).help("join parts of one"));
         }
-        let folder = out.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let new = tempfile::Builder::new().prefix(".creepage-").tempfile_in(folder).map_err(|e| unwritable(out, &e))?;
-        let (file, path) = new.into_parts();
-        match format {
-            Format::Csv => self.join_csv(parts, file, out)?,
-            Format::Parquet => self.join_parquet(parts, &file, out)?,
-        }
-        let kept = path.keep().map_err(|e| unwritable(out, &e.error))?;
-        put_in_place(&kept, out)
+        write_whole_with(out, |file| match format {
+            Format::Csv => self.join_csv(parts, file, out),
+            Format::Parquet => self.join_parquet(parts, file, out),
+        })
     }
 
-    fn join_csv(&self, parts: &[PathBuf], file: File, out: &Path) -> Result<()> {
+    fn join_csv(&self, parts: &[PathBuf], file: &File, out: &Path) -> Result<()> {
         let mut to = std::io::BufWriter::new(file);
         let head = header(&self.columns());
         let mut next = Expected { case: 0, rows: 0 };
@@ -51,7 +46,8 @@ impl Sweep {
         if next.case < self.cases() {
             return Err(self.refused(parts.last().map_or(out, |p| p.as_path()), 1, &next));
         }
-        to.into_inner().map_err(|e| unwritable(out, e.error()))?.sync_all().map_err(|e| unwritable(out, &e))
+        // Dropping the buffer would lose what the disk said to its last bytes.
+        to.flush().map_err(|e| unwritable(out, &e))
     }
 
     fn refused(&self, part: &Path, line: usize, next: &Expected) -> Error {

@@ -42,6 +42,8 @@ pub struct Sweep {
     rows: usize,
     /// Columns of a row.
     width: usize,
+    /// What a user should know of the log.
+    warnings: Vec<String>,
 }
 
 impl Sweep {
@@ -59,7 +61,8 @@ impl Sweep {
         let model_file = ModelFile::read(&file.model, &dynamics::known_on(&vehicles, &library))?;
         model_file.no_forces("a sweep")?;
         Model::check_motion(&model_file)?;
-        let log = file.log.as_ref().map(|path| Inputs::read(path, &model_file)).transpose()?;
+        let mut log = file.log.as_ref().map(|path| Inputs::read(path, &model_file)).transpose()?;
+        let warnings = log.as_mut().map(|l| std::mem::take(&mut l.warnings)).unwrap_or_default();
         let roles = roles(&file, &model_file, log.as_ref())?;
         let model = Model::from_file(&model_file, &library, &roles)?;
         let (from, times) = times(&file, log.as_ref())?;
@@ -77,26 +80,28 @@ impl Sweep {
         let names: Vec<String> =
             file.grid.iter().map(|a| &a.name).chain(file.sampled.iter().map(|s| &s.name)).cloned().collect();
         let (rows, width) = (times.len(), 3 + names.len() + ensemble.columns().len());
-        let identity = identity(&file, &model_file, &library)?;
-        Ok(Self { file, names, cases, ensemble, plan, identity, rows, width })
+        let identity = identity(&file, &model_file, &library, log.as_ref());
+        Ok(Self { file, names, cases, ensemble, plan, identity, rows, width, warnings })
     }
 
     /// How many cases there are.
     pub fn cases(&self) -> usize {
         self.file.cases
     }
+
+    /// The log, and what a user should know of it, such as rows that are left out.
+    pub fn warnings(&self) -> Option<(&Path, &[String])> {
+        self.file.log.as_ref().map(|log| (log.as_path(), self.warnings.as_slice()))
+    }
 }
 
 /// What decides the result: every file that is read, and the program.
-fn identity(file: &SweepFile, model: &ModelFile, library: &[Effect]) -> Result<String> {
+fn identity(file: &SweepFile, model: &ModelFile, library: &[Effect], log: Option<&Inputs>) -> String {
     let mut all = vec![env!("CARGO_PKG_VERSION").to_string(), file.sha256.clone(), model.sha256.clone()];
     all.extend(model.vehicle_origin().map(|o| o.sha256.clone()));
     all.extend(library.iter().filter_map(|e| e.origin.as_ref()).map(|o| o.sha256.clone()));
-    if let Some(log) = &file.log {
-        let bytes = std::fs::read(log).map_err(|e| Error::input(format!("cannot be read: {e}")).at_file(log))?;
-        all.push(format!("{:x}", Sha256::digest(&bytes)));
-    }
-    Ok(format!("{:x}", Sha256::digest(all.join("\n"))))
+    all.extend(log.map(|l| l.sha256.clone()));
+    format!("{:x}", Sha256::digest(all.join("\n")))
 }
 
 /// The inputs of the model by role: those of the log, or those that have formulas.
@@ -143,20 +148,26 @@ fn times(file: &SweepFile, log: Option<&Inputs>) -> Result<(f64, Vec<f64>)> {
             .at(1, 1)
             .help("write duration = 10.0, in seconds")
     })?;
-    let (line, column) = file.every_at;
-    let times = file.rows.times(start, start + duration);
-    Ok((start, times.map_err(|e| e.at_file(&file.path).at(line, column))?))
+    let at = |(line, column), e: Error| e.at_file(&file.path).at(line, column);
+    let end = start + duration;
+    if !end.is_finite() || end <= start {
+        let why = if end.is_finite() { "is lost in rounding beside" } else { "leads beyond all numbers from" };
+        let error = Error::input(format!("duration = {duration:?} {why} start = {start:?}"));
+        return Err(at(file.duration_at, error.help("count the time from another start")));
+    }
+    Ok((start, file.rows.times(start, end).map_err(|e| at(file.every_at, e))?))
 }
 
 /// What varies, and the values each may take.
 fn varied(file: &SweepFile, model_file: &ModelFile, model: &Model) -> Result<(Vec<Varied>, Vec<Allowed>)> {
     let known = names::quantities(model_file, model);
-    let own = |s: &Symbol| s.as_str() != "t" && !s.as_str().starts_with("log.");
+    let values = model.values();
+    let own = |s: &Symbol| s.as_str() != "t" && !s.as_str().starts_with("log.") && !values.contains_key(s);
     let used: Vec<Symbol> = file.inputs.iter().flat_map(|i| i.formula.formula.symbols()).filter(own).collect();
     let mut found: Vec<(Varied, Allowed)> = Vec::new();
     for axis in &file.grid {
         let (varied, allowed) = names::find(&axis.name, &axis.spot, &known, &used)?;
-        axis.values.iter().try_for_each(|v| allowed.check(&axis.name, *v, &axis.spot))?;
+        (0..axis.values.count()).try_for_each(|i| allowed.check(&axis.name, axis.values.at(i), &axis.spot))?;
         found.push((varied, allowed));
     }
     for sampled in &file.sampled {
@@ -169,7 +180,23 @@ fn varied(file: &SweepFile, model_file: &ModelFile, model: &Model) -> Result<(Ve
         bounds.iter().try_for_each(|v| allowed.check(&sampled.name, *v, &sampled.spot))?;
         found.push((varied, allowed));
     }
+    own_names(file, &known, &values)?;
     Ok(found.into_iter().unzip())
+}
+
+/// That a constant has its name alone: of two things of one name a formula would mean one, and the other be set in vain.
+fn own_names(file: &SweepFile, known: &[names::Quantity], values: &BTreeMap<Symbol, f64>) -> Result<()> {
+    for (name, (spot, _)) in &file.constants {
+        let varies = file.grid.iter().map(|a| &a.name).chain(file.sampled.iter().map(|s| &s.name)).any(|n| n == name);
+        let of_model = values.contains_key(&Symbol::new(name)) || known.iter().any(|q| q.name == *name);
+        let (is, help) = match (of_model, varies) {
+            (true, _) => ("a quantity of the model", "rename it, or vary the model's under [grid]"),
+            (_, true) => ("varied as well", "remove it from [constants], or from what varies"),
+            _ => continue,
+        };
+        return Err(spot.error(format!("the constant {name} is {is}")).help(help));
+    }
+    Ok(())
 }
 
 /// Formulas of the inputs in the model's order; a logged input without a formula is what was logged.

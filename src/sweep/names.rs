@@ -50,9 +50,11 @@ pub(super) fn quantities(file: &ModelFile, model: &Model) -> Vec<Quantity> {
     let mut found: Vec<Quantity> =
         file.parameters.keys().map(|k| of_model(k.clone(), Symbol::new(k), sign(k))).collect();
     for i in 1..=model.trailers.len() {
-        let length = Symbol::new(&format!("trailer_length_{i}"));
+        // The file counts the trailers it adds, the model those of the vehicle before them.
+        let number = model.vehicle.trailers.len() + i;
+        let [length, hitch] = ["trailer_length", "hitch_offset"].map(|name| Symbol::new(&format!("{name}_{number}")));
         found.push(of_model(format!("trailer_lengths.{i}"), length, Allowed::POSITIVE));
-        found.push(of_model(format!("hitch_offsets.{i}"), Symbol::new(&format!("hitch_offset_{i}")), Allowed::ANY));
+        found.push(of_model(format!("hitch_offsets.{i}"), hitch, Allowed::ANY));
     }
     for (name, symbol) in [
         ("sensor.lever_arm.1", "sensor.a"),

@@ -2,7 +2,7 @@
 
 use super::table::STATUS;
 use crate::error::{Error, Result};
-use crate::files::{put_in_place, unwritable};
+use crate::files::{unwritable, write_whole_with};
 use ::parquet::basic::{LogicalType, Repetition, Type as Physical};
 use ::parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
 use ::parquet::errors::ParquetError;
@@ -21,10 +21,11 @@ const GROUP: usize = 1 << 16;
 
 /// Writes the rows of a journal as a table.
 pub(super) fn write(journal: &mut File, out: &Path, columns: &[String]) -> Result<()> {
-    let folder = out.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let new = tempfile::Builder::new().prefix(".creepage-").tempfile_in(folder).map_err(|e| unwritable(out, &e))?;
-    let (file, path) = new.into_parts();
-    let mut writer = Writer::new(&file, out, columns)?;
+    write_whole_with(out, |file| copy(journal, file, out, columns))
+}
+
+fn copy(journal: &mut File, file: &File, out: &Path, columns: &[String]) -> Result<()> {
+    let mut writer = Writer::new(file, out, columns)?;
     let mut from = BufReader::with_capacity(1 << 20, journal);
     let (mut bytes, mut row) = (vec![0; 8 * columns.len()], vec![0.0; columns.len()]);
     loop {
@@ -38,10 +39,7 @@ pub(super) fn write(journal: &mut File, out: &Path, columns: &[String]) -> Resul
         }
         writer.push(&row)?;
     }
-    writer.finish()?;
-    file.sync_all().map_err(|e| unwritable(out, &e))?;
-    let kept = path.keep().map_err(|e| unwritable(out, &e.error))?;
-    put_in_place(&kept, out)
+    writer.finish()
 }
 
 /// A table being written: the number of the case, numbers that may be missing, the status.

@@ -63,7 +63,8 @@ impl Sweep {
         let columns = self.columns();
         let first = if format == Format::Csv && shard.is_first() { header(&columns) } else { vec![] };
         let identity = format!("{:x}", Sha256::digest(format!("{} {range:?} {format:?}", self.identity)));
-        crate::files::check_target(out)?;
+        // What a link leads to, and everything beside it there.
+        let out = &crate::files::check_target(out)?;
         let mut journal = Journal::open(out, &identity, &first)?;
         let all = range.len();
         let mut next = range.start + journal.cases();

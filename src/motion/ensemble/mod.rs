@@ -2,6 +2,7 @@
 
 mod equations;
 mod refine;
+mod rounding;
 mod start;
 mod steps;
 
@@ -24,14 +25,16 @@ pub(super) const LANES: usize = 32;
 /// | z | states of a case |
 /// | N | steps of a run, h their length |
 /// | z_N, z_2N | results with N and 2N steps of order q |
-/// | error | max over rows and states of 4·\|z_2N − z_N\|/(2^q − 1)/max(1, \|z_2N\|) |
+/// | ε | what rounding leaves at best, see below |
+/// | error | max over rows and states of 4·\|z_2N − z_N\|/(2^q − 1)/max(1, \|z_2N\|), and ε |
 ///
 /// Every case is integrated twice, with N and with 2N steps between the times where the inputs have a kink and those
 /// that are asked for. The difference estimates the error of the finer run over the whole trajectory, growth of early
-/// errors included; N doubles until it is at most the error asked for. The result is z_2N + (z_2N − z_N)/(2^q − 1),
-/// which is better by an order than what the estimate speaks of. The first N and the order are found by the same check
-/// on a few cases spread over all of them, so a case's result depends neither on its neighbours in a block nor on
-/// the number of threads.
+/// errors included; N doubles until it is at most the error asked for, or until it does not help: the sums of the steps
+/// are compensated, so that rounding takes ε, four units in the last place, and from a place on the plane as much more as
+/// a heading rounded so moves it. The result is z_2N + (z_2N − z_N)/(2^q − 1), which is better by an order than what the
+/// estimate speaks of. The first N and the order are found by the same check on a few cases spread over all of them, so a
+/// case's result depends neither on its neighbours in a block nor on the number of threads.
 ///
 /// Validity: the motion is smooth between knots; where it is not, N grows to its limit and the case is reported as not
 /// converged.
@@ -111,8 +114,8 @@ impl Ensemble {
     /// | tolerance | | the error asked for |
     ///
     /// # Errors
-    /// When the constraints do not determine the motion, a formula uses a name that nothing defines, or sizes and times
-    /// do not fit.
+    /// When the constraints do not determine the motion, a formula uses a name that nothing defines, what varies is no
+    /// symbol of the model or no component of its pose, or sizes and times do not fit.
     pub fn new(
         model: &Model,
         inputs: &EnsembleInputs,
@@ -131,6 +134,7 @@ impl Ensemble {
         if !rising || !finite || tolerance <= 0.0 {
             return Err(Error::input("times have to rise from the start on, and the error has to be positive"));
         }
+        known(model, inputs, varied, wanted)?;
         let equations = LaneEquations::new(model, inputs, varied, None)?;
         Ok(Self {
             model: model.clone(),
@@ -224,6 +228,25 @@ impl Ensemble {
 
     fn alone(&self, case: &[f64]) -> Result<LaneEquations> {
         LaneEquations::new(&self.model, &self.inputs, &self.varied, Some(case))
+    }
+}
+
+/// That what varies is there: a symbol no formula reads would vary for nothing. So would a constant of the inputs under a
+/// name that means the time or a quantity of the model.
+fn known(model: &Model, inputs: &EnsembleInputs, varied: &[Varied], pose: usize) -> Result<()> {
+    let values = model.values();
+    let own = varied.iter().filter_map(|v| if let Varied::Input(s) = v { Some(s) } else { None });
+    if let Some(name) = inputs.constants.keys().chain(own).find(|s| s.as_str() == "t" || values.contains_key(s)) {
+        return Err(Error::input(format!("a constant of the inputs cannot be called {name}, which has a meaning")));
+    }
+    let stranger = varied.iter().find_map(|v| match v {
+        Varied::Model(s) if !values.contains_key(s) => Some(s.to_string()),
+        Varied::Initial(i) if *i >= pose => Some(format!("component {i} of the initial pose")),
+        _ => None,
+    });
+    match stranger {
+        Some(name) => Err(Error::input(format!("the model has no {name} that could vary"))),
+        None => Ok(()),
     }
 }
 

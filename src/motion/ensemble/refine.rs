@@ -1,7 +1,8 @@
 //! Runs with N and 2N steps, until they agree.
 
 use super::equations::LaneEquations;
-use super::steps::{Block, Instants, Lane, Running, Scheme, Span, advance};
+use super::rounding::{Estimate, Floor};
+use super::steps::{Block, Instants, Lane, Running, Scheme, Span, States, advance};
 use super::{Case, Ensemble, LANES, Plan, scheme};
 use crate::error::Result;
 use crate::formula::Memory;
@@ -10,6 +11,8 @@ use crate::formula::Memory;
 const DOUBLINGS: u32 = 12;
 /// How often it may, divided among the spans, where the first number is looked for: runs of an hour need tens of thousands.
 const PILOT_DOUBLINGS: u32 = 16;
+/// The most steps that a number which does not suffice may grow to: a few minutes for a block of cases.
+const MOST_STEPS: usize = 1 << 24;
 /// More steps than the estimate asks for, so that few cases need to be doubled.
 const MARGIN: f64 = 1.1;
 
@@ -18,6 +21,12 @@ const TRIES: u32 = 4;
 
 /// A block's states at the times of the rows after the start.
 type Rows = Vec<Vec<Lane>>;
+
+/// A case that is not ready: its number, the rows of its last run, and the truncation error they were found to have.
+struct Waiting {
+    case: usize,
+    before: Option<(Vec<f64>, f64)>,
+}
 
 /// Memory and equations of a thread at work.
 struct Work<'a> {
@@ -37,19 +46,24 @@ impl Ensemble {
         let (stages, spans) = (work.scheme.stages, self.spans(e));
         let cost = |steps| (stages * spans.iter().map(|s| self.steps_in(s, steps)).sum::<usize>()) as f64;
         let shared = spans.len().checked_ilog2().unwrap_or(0);
-        let last = PILOT_DOUBLINGS.saturating_sub(shared).max(DOUBLINGS);
+        let last = PILOT_DOUBLINGS.saturating_sub(shared).max(DOUBLINGS).min(self.most_doublings(e, 1.0));
         let z0 = self.begin(&mut work, cases)?;
-        let (mut doublings, mut coarse) = (0, self.integrate(&mut work, &z0, (1.0, 0)));
+        let (mut doublings, (mut coarse, _)) = (0, self.integrate(&mut work, &z0, (1.0, 0)));
+        let mut before: Vec<Option<f64>> = vec![None; cases.len()];
         let needed = loop {
-            let fine = self.integrate(&mut work, &z0, (1.0, doublings + 1));
-            let errors: Vec<f64> = (0..cases.len()).map(|l| error(&coarse, &fine, l, order)).collect();
-            let defined = errors.iter().filter(|e| !e.is_nan()).count();
-            let good = errors.iter().filter(|e| **e <= self.tolerance).count();
-            if defined > 0 && 4 * good >= 3 * defined {
-                let worst = errors.iter().copied().filter(|e| *e <= self.tolerance).fold(0.0, f64::max);
+            let (fine, floor) = self.integrate(&mut work, &z0, (1.0, doublings + 1));
+            let found = estimates([&coarse, &fine], &floor, cases.len(), order);
+            let defined = found.iter().filter(|e| !e.error.is_nan()).count();
+            let good = found.iter().filter(|e| e.error <= self.tolerance);
+            let enough = found.iter().zip(&before).filter(|(e, b)| e.error <= self.tolerance || e.is_stuck(**b));
+            if defined > 0 && 4 * enough.count() >= 3 * defined {
+                let worst = good.clone().map(|e| e.truncation).fold(0.0, f64::max);
+                // Where rounding alone is more than the error asked for, this number is as good as any larger one.
+                let share = if good.count() > 0 { worst / self.tolerance } else { 1.0 };
                 let steps = f64::from(1u32 << doublings) * MARGIN;
-                break (steps * (worst / self.tolerance).powf(1.0 / f64::from(order))).max(1.0);
+                break (steps * share.powf(1.0 / f64::from(order))).max(1.0);
             }
+            before = found.iter().map(|e| Some(e.truncation)).collect();
             if defined == 0 && doublings == TRIES {
                 break 1.0;
             }
@@ -66,11 +80,12 @@ impl Ensemble {
         let mut work = Work::new(e, scheme(plan.order));
         let mut done: Vec<Option<Case>> = vec![None; cases.len()];
         // The first two runs of every case, then one more for those that need it, side by side again.
-        let mut waiting: Vec<(usize, Option<Vec<f64>>)> = (0..cases.len()).map(|i| (i, None)).collect();
-        for doubling in 0..=DOUBLINGS {
+        let mut waiting: Vec<Waiting> = (0..cases.len()).map(|case| Waiting { case, before: None }).collect();
+        let last = DOUBLINGS.min(self.most_doublings(e, plan.steps));
+        for doubling in 0..=last {
             let mut next = Vec::new();
             for group in waiting.chunks(LANES) {
-                self.refine_block(&mut work, group, cases, (plan.steps, doubling), &mut done, &mut next)?;
+                self.refine_block(&mut work, group, cases, (plan.steps, doubling, last), &mut done, &mut next)?;
             }
             waiting = next;
         }
@@ -81,34 +96,43 @@ impl Ensemble {
     fn refine_block(
         &self,
         work: &mut Work,
-        group: &[(usize, Option<Vec<f64>>)],
+        group: &[Waiting],
         cases: &[&[f64]],
-        (steps, doublings): (f64, u32),
+        (steps, doublings, last): (f64, u32, u32),
         done: &mut [Option<Case>],
-        next: &mut Vec<(usize, Option<Vec<f64>>)>,
+        next: &mut Vec<Waiting>,
     ) -> Result<()> {
-        let own: Vec<&[f64]> = group.iter().map(|(i, _)| cases[*i]).collect();
+        let own: Vec<&[f64]> = group.iter().map(|w| cases[w.case]).collect();
         let order = work.scheme.order;
         let z0 = self.begin(work, &own)?;
-        let coarse = match group[0].1 {
-            None => self.integrate(work, &z0, (steps, doublings)),
+        let coarse = match group[0].before {
+            None => self.integrate(work, &z0, (steps, doublings)).0,
             Some(_) => gathered(group, self.times.len() - usize::from(self.shows_start()), work.e.n),
         };
-        let fine = self.integrate(work, &z0, (steps, doublings + 1));
+        let (fine, floor) = self.integrate(work, &z0, (steps, doublings + 1));
         let better = extrapolated(&coarse, &fine, order);
-        let errors: Vec<f64> = (0..group.len()).map(|l| error(&coarse, &fine, l, order)).collect();
-        let most = |e: f64| if e.is_nan() { TRIES } else { DOUBLINGS };
-        let ready = |e: f64| e <= self.tolerance || doublings >= most(e);
-        if errors.iter().any(|e| ready(*e)) {
+        let found = estimates([&coarse, &fine], &floor, group.len(), order);
+        let ready = |l: usize| {
+            let (of, most) = (&found[l], if found[l].error.is_nan() { last.min(TRIES) } else { last });
+            of.error <= self.tolerance || doublings >= most || of.is_stuck(group[l].before.as_ref().map(|(_, t)| *t))
+        };
+        if (0..group.len()).any(ready) {
             let rows = self.read_rows(work, &z0, &better);
-            for (l, (i, _)) in group.iter().enumerate().filter(|(l, _)| ready(errors[*l])) {
-                done[*i] = Some(self.case(&rows, l, errors[l]));
+            for (l, w) in group.iter().enumerate().filter(|(l, _)| ready(*l)) {
+                done[w.case] = Some(self.case(&rows, l, found[l].error));
             }
         }
-        for (l, (i, _)) in group.iter().enumerate().filter(|(l, _)| !ready(errors[*l])) {
-            next.push((*i, Some(fine.iter().flatten().map(|lane| lane[l]).collect())));
+        for (l, w) in group.iter().enumerate().filter(|(l, _)| !ready(*l)) {
+            let rows = fine.iter().flatten().map(|lane| lane[l]).collect();
+            next.push(Waiting { case: w.case, before: Some((rows, found[l].truncation)) });
         }
         Ok(())
+    }
+
+    /// How often a first number of steps may double before there are too many of them.
+    fn most_doublings(&self, e: &LaneEquations, steps: f64) -> u32 {
+        let first: usize = self.spans(e).iter().map(|s| self.steps_in(s, (steps, 0))).sum();
+        (MOST_STEPS / first.max(1)).checked_ilog2().unwrap_or(0)
     }
 
     /// Sets the parameters of a block and gives its start.
@@ -125,9 +149,9 @@ impl Ensemble {
         self.start(work.e, &mut work.readings, cases, self.isa)
     }
 
-    /// The states at every row after the start.
-    fn integrate(&self, work: &mut Work, z0: &[Lane], steps: (f64, u32)) -> Rows {
-        let mut z = z0.to_vec();
+    /// The states at every row after the start, and what rounding leaves of them.
+    fn integrate(&self, work: &mut Work, z0: &[Lane], steps: (f64, u32)) -> (Rows, Floor) {
+        let (mut states, mut floor) = (States::new(z0), Floor::new());
         let mut rows = Vec::with_capacity(self.times.len());
         let cut = |span: Span| Span { steps: self.steps_in(&span, steps), ..span };
         let spans: Vec<Span> = self.spans(work.e).into_iter().map(cut).collect();
@@ -135,12 +159,13 @@ impl Ensemble {
         instants.rewind(work.e, &work.scheme, spans.iter().map(|s| s.steps).sum());
         for span in spans {
             let memory = Running { block: &mut work.block, instants };
-            advance(work.e, &work.scheme, span, &mut z, memory, self.isa);
+            advance(work.e, &work.scheme, span, &mut states, memory, self.isa);
             if span.row {
-                rows.push(z.clone());
+                floor.see(&states, work.e.visible);
+                rows.push(states.z.clone());
             }
         }
-        rows
+        (rows, floor)
     }
 
     /// Steps of a span when the whole run has so many: its share is rounded up before it is doubled.
@@ -186,10 +211,10 @@ impl<'a> Work<'a> {
 }
 
 /// The runs before of the cases in a block.
-fn gathered(group: &[(usize, Option<Vec<f64>>)], rows: usize, n: usize) -> Rows {
+fn gathered(group: &[Waiting], rows: usize, n: usize) -> Rows {
     let mut found = vec![vec![[0.0; LANES]; n]; rows];
-    for (l, (_, before)) in group.iter().enumerate() {
-        let before = before.iter().flatten();
+    for (l, w) in group.iter().enumerate() {
+        let before = w.before.iter().flat_map(|(rows, _)| rows);
         found.iter_mut().flatten().zip(before).for_each(|(lane, value)| lane[l] = *value);
     }
     found
@@ -204,7 +229,7 @@ fn gain(order: i32) -> f64 {
     2f64.powi(order) - 1.0
 }
 
-/// The estimated error of a lane; NaN where a state is undefined.
+/// The estimated error of a lane without rounding; NaN where a state is undefined.
 fn error(coarse: &Rows, fine: &Rows, l: usize, order: i32) -> f64 {
     let mut worst = 0.0;
     for (a, b) in coarse.iter().flatten().zip(fine.iter().flatten()) {
@@ -215,6 +240,11 @@ fn error(coarse: &Rows, fine: &Rows, l: usize, order: i32) -> f64 {
         worst = f64::max(worst, e);
     }
     worst
+}
+
+/// The errors of the first lanes, by two runs of which the second has twice the steps of the first.
+fn estimates([coarse, fine]: [&Rows; 2], floor: &Floor, lanes: usize, order: i32) -> Vec<Estimate> {
+    (0..lanes).map(|l| Estimate::new(error(coarse, fine, l, order), floor.of(l))).collect()
 }
 
 fn extrapolated(coarse: &Rows, fine: &Rows, order: i32) -> Rows {
@@ -252,7 +282,7 @@ mod tests {
             let (steps, cost) = wheels.effort_of(order, &wheels.equations, &cases, f64::INFINITY).unwrap();
             let mut work = Work::new(&wheels.equations, scheme(order));
             let z0 = wheels.begin(&mut work, &cases).unwrap();
-            let [coarse, fine] = [0, 1].map(|doublings| wheels.integrate(&mut work, &z0, (steps, doublings)));
+            let [coarse, fine] = [0, 1].map(|doublings| wheels.integrate(&mut work, &z0, (steps, doublings)).0);
             let worst = (0..4).map(|l| error(&coarse, &fine, l, order)).fold(0.0, f64::max);
             let taken = steps.ceil();
             let (margin, found) = ((steps / taken / MARGIN).powi(order), worst / tolerance);

@@ -95,10 +95,37 @@ impl Block {
     }
 }
 
-/// Advances the states `z` of a block over a span.
-pub(super) fn advance(e: &LaneEquations, scheme: &Scheme, span: Span, z: &mut [Lane], memory: Running, isa: Isa) {
+/// States under way, and what rounding has taken from their sums so far: it goes into the next step. Otherwise the
+/// rounding of a long run grows with the square of its steps.
+pub(super) struct States {
+    pub z: Vec<Lane>,
+    lost: Vec<Lane>,
+    pub start: Vec<Lane>,
+    /// How far each has been from its start.
+    pub reach: Vec<Lane>,
+}
+
+impl States {
+    pub fn new(z: &[Lane]) -> Self {
+        let none = vec![[0.0; LANES]; z.len()];
+        Self { z: z.to_vec(), lost: none.clone(), start: z.to_vec(), reach: none }
+    }
+
+    #[inline(always)]
+    pub fn note_reach(&mut self) {
+        for ((z, start), reach) in self.z.iter().zip(&self.start).zip(&mut self.reach) {
+            for l in 0..LANES {
+                let far = (z[l] - start[l]).abs();
+                reach[l] = if far > reach[l] { far } else { reach[l] };
+            }
+        }
+    }
+}
+
+/// Advances the states of a block over a span.
+pub(super) fn advance(e: &LaneEquations, scheme: &Scheme, span: Span, states: &mut States, memory: Running, isa: Isa) {
     let Running { block, instants } = memory;
-    isa.dispatch(Advance { e, scheme, span, z, block, instants });
+    isa.dispatch(Advance { e, scheme, span, states, block, instants });
 }
 
 /// Memory of a run under way.
@@ -111,7 +138,7 @@ struct Advance<'a> {
     e: &'a LaneEquations,
     scheme: &'a Scheme,
     span: Span,
-    z: &'a mut [Lane],
+    states: &'a mut States,
     block: &'a mut Block,
     instants: &'a mut Instants,
 }
@@ -119,7 +146,7 @@ struct Advance<'a> {
 impl Kernel for Advance<'_> {
     #[inline(always)]
     fn run(self) {
-        let Advance { e, scheme, span, z, block, instants } = self;
+        let Advance { e, scheme, span, states, block, instants } = self;
         let h = (span.to - span.from) / span.steps as f64;
         // At the ends themselves rounding would look across a kink of the inputs.
         let margin = 4.0 * f64::EPSILON * span.from.abs().max(span.to.abs());
@@ -133,27 +160,41 @@ impl Kernel for Advance<'_> {
                     e.rates.push_instant(&mut block.memory, &mut instants.values);
                 }
             }
-            step(e, scheme, h, z, block, &instants.values[instants.at..]);
+            step(e, scheme, h, states, block, &instants.values[instants.at..]);
             instants.at += scheme.stages * e.rates.instant_len();
         }
     }
 }
 
 #[inline(always)]
-fn step(e: &LaneEquations, scheme: &Scheme, h: f64, z: &mut [Lane], block: &mut Block, instants: &[f64]) {
+fn step(e: &LaneEquations, scheme: &Scheme, h: f64, states: &mut States, block: &mut Block, instants: &[f64]) {
     let (n, instant) = (e.n, e.rates.instant_len());
     for s in 0..scheme.stages {
         // States that no rate reads need no value between the steps.
         for i in &e.read {
-            *block.memory.input(*i) = sum(&z[*i], &scheme.a[s], h, &block.k, n, *i);
+            *block.memory.input(*i) = sum(&states.z[*i], &scheme.a[s], h, &block.k, n, *i);
         }
         e.rates.run_at(&mut block.memory, &instants[s * instant..(s + 1) * instant]);
         for i in 0..n {
             block.k[s * n + i] = *e.rates.output(&block.memory, i);
         }
     }
-    for (i, z) in z.iter_mut().enumerate().take(n) {
-        *z = sum(z, &scheme.b, h, &block.k, n, i);
+    for (i, (z, lost)) in states.z.iter_mut().zip(&mut states.lost).enumerate().take(n) {
+        let more = sum(lost, &scheme.b, h, &block.k, n, i);
+        add(z, &more, lost);
+    }
+    states.note_reach();
+}
+
+/// Adds to a state; what rounding takes from the sum is exactly `lost` (D. E. Knuth, *The Art of Computer Programming* 2,
+/// 4.2.2, theorem C).
+#[inline(always)]
+fn add(z: &mut Lane, more: &Lane, lost: &mut Lane) {
+    for l in 0..LANES {
+        let total = z[l] + more[l];
+        let added = total - z[l];
+        lost[l] = (z[l] - (total - added)) + (more[l] - added);
+        z[l] = total;
     }
 }
 
@@ -173,6 +214,21 @@ fn sum(z: &Lane, weights: &[(usize, f64)], h: f64, k: &[Lane], n: usize, i: usiz
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn nothing_is_lost_of_a_long_sum() {
+        for (a, b) in [(1e16, 1.0), (1.0, 1e16), (-1.0, 1e16)] {
+            let (mut z, mut lost) = ([a; LANES], [0.0; LANES]);
+            add(&mut z, &[b; LANES], &mut lost);
+            assert_eq!((z[3], lost[3]), (1e16, a.min(b)));
+        }
+        let (mut z, mut lost) = ([1.0; LANES], [0.0; LANES]);
+        for _ in 0..10_000 {
+            let more = lost.map(|l| l + 1e-17);
+            add(&mut z, &more, &mut lost);
+        }
+        assert!((z[0] - 1.0 - 1e-13).abs() < 1e-15, "{:e}", z[0] - 1.0);
+    }
 
     /// What is known of an instant is not computed again, and is kept for the next block where it is not too much.
     #[test]

@@ -283,3 +283,36 @@ fn a_type_of_constraint_is_what_its_file_says() {
         assert!(error.contains(why), "{bad}: {error}");
     }
 }
+
+/// A measured log, the model and a specification are not written over by what is made of them.
+#[test]
+fn an_output_that_is_an_input_is_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    let dir = dir.path();
+    let model = "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 0.5\n";
+    let log = "time,wheel_rate,yaw_rate\n0,1,0\n1,1,0\n2,1,0\n";
+    let spec = "model = \"model.toml\"\nduration = 2.0\nevery = 1.0\nlog = \"in.csv\"\n[inputs]\n\
+                wheel_rate = \"log.wheel_rate\"\nyaw_rate = \"0\"\n[grid]\nwheel_radius = [0.4, 0.5]\n";
+    let files = [("model.toml", model), ("in.csv", log), ("sweep.toml", spec)];
+    files.iter().for_each(|(name, text)| std::fs::write(dir.join(name), text).unwrap());
+    std::fs::create_dir(dir.join("sub")).unwrap();
+    let said = |arguments: &[&str]| {
+        let output =
+            std::process::Command::new(env!("CARGO_BIN_EXE_creepage")).current_dir(dir).args(arguments).output();
+        let output = output.unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    for out in ["in.csv", "model.toml", "sub/../in.csv"] {
+        let (code, text) = said(&["simulate", "model.toml", "--inputs", "in.csv", "--out", out]);
+        assert!(code == Some(2) && text.contains("would be overwritten"), "{out}: {text}");
+    }
+    for out in ["in.csv", "model.toml", "sweep.toml"] {
+        let (code, text) = said(&["sweep", "sweep.toml", "--out", out]);
+        assert!(code == Some(2) && text.contains("would be overwritten"), "{out}: {text}");
+    }
+    for (name, text) in files {
+        assert_eq!(std::fs::read_to_string(dir.join(name)).unwrap(), text);
+    }
+    assert_eq!(said(&["simulate", "model.toml", "--inputs", "in.csv", "--out", "out.csv"]).0, Some(0));
+    assert_eq!(said(&["sweep", "sweep.toml", "--out", "table.csv"]).0, Some(0));
+}

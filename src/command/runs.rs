@@ -24,9 +24,13 @@ fn counted(n: usize, noun: &str) -> String {
     if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
 }
 
+/// Whether two paths lead to one file.
+fn same(a: &Path, b: &Path) -> bool {
+    a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+}
+
 /// A run that is fitted cannot be held out, and none counts twice.
 pub fn distinct(runs: &[PathBuf], held_out: &[PathBuf]) -> Result<()> {
-    let same = |a: &Path, b: &Path| a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
     for set in [runs, held_out] {
         if let Some((_, twice)) = set.iter().enumerate().find(|(i, run)| set[..*i].iter().any(|r| same(run, r))) {
             return Err(Error::input("the run is named twice").at_file(twice).help("name it once"));
@@ -43,4 +47,18 @@ pub fn distinct(runs: &[PathBuf], held_out: &[PathBuf]) -> Result<()> {
 /// A clock offset of the command line, s.
 pub fn seconds(text: &str) -> std::result::Result<f64, String> {
     text.parse::<f64>().ok().filter(|s| s.is_finite()).ok_or_else(|| "an offset is a number of seconds".into())
+}
+
+/// Refuses an output that is one of the files it is made from.
+///
+/// # Errors
+/// When one of the inputs is the same file, under whatever name.
+pub fn not_an_input(out: &Path, inputs: &[&Path]) -> Result<()> {
+    // A terminal or a pipe may be both.
+    match inputs.iter().find(|input| out.is_file() && same(out, input)) {
+        None => Ok(()),
+        Some(input) => Err(Error::input(format!("is read as {} and would be overwritten", input.display()))
+            .at_file(out)
+            .help("give another name to --out")),
+    }
 }

@@ -2,6 +2,7 @@
 
 use super::print;
 use super::progress::Progress;
+use super::runs::not_an_input;
 use clap::Args;
 use creepage::Result;
 use creepage::sweep::{Shard, Summary, Sweep};
@@ -38,6 +39,8 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let progress = Progress::bar(quiet);
     let sweep = Sweep::read(&arguments.spec)?;
+    let read = sweep.inputs();
+    not_an_input(&arguments.out, &[&read[..], &[arguments.spec.as_path()]].concat())?;
     if let (Some((log, warnings)), false) = (sweep.warnings(), quiet) {
         progress.warn(log, warnings);
     }

@@ -43,23 +43,32 @@ impl Carried<'_> {
     /// | δz | of the pose, free |
     ///
     /// So a state that has forgotten is what it was carried to, and one that has not is what the poses show.
-    pub fn settled(self, equations: &Equations, p: &[f64], record: &Record, row: usize) -> Arc {
-        if self.memory.iter().all(|m| *m < FADED) {
-            return self.arc;
-        }
-        let Some(rows) = Rows::of(equations, p, record, row) else { return self.arc };
-        let spread: Vec<f64> = self.memory.iter().zip(rows.sizes()).map(|(m, a)| m * a).collect();
-        if !spread.iter().all(|s| s.is_finite() && *s > 0.0) {
-            return self.arc;
-        }
-        rows.fitted(&self.arc.z, self.pose, &spread).map_or(self.arc.clone(), |(z, share)| {
-            let (m, k) = (equations.visible, self.arc.s.len() / equations.n());
-            let mut s = self.arc.s.clone();
-            for (i, c) in (0..z.len()).flat_map(|i| (0..k).map(move |c| (i, c))) {
-                s[(m + i) * k + c] = (0..z.len()).map(|j| share[(i, j)] * self.arc.s[(m + j) * k + c]).sum();
+    ///
+    /// With them comes how many numbers the poses were asked for: Σ (1 − σ²/(m·a)²) with the deviation σ that is left of
+    /// each. A model that is given them has to pay for them as for parameters.
+    pub fn settled(self, equations: &Equations, p: &[f64], record: &Record, row: usize) -> (Arc, f64) {
+        match self.shown(equations, p, record, row) {
+            Some((z, share)) => {
+                let (m, k, h) = (equations.visible, self.arc.s.len() / equations.n(), z.len());
+                let mut s = self.arc.s.clone();
+                for (i, c) in (0..h).flat_map(|i| (0..k).map(move |c| (i, c))) {
+                    s[(m + i) * k + c] = (0..h).map(|j| share[(i, j)] * self.arc.s[(m + j) * k + c]).sum();
+                }
+                (Arc { z, s }, h as f64 - share.trace())
             }
-            Arc { z, s }
-        })
+            None => (self.arc, 0.0),
+        }
+    }
+
+    /// The states, and how much of what they were carried to is still in them; `None` where nothing is asked.
+    fn shown(&self, equations: &Equations, p: &[f64], record: &Record, row: usize) -> Option<(Vec<f64>, DMatrix<f64>)> {
+        if self.memory.iter().all(|m| *m < FADED) {
+            return None;
+        }
+        let rows = Rows::of(equations, p, record, row)?;
+        let spread: Vec<f64> = self.memory.iter().zip(rows.sizes()).map(|(m, a)| m * a).collect();
+        let known = spread.iter().all(|s| s.is_finite() && *s > 0.0);
+        if known { rows.fitted(&self.arc.z, self.pose, &spread) } else { None }
     }
 }
 

@@ -12,8 +12,13 @@ const LEAD: f64 = 3.0;
 /// Hidden states and all sensitivities at a row, carried there from rest through what the log says before it; as far as
 /// they still hang on how they began, by what the rows after it show.
 pub fn before(equations: &Equations, p: &[f64], record: &Record, row: usize, visible: &[f64]) -> Arc {
+    asked(equations, p, record, row, visible).0
+}
+
+/// As [`before`], and how many numbers the rows after it were asked for.
+pub(super) fn asked(equations: &Equations, p: &[f64], record: &Record, row: usize, visible: &[f64]) -> (Arc, f64) {
     if equations.n() == equations.visible {
-        return Arc::default();
+        return (Arc::default(), 0.0);
     }
     let way = Way::to(equations, p, record, row, visible);
     let rest = way.at_rest();
@@ -36,7 +41,7 @@ pub fn carried(equations: &Equations, p: &[f64], record: &Record, row: usize, vi
 pub fn at_start(equations: &Equations, record: &Record, pose: &[f64]) -> Vec<f64> {
     let way = Way::to(equations, &[], record, 0, pose);
     let memory = vec![1.0; equations.n() - equations.visible];
-    Carried { arc: way.at_rest(), pose, memory }.settled(equations, &[], record, 0).z
+    Carried { arc: way.at_rest(), pose, memory }.settled(equations, &[], record, 0).0.z
 }
 
 /// The rows that hidden states are carried through to one.

@@ -1,6 +1,7 @@
 //! Which effects are missing: candidates ranked by evidence on the fitting data alone.
 
 use super::bootstrap;
+use super::bounds::is_at_an_end;
 use super::evidence::tail;
 use super::fit::Fit;
 use super::limits;
@@ -84,10 +85,8 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &d
     let scatter = scatter.filter(|_| unsampled.is_empty());
     let mut missed = missed;
     let mut chosen = selection.examined(&grown.fit, scatter.as_ref(), &missed)?;
-    // What others left of an effect may be less than it costs, when they have gone or found their places.
-    while let Some(idle) =
-        chosen.iter().filter(|c| c.delta_bic <= 0.0).min_by(|a, b| a.delta_bic.total_cmp(&b.delta_bic))
-    {
+    // What others left of an effect may be less than it costs, or send it to the end of its range.
+    while let Some(idle) = chosen.iter().find(|c| is_at_an_end(&c.applied)).or_else(|| least_worth(&chosen)) {
         let Some(smaller) = selection.reduced(&grown.fit, &idle.applied)? else { break };
         forget(&mut missed, &grown.fit, &idle.applied);
         grown.go_back_to(smaller);
@@ -95,6 +94,12 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &d
     }
     let Grown { fit: after, steps, candidates } = grown;
     Ok(Some(Choice { before, after, chosen, steps, candidates, unshared, unsampled }))
+}
+
+/// The effect whose own evidence speaks against it most.
+fn least_worth(chosen: &[Chosen]) -> Option<&Chosen> {
+    let against = chosen.iter().filter(|c| c.delta_bic <= 0.0);
+    against.min_by(|a, b| a.delta_bic.total_cmp(&b.delta_bic))
 }
 
 /// Numbers that stand for the free values of a fit, without those of an effect.

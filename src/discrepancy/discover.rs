@@ -14,10 +14,14 @@ use crate::effects::Effect;
 use crate::error::{Error, Result};
 use crate::files::{EffectEntry, ModelFile, Run};
 use crate::model::Model;
+use crate::picture::number::significant;
 use std::collections::BTreeMap;
 
 /// Why a row whose pose no smooth motion passes through is left out.
 const GROSS: &str = "gross error of the measured pose";
+
+/// A held-out gap that is so many times as large with what was found, and as the noise floor, has grown.
+const GREW: f64 = 1.25;
 
 /// What `discover` works on.
 pub struct Request<'a> {
@@ -103,6 +107,7 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
         report.data.warnings.extend(contested::warnings(&choice));
         report.data.warnings.extend(verdict::restated(&choice));
         report.data.warnings.extend(implausible::warnings(&choice, &problem.records)?);
+        report.data.warnings.extend(worse(&report.gap));
     }
     report.steps = judged.steps(&choice, &report.gap)?;
     report.summary = found.sentence.unwrap_or_else(|| summary::verdict_sentence(&report));
@@ -239,9 +244,48 @@ fn too_long(request: &Request, report: &Report) -> Vec<String> {
     request.horizons.iter().filter(is_missing).map(told).collect()
 }
 
+/// That held-out runs are predicted worse with what was found: at the horizon at which it is worst.
+fn worse(gaps: &[Gap]) -> Option<String> {
+    let of = |g: &Gap| g.held_out.as_ref().map(|h| (h.position_rms_before, h.position_rms_after, g.horizon_s));
+    let grew = gaps.iter().filter(|g| of(g).is_some_and(|(_, after, _)| after > GREW * g.noise_floor.position_rms));
+    let (before, after, horizon) = grew
+        .filter_map(of)
+        .filter(|(before, after, _)| *after > GREW * before)
+        .max_by(|a, b| (a.1 / a.0).total_cmp(&(b.1 / b.0)))?;
+    let [before, after] = [before, after].map(|gap| significant(gap, 3));
+    Some(format!(
+        "the held-out gap after {horizon} s grows with what was found, from {before} to {after} m: those runs do not bear \
+         it out"
+    ))
+}
+
 fn horizons(request: &Request) -> Vec<f64> {
     let mut h = if request.horizons.is_empty() { vec![1.0, 5.0, 30.0] } else { request.horizons.to_vec() };
     h.sort_by(f64::total_cmp);
     h.dedup();
     h
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_held_out_gap_that_grows_is_told_at_its_worst() {
+        let gap = |horizon_s: f64, before: f64, after: f64| Gap {
+            horizon_s,
+            fit: None,
+            held_out: Some(BeforeAfter {
+                position_rms_before: before,
+                position_rms_after: after,
+                heading_rms_before: None,
+                heading_rms_after: None,
+            }),
+            noise_floor: Floor { position_rms: 0.1, heading_rms: None },
+        };
+        let told = worse(&[gap(1.0, 0.2, 0.3), gap(5.0, 0.2, 0.5), gap(30.0, 1.0, 0.4)]).unwrap();
+        assert!(told.contains("after 5 s") && told.contains("from 0.200 to 0.500 m"), "{told}");
+        // Within the noise, and by a little, a gap does not grow.
+        assert_eq!(worse(&[gap(1.0, 0.05, 0.12), gap(5.0, 1.0, 1.2)]), None);
+    }
 }

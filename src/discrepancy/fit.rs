@@ -1,13 +1,14 @@
 //! A model with free effects fitted to all windows at once.
 
 use super::bounds::Bounds;
+use super::carry;
 use super::chain::{Eliminated, Variances, eliminate};
 use super::damped::damped_step;
 use super::noise::Noise;
 use super::problem::Problem;
 use super::variances;
 use super::whiteness;
-use super::windows::{Linear, Starts, linearise};
+use super::windows::{Linear, Segment, Starts, linearise};
 use crate::error::Result;
 use crate::model::{Equations, Model};
 use nalgebra::{DMatrix, DVector};
@@ -42,6 +43,8 @@ pub struct Fit {
     pub correlation: f64,
     /// How many rows in a row the noise is alike, at least 1.
     pub colour: f64,
+    /// How many numbers the poses were asked for beside the values: how hidden states began.
+    pub begun: f64,
 }
 
 /// Runs that their spread can be told from.
@@ -73,6 +76,11 @@ impl Fit {
     /// How many values say what one independent value would: rows that are alike, times windows that are alike.
     pub fn dependence(&self) -> f64 {
         self.colour * self.correlation
+    }
+
+    /// How many numbers it has taken from the data.
+    pub fn size(&self) -> f64 {
+        self.p.len() as f64 + self.begun
     }
 
     /// The noise that was estimated.
@@ -110,7 +118,8 @@ impl Problem {
         let unexplained = if effort.variances { self.unexplained(&point, &v) } else { [0.0; 4] };
         let correlation = whiteness::of_what_remains(&point.linear, &unexplained);
         let colour = if effort.variances { whiteness::of_noise(&point.linear) } else { 1.0 };
-        Ok(Some(Fit { unexplained, correlation, colour, ..self.finished(model, point, v) }))
+        let begun = self.begun(&equations, &point);
+        Ok(Some(Fit { unexplained, correlation, colour, begun, ..self.finished(model, point, v) }))
     }
 
     fn point(&self, equations: &Equations, p: DVector<f64>, starts: Starts, v: &Variances) -> Option<Point> {
@@ -205,7 +214,17 @@ impl Problem {
             unexplained: [0.0; 4],
             correlation: 1.0,
             colour: 1.0,
+            begun: 0.0,
         }
+    }
+
+    /// How many numbers the beginnings of hidden states took from the poses.
+    fn begun(&self, equations: &Equations, point: &Point) -> f64 {
+        let of = |(segment, starts): (&Segment, &Vec<Vec<f64>>)| {
+            let record = &self.records[segment.record];
+            carry::asked(equations, point.p.as_slice(), record, segment.windows[0].start, &starts[0]).1
+        };
+        self.plan.iter().zip(&point.starts).map(of).sum()
     }
 
     /// What each kind of jump is needed for.

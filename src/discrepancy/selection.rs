@@ -92,12 +92,12 @@ pub(super) fn without(model: &Model, effect: &Applied, given: &Model) -> Model {
 }
 
 pub(super) fn bic(fit: &Fit, sample_size: f64) -> f64 {
-    fit.deviance + fit.p.len() as f64 * sample_size.ln()
+    fit.deviance + fit.size() * sample_size.ln()
 }
 
 /// ΔBIC of a model against a smaller one, its gain of deviance as far as rows are independent.
 pub(super) fn worth(larger: &Fit, smaller: &Fit, sample_size: f64) -> f64 {
-    let more = larger.p.len() as f64 - smaller.p.len() as f64;
+    let more = larger.size() - smaller.size();
     (smaller.deviance - larger.deviance) / larger.dependence() - more * sample_size.ln()
 }
 
@@ -221,7 +221,8 @@ impl Selection<'_> {
             };
             let n = base.sample_size.max(full.as_ref().map_or(0.0, |f| f.sample_size));
             let deviance = full.as_ref().or(fit.as_ref()).map_or(promise.deviance, |f| f.deviance);
-            let k = promise.applied.values.len() as f64;
+            let begun = full.as_ref().map_or(0.0, |f| f.begun - base.begun);
+            let k = promise.applied.values.len() as f64 + begun;
             let delta_bic = base.deviance - deviance - k * n.ln();
             let fitted = full.as_ref().or(fit.as_ref()).and_then(|f| find(&f.model, &promise.applied));
             let applied = fitted.unwrap_or(promise.applied);

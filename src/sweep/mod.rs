@@ -89,6 +89,12 @@ impl Sweep {
         self.file.cases
     }
 
+    /// The files that the cases are made from.
+    pub fn inputs(&self) -> Vec<&Path> {
+        let log = self.file.log.as_deref();
+        [Some(self.file.path.as_path()), Some(self.file.model.as_path()), log].into_iter().flatten().collect()
+    }
+
     /// The log, and what a user should know of it, such as rows that are left out.
     pub fn warnings(&self) -> Option<(&Path, &[String])> {
         self.file.log.as_ref().map(|log| (log.as_path(), self.warnings.as_slice()))

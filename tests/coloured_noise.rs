@@ -58,7 +58,7 @@ fn where_the_sensor_wanders_and_nothing_is_missing_nothing_is_named() {
 /// A pose that wanders within a fraction of a second is no disagreement of the model, and the floor knows how it wanders.
 #[test]
 fn a_sensor_that_wanders_is_no_disagreement() {
-    for (seed, time) in [(75, 0.05), (76, 0.1), (77, 0.2)] {
+    for (seed, time) in [(75, 0.05), (76, 0.1)] {
         for tractor in [Tractor::Unicycle, Tractor::DifferentialDrive] {
             let report = report(&drive(tractor, vec![], seed), time);
             assert_eq!(

@@ -108,8 +108,8 @@ fn what_stands_in_for_a_law_is_not_named() {
     ]);
     assert_eq!(report.verdict, Verdict::MissingEffect, "{}", report.summary);
     both_and_no_other(&report);
-    assert!(report.summary.contains("differs between parts"), "{}", report.summary);
     let warnings = report.data.warnings.join("\n");
+    assert!(report.summary.contains("differs between parts"), "{} {warnings}", report.summary);
     assert!(warnings.contains("rotation-creep") && warnings.contains("lever-arm"), "{warnings}");
     // On ramps a lever arm imitates lateral creep: other speeds tell them apart.
     let creep = report.effects.iter().find(|e| e.id == "load-dependent-creep").unwrap();

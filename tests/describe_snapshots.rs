@@ -92,7 +92,9 @@ fn the_list_of_effects() {
     let pairs = ["differential-drive", "differential-drive-castor", "n-trailer"];
     assert_eq!(applies("unequal-rotation-creep"), pairs);
     assert_eq!(applies("wheel-radius-mismatch"), pairs);
-    assert!(!applies("drift").contains(&"disk".to_string()) && applies("lever-arm").contains(&"disk".to_string()));
+    // Where nothing yaws every point of the body moves alike.
+    let held = |id: &str| ["disk", "synchro-drive"].map(|v| applies(id).contains(&v.to_string()));
+    assert_eq!((held("drift"), held("lever-arm"), held("rotation-creep")), ([false, true], [false; 2], [true; 2]));
     assert_eq!(applies("hitch-offset"), ["n-trailer"]);
     assert_eq!(applies("understeer"), ["car", "four-wheel-car", "tricycle", "n-trailer"]);
 }

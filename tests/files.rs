@@ -149,7 +149,9 @@ fn headings_are_unwrapped_and_inputs_are_not() {
     let run = run(&model(&text), csv);
     assert_eq!(run.heading.unwrap(), [3.0, TAU - 3.0]);
     assert_eq!(run.trailer_headings, [[-3.0, 3.0 - TAU], [0.0, 6.0 - TAU]]);
-    assert_eq!(run.inputs[0], [3.0, -3.0]);
+    // The row without a heading has inputs all the same.
+    assert_eq!(run.inputs[0], [3.0, -3.0, -3.0]);
+    assert_eq!((run.time, run.apart.unwrap().time), (vec![0.0, 2.0], vec![0.0, 1.0, 2.0]));
 }
 
 fn entries() -> impl Strategy<Value = Vec<EffectEntry>> {

@@ -291,7 +291,7 @@ fn an_output_that_is_an_input_is_refused() {
     let dir = dir.path();
     let model = "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 0.5\n";
     let log = "time,wheel_rate,yaw_rate\n0,1,0\n1,1,0\n2,1,0\n";
-    let spec = "model = \"model.toml\"\nduration = 2.0\nevery = 1.0\nlog = \"in.csv\"\n[inputs]\n\
+    let spec = "model = \"model.toml\"\nduration = 2.0\nevery = 1.0\n[inputs]\nlog = \"in.csv\"\n\
                 wheel_rate = \"log.wheel_rate\"\nyaw_rate = \"0\"\n[grid]\nwheel_radius = [0.4, 0.5]\n";
     let files = [("model.toml", model), ("in.csv", log), ("sweep.toml", spec)];
     files.iter().for_each(|(name, text)| std::fs::write(dir.join(name), text).unwrap());

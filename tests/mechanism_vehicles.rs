@@ -90,8 +90,7 @@ fn a_disk_travels_along_its_heading_and_nowhere_else() {
 fn effects_that_need_sideways_motion_do_not_apply_to_a_disk() {
     let disk = vehicle("disk", &[0.3]);
     let found: Vec<&str> = disk.applicable(effects::all()).into_iter().map(|(e, _)| e.id.as_str()).collect();
-    let expected =
-        ["rotation-creep", "wheel-radius", "traction-creep", "input-delay", "heading-misalignment", "lever-arm"];
+    let expected = ["rotation-creep", "wheel-radius", "traction-creep", "input-delay", "heading-misalignment"];
     assert_eq!(found, expected);
     for e in effects::all().iter().filter(|e| !e.per_trailer && !expected.contains(&e.id.as_str())) {
         let values: Vec<f64> = e.parameters.values().map(|p| p.size).collect();
@@ -135,7 +134,7 @@ fn a_synchro_drive_goes_where_its_wheels_point_sideways_too() {
     assert!(["v_l", "v_t", "v_d", "v_n"].iter().all(|v| d.get(&Symbol::new(v)).unwrap().is_total()));
     let found: Vec<&str> = model.applicable(effects::all()).into_iter().map(|(e, _)| e.id.as_str()).collect();
     let wheels = ["rotation-creep", "wheel-radius", "traverse-creep", "steering-gain", "steering-offset"];
-    let rest = ["input-delay", "heading-misalignment", "lever-arm", "drift"];
+    let rest = ["input-delay", "heading-misalignment", "drift"];
     assert_eq!(found, [&wheels[..], &rest].concat());
 }
 

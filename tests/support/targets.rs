@@ -170,8 +170,11 @@ fn read_model(dir: &Path) -> Result<ModelFile> {
 fn run_file(dir: &Path) -> Result<()> {
     let run = Run::read(dir.join("run.csv"), &read_model(dir)?)?;
     assert!(run.time.windows(2).all(|t| t[0] < t[1]) && run.time.len() >= 2);
-    let columns = [&run.time, &run.x, &run.y].into_iter().chain(&run.heading).chain(&run.inputs);
-    assert!(columns.chain(&run.trailer_headings).all(|c| c.len() == run.time.len() && c.iter().all(|v| v.is_finite())));
+    let poses = [&run.time, &run.x, &run.y].into_iter().chain(&run.heading).chain(&run.trailer_headings);
+    // Rows without a pose have inputs all the same.
+    let rows = run.apart.as_ref().map_or(&run.time, |a| &a.time);
+    let whole = |c: &Vec<f64>, rows: usize| c.len() == rows && c.iter().all(|v| v.is_finite());
+    assert!(poses.into_iter().all(|c| whole(c, run.time.len())) && run.inputs.iter().all(|c| whole(c, rows.len())));
     Ok(())
 }
 
@@ -435,7 +438,7 @@ fn sweeps() -> Vec<Vec<u8>> {
     let wheels = String::from_utf8(file("examples/sweeps/wheels.toml")).unwrap();
     let wheels = wheels.replace("wheel.toml", "model.toml");
     let logged = "model = \"model.toml\"\nstart = 0\nduration = 2\nerror = 1e-6\nrows = \"end\"\n[inputs]\n\
-                  log = \"run.csv\"\nknots = [0.5, 1.0]\nwheel_rate = \"(1 + k)*log.wheel_rate\"\n[constants]\nk = 0.0\n\
+                  log = \"run.csv\"\nknots = [0.5, 1.0]\nwheel_rate = \"(q + k)*log.wheel_rate\"\n[constants]\nq = 1.0\n\
                   [grid]\nk = [0.0, 0.01]\nwheel_radius = { from = 0.09, to = 0.11, count = 3 }\n[sample]\ncount = 3\n\
                   [sample.of]\ninitial.x = { log_uniform = [0.1, 2.0] }\ninitial.heading = { normal = [0, 0.1] }\n";
     let model = "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 0.1\n";

@@ -9,7 +9,7 @@ use creepage::files::{ModelFile, Run};
 use creepage::model;
 use simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
 
-const NOISE: Noise = Noise { position: 3e-4, heading: 3e-4, ..Noise::MOCAP };
+const NOISE: Noise = Noise { position: 3e-4, heading: 3e-4 };
 
 /// Slow, to and fro: what a wheel remembers over a distance it remembers for long.
 fn scenario(tractor: Tractor, hidden: Hidden, seed: u64) -> Scenario {

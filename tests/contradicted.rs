@@ -97,7 +97,7 @@ fn both_and_no_other(report: &Report) {
 }
 
 /// A wheel that turns faster and faster than it rolls, up to a limit that is another in every run: without a name, a
-/// lever arm and a constant rotation creep stand in for it and for the load-dependent creep.
+/// constant rotation creep stands in for it, and a lever arm for the load-dependent creep.
 #[test]
 fn what_stands_in_for_a_law_is_not_named() {
     let hidden = |law| Hidden { scale: -0.03, creep: CREEP, law };
@@ -108,9 +108,9 @@ fn what_stands_in_for_a_law_is_not_named() {
     ]);
     assert_eq!(report.verdict, Verdict::MissingEffect, "{}", report.summary);
     both_and_no_other(&report);
+    assert!(report.summary.contains("differs between parts"), "{}", report.summary);
     let warnings = report.data.warnings.join("\n");
-    assert!(report.summary.contains("differs between parts"), "{} {warnings}", report.summary);
-    assert!(warnings.contains("rotation-creep") && warnings.contains("lever-arm"), "{warnings}");
+    assert!(warnings.contains("rotation-creep"), "{warnings}");
     // On ramps a lever arm imitates lateral creep: other speeds tell them apart.
     let creep = report.effects.iter().find(|e| e.id == "load-dependent-creep").unwrap();
     let rivals: Vec<&str> = creep.indistinguishable_from.iter().map(|r| r.id.as_str()).collect();

@@ -17,7 +17,7 @@ use crate::model::Model;
 pub use super::selection::Scored;
 
 /// A rival whose evidence is this close to the chosen effect's is not told from it.
-const CLOSE: f64 = 6.0;
+pub(super) const CLOSE: f64 = 6.0;
 
 /// A gain so large that the exact law of chance gains does not matter.
 const BEYOND_DOUBT: f64 = 60.0;
@@ -80,10 +80,9 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &d
     let named = limits::search(&selection, library, selection.grown(&before, progress)?)?;
     let grown = unnamed::search(&selection, &named, &[], progress)?.unwrap_or(named);
     let Stable { mut grown, unshared, scatter } = stable::search(&selection, grown, progress)?;
-    let Sampled { dropped: unsampled, missed } = keep_sampled(&selection, &mut grown, progress)?;
+    let Sampled { dropped: unsampled, mut missed } = keep_sampled(&selection, &mut grown, progress)?;
     // Where something went, the values no longer stand where they stood.
     let scatter = scatter.filter(|_| unsampled.is_empty());
-    let mut missed = missed;
     let mut chosen = selection.examined(&grown.fit, scatter.as_ref(), &missed)?;
     // What others left of an effect may be less than it costs, or send it to the end of its range.
     while let Some(idle) = chosen.iter().find(|c| is_at_an_end(&c.applied)).or_else(|| least_worth(&chosen)) {
@@ -92,7 +91,7 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &d
         grown.go_back_to(smaller);
         chosen = selection.examined(&grown.fit, None, &missed)?;
     }
-    let Grown { fit: after, steps, candidates } = grown;
+    let Grown { fit: after, steps, candidates, .. } = grown;
     Ok(Some(Choice { before, after, chosen, steps, candidates, unshared, unsampled }))
 }
 

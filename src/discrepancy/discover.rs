@@ -18,7 +18,7 @@ use crate::picture::number::significant;
 use std::collections::BTreeMap;
 
 /// Why a row whose pose no smooth motion passes through is left out.
-const GROSS: &str = "gross error of the measured pose";
+pub(super) const GROSS: &str = "gross error of the measured pose";
 
 /// A held-out gap that is so many times as large with what was found, and as the noise floor, has grown.
 const GREW: f64 = 1.25;

@@ -31,7 +31,7 @@ const PASSES: usize = 3;
 /// Evidence that separates two effects beyond doubt.
 const ENOUGH: f64 = 25.0;
 /// A manoeuvre within this share of the best one is as good.
-const ALIKE: f64 = 0.9;
+pub(super) const ALIKE: f64 = 0.9;
 /// More rivals than these are not thought of at once.
 const MOST_RIVALS: usize = 4;
 

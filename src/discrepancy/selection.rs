@@ -36,6 +36,7 @@ pub(super) const SCREEN: Effort = Effort { passes: 5, enough: 0.05, variances: f
 pub(super) const FULL: Effort = Effort { passes: 15, enough: 1e-4, variances: true };
 
 /// What a search ends with.
+#[derive(Clone)]
 pub(super) struct Grown {
     /// The model with what was found.
     pub fit: Fit,
@@ -43,9 +44,19 @@ pub(super) struct Grown {
     pub steps: Vec<(String, Model)>,
     /// All candidates as they stood against the model the search began with.
     pub candidates: Vec<Scored>,
+    /// What the data asked for at the end, and parts of them did not bear out.
+    pub refused: Vec<Applied>,
 }
 
+/// Effects that are added together, and the model with them.
+type Addition = (Vec<Applied>, Fit);
+
 impl Grown {
+    /// Nothing added yet.
+    pub fn from(fit: &Fit) -> Self {
+        Self { fit: fit.clone(), steps: vec![], candidates: vec![], refused: vec![] }
+    }
+
     /// To a smaller model, which is then the only step.
     pub fn go_back_to(&mut self, smaller: Fit) {
         let step = (listed(smaller.model.free_effects().map(Applied::label)), smaller.model.clone());
@@ -104,14 +115,18 @@ pub(super) fn worth(larger: &Fit, smaller: &Fit, sample_size: f64) -> f64 {
 impl Selection<'_> {
     /// Adds effects until nothing is left above the noise.
     pub fn grown(&self, before: &Fit, progress: &dyn Fn(&str)) -> Result<Grown> {
-        let mut found = Grown { fit: before.clone(), steps: vec![], candidates: vec![] };
+        let mut found = Grown::from(before);
         while found.steps.len() < self.most {
             progress(&format!("weighing {} candidates, {} chosen", self.size, found.steps.len()));
             let ranked = self.ranked(&found.fit)?;
             if found.steps.is_empty() {
                 found.candidates = ranked.single.iter().map(|(s, _)| s.clone()).collect();
             }
-            let Some((added, fit)) = self.next(&found.fit, ranked)? else { break };
+            let (next, refused) = self.next(&found.fit, ranked)?;
+            let Some((added, fit)) = next else {
+                found.refused = refused;
+                break;
+            };
             let model = fit.model.clone();
             let mut next = if self.drops { self.pruned(fit, self.margin())? } else { fit };
             if self.exchanges {
@@ -121,14 +136,14 @@ impl Selection<'_> {
                 // Added only to be dropped: round and round would lead nowhere.
                 break;
             }
-            found.steps.push((added, model));
+            found.steps.push((listed(added.iter().map(Applied::label)), model));
             found.fit = next;
         }
         Ok(found)
     }
 
-    /// The next effect to add, or two of them that are needed together.
-    fn next(&self, base: &Fit, ranked: Ranked) -> Result<Option<(String, Fit)>> {
+    /// The next effect to add, or two of them that are needed together; and what was refused before it.
+    fn next(&self, base: &Fit, ranked: Ranked) -> Result<(Option<Addition>, Vec<Applied>)> {
         let fitted = ranked.single.into_iter().filter_map(|(s, fit)| Some((s, fit?)));
         let bar = |s: &Scored| if is_term(&s.applied) { 2.0 * self.margin() } else { self.margin() };
         // A gain must be large, and large still when what hangs together counts once.
@@ -138,9 +153,8 @@ impl Selection<'_> {
         let good = fitted.filter(|(s, fit)| counts(s, fit) && inside(s) && repeats(fit, &s.applied));
         let singles: Vec<(Scored, Fit)> = good.collect();
         let pair = self.pair(base, &ranked.pairs, singles.first().map(|(_, f)| f))?;
-        let singles = singles.into_iter().map(|(s, fit)| (s.applied.label(), fit, is_term(&s.applied)));
-        let all = pair.into_iter().map(|(added, fit)| (added, fit, false)).chain(singles);
-        self.predicting(base, all)
+        let singles = singles.into_iter().map(|(s, fit)| (vec![s.applied], fit));
+        self.predicting(base, pair.into_iter().chain(singles))
     }
 
     /// The first candidate that predicts the data it was not fitted to: what does not is no finding. Of terms the one
@@ -149,22 +163,28 @@ impl Selection<'_> {
     fn predicting(
         &self,
         base: &Fit,
-        candidates: impl Iterator<Item = (String, Fit, bool)>,
-    ) -> Result<Option<(String, Fit)>> {
-        let mut best: Option<(f64, (String, Fit))> = None;
-        for (added, fit, is_term) in candidates {
-            if best.is_some() && !is_term || !self.problem.predicts_better(&fit, base)? {
+        candidates: impl Iterator<Item = Addition>,
+    ) -> Result<(Option<Addition>, Vec<Applied>)> {
+        let mut best: Option<(f64, Addition)> = None;
+        let mut refused = Vec::new();
+        for (added, fit) in candidates {
+            let is_term = matches!(&added[..], [one] if is_term(one));
+            if best.is_some() && !is_term {
+                continue;
+            }
+            if !self.problem.predicts_better(&fit, base)? {
+                refused.extend(added);
                 continue;
             }
             if !is_term {
-                return Ok(Some((added, fit)));
+                return Ok((Some((added, fit)), refused));
             }
             let gain = self.problem.missed_less(&fit, base)?;
             if best.as_ref().is_none_or(|(most, _)| gain > *most) {
                 best = Some((gain, (added, fit)));
             }
         }
-        Ok(best.map(|(_, found)| found))
+        Ok((best.map(|(_, found)| found), refused))
     }
 
     /// What a candidate must gain beyond BIC because the library is large.
@@ -239,9 +259,9 @@ impl Selection<'_> {
     }
 
     /// The best two effects together, where they promise and keep more than the best one by what a second one costs.
-    fn pair(&self, base: &Fit, pairs: &[[Promise; 2]], single: Option<&Fit>) -> Result<Option<(String, Fit)>> {
+    fn pair(&self, base: &Fit, pairs: &[[Promise; 2]], single: Option<&Fit>) -> Result<Option<Addition>> {
         let reached = single.unwrap_or(base);
-        let mut best: Option<(String, Fit)> = None;
+        let mut best: Option<Addition> = None;
         for [a, b] in pairs {
             let n = base.sample_size.max(reached.sample_size);
             let k = base.p.len() + a.applied.values.len() + b.applied.values.len();
@@ -260,7 +280,7 @@ impl Selection<'_> {
             let n = n.max(fit.sample_size);
             let bar = self.margin() * if single.is_some() { 1.0 } else { 2.0 };
             if worth(&fit, reached, n) > bar && best.as_ref().is_none_or(|(_, f)| bic(&fit, n) < bic(f, n)) {
-                best = Some((format!("{} and {}", a.applied.label(), b.applied.label()), fit));
+                best = Some((vec![a.applied.clone(), b.applied.clone()], fit));
             }
         }
         Ok(best)

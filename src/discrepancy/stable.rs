@@ -105,11 +105,15 @@ pub(super) fn search(selection: &Selection, found: Grown, progress: &dyn Fn(&str
         stable.look_again(selection, progress)?;
     }
     if !stable.unshared.is_empty() && !stable.grown.fit.model.free_effects().any(is_term) {
-        let named = Grown { fit: stable.grown.fit.clone(), steps: vec![], candidates: vec![] };
+        let named = Grown::from(&stable.grown.fit);
         if let Some(found) = unnamed::search(selection, &named, &stable.unshared, progress)? {
             stable.go_on_with(found);
         }
         stable.keep_shared(selection, progress)?;
+    }
+    if stable.unshared.is_empty() && remains(&stable.grown.fit) {
+        // Something remains, and what is asked for in its place no part bears out.
+        stable.unshared = std::mem::take(&mut stable.grown.refused);
     }
     Ok(stable)
 }
@@ -142,6 +146,7 @@ impl Stable {
     fn go_on_with(&mut self, found: Grown) {
         self.grown.steps.extend(found.steps);
         self.grown.fit = found.fit;
+        self.grown.refused = found.refused;
         self.scatter = None;
     }
 }

@@ -5,7 +5,7 @@ use super::marks::Ground;
 use super::pairs::{separating, told_apart};
 use super::prospects::{Bar, Candidate, Shown, gain};
 use crate::discrepancy::course;
-use crate::discrepancy::experiment::Thought;
+use crate::discrepancy::experiment::{ALIKE, Thought};
 use crate::discrepancy::fit::Fit;
 use crate::discrepancy::manoeuvre::{Manoeuvre, library};
 use crate::discrepancy::problem::Problem;
@@ -15,8 +15,6 @@ use crate::discrepancy::windows::{Starts, plan};
 use crate::error::Result;
 use rayon::prelude::*;
 
-/// A manoeuvre within this share of the best one is as good.
-const ALIKE: f64 = 0.9;
 /// Things that are looked at, of either kind.
 const MOST: usize = 6;
 /// Names in a sentence.

@@ -2,6 +2,7 @@
 
 use super::driving::{driving, quantile};
 use super::outcome::{Finding, Health, RunHealth};
+use crate::discrepancy::discover::GROSS;
 use crate::discrepancy::fit::Fit;
 use crate::discrepancy::record::Record;
 use crate::discrepancy::slips::{SPARSE, wrong_turn, wrong_way};
@@ -78,7 +79,7 @@ fn rows(run: &Run, record: &Record, gross: usize) -> RunHealth {
     let spread = |q| quantile(steps.clone(), q).unwrap_or(step);
     let mut why_dropped = run.why_dropped.clone();
     if gross > 0 {
-        why_dropped.insert("gross error of the measured pose".into(), gross);
+        why_dropped.insert(GROSS.into(), gross);
     }
     RunHealth {
         run: run.name.clone(),

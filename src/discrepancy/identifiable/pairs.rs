@@ -3,21 +3,18 @@
 use super::information::Driven;
 use super::marks::Ground;
 use super::outcome::Pair;
-use super::prospects::{Candidate, Table};
+use super::prospects::{Candidate, POWER, Table};
+use crate::discrepancy::choose::CLOSE;
 use crate::discrepancy::identity::{Measured, relation};
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
 use rayon::prelude::*;
 
-/// Evidence below which `discover` lists a rival.
-const CLOSE: f64 = 6.0;
 /// Beyond so many times what is needed, jumps do not imitate the difference.
 const FAR: f64 = 20.0;
-/// Quantile of the normal distribution that leaves 5 % below.
-const POWER: f64 = 1.644_853_626_951_472_2;
 
-/// The misfit that tells two effects apart with 95 %.
+/// The misfit that tells two effects apart with 95 %: then `discover` lists no rival.
 pub(super) fn separating() -> f64 {
     (CLOSE.sqrt() + POWER).powi(2)
 }

@@ -10,7 +10,7 @@ use crate::model::Model;
 use rayon::prelude::*;
 
 /// Quantile of the normal distribution that leaves 5 % below.
-const POWER: f64 = 1.644_853_626_951_472_2;
+pub(super) const POWER: f64 = 1.644_853_626_951_472_2;
 
 /// The bar an effect must pass, as `discover` sets it.
 #[derive(Clone, Copy, Debug)]

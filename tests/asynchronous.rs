@@ -116,10 +116,10 @@ fn what_hides_is_named_beside_the_clocks() {
     }
 }
 
-/// Σz² of fourteen standard normal numbers lies between 3.0 and 36.1 but once in 500 times.
+/// Σz² of ten standard normal numbers lies between 1.48 and 29.6 but once in 500 times.
 #[test]
 fn deviations_of_clocks_are_honest() {
-    let all: Vec<[f64; 2]> = (0..7)
+    let all: Vec<[f64; 2]> = (0..5)
         .map(|i| {
             let tractor = if i % 2 == 0 { Tractor::Unicycle } else { Tractor::DifferentialDrive };
             let timing = if i % 3 == 0 { Timing::IntervalMean } else { Timing::Sample };
@@ -128,7 +128,7 @@ fn deviations_of_clocks_are_honest() {
         })
         .collect();
     let sum: f64 = all.iter().flatten().map(|z| z * z).sum();
-    assert!((3.0..36.1).contains(&sum), "{sum}: {all:?}");
+    assert!((1.48..29.6).contains(&sum), "{sum}: {all:?}");
 }
 
 #[test]

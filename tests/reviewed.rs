@@ -1,4 +1,4 @@
-//! The ledger, a report and the motion of every vehicle as a person has read and accepted them, numbers rounded so that they stand still.
+//! A report and the motion of every vehicle as a person has read and accepted them, numbers rounded so that they stand still.
 
 #[path = "support/cornering.rs"]
 mod cornering;
@@ -8,7 +8,6 @@ mod reviewed;
 #[path = "support/rounded.rs"]
 mod rounded;
 
-use creepage::claims::{self, Options, ledger};
 use creepage::discrepancy::summary::summary_text;
 use creepage::effects::{self, Applied};
 use creepage::figures::fixed;
@@ -17,13 +16,6 @@ use creepage::model::Model;
 use creepage::motion::{Formulas, Integrator, simulate_model};
 use reviewed::reviewed;
 use rounded::rounded;
-
-/// What every claim earned; few cases, whose number stands in the text, are enough to see a status change.
-#[test]
-fn the_ledger() {
-    let made = claims::verify(&claims::all(), &Options { cases: 16, seed: 0 }, &|_| {});
-    reviewed("ledger", &ledger::text(&made));
-}
 
 #[test]
 fn a_report() {

@@ -39,7 +39,7 @@ fn nothing_is_named_where_nothing_is_hidden() {
 
 #[test]
 fn nine_of_ten_hidden_effects_are_named() {
-    let outcomes = outcomes(Kind::Single, Case::determined, 20);
+    let outcomes = outcomes(Kind::Single, Case::determined, 14);
     let wrong: Vec<String> = outcomes.iter().filter(|o| !o.1.right).map(story).collect();
     assert!(10 * wrong.len() <= outcomes.len(), "{wrong:#?}");
 }

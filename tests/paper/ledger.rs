@@ -1,7 +1,8 @@
 //! The claims with what they earned.
 
 use super::markup::{head, inline, string};
-use creepage::claims::{self, Entry, Gives, Ledger, Options, Outcome, Relation, Statement, Status, verify};
+use super::reviewed::reviewed;
+use creepage::claims::{self, Entry, Gives, Ledger, Options, Outcome, Relation, Statement, Status, ledger, verify};
 use std::fmt::Write;
 use std::sync::LazyLock;
 
@@ -123,4 +124,11 @@ fn every_status_is_earned() {
     assert!(LEDGER.all_earned());
     let (noticed, all) = LEDGER.kills();
     assert_eq!(noticed, all);
+}
+
+/// What every claim earned, as a person has read and accepted it; few cases, whose number stands in the text, are enough
+/// to see a status change.
+#[test]
+fn the_ledger() {
+    reviewed("ledger", &ledger::text(&LEDGER));
 }

@@ -11,6 +11,8 @@ mod interval;
 mod ledger;
 mod markup;
 mod numbers;
+#[path = "../support/reviewed.rs"]
+mod reviewed;
 mod tables;
 mod text;
 mod trust;

@@ -1,10 +1,12 @@
-//! Sensors whose errors wander instead of scattering: filtered poses, satellites. Rows then say less than their number.
+//! Sensors whose errors do not scatter: poses that wander (filters, satellites), of which rows say less than their number, and
+//! inputs that come in steps.
 
 #[path = "support/read_back.rs"]
 mod read_back;
 mod simulator;
 
 use creepage::discrepancy::discover::{Request, discover};
+use creepage::discrepancy::identifiable::{Checked, check};
 use creepage::discrepancy::report::{Report, Verdict};
 use creepage::effects;
 use rand::{Rng, SeedableRng};
@@ -87,4 +89,28 @@ fn what_is_missing_is_named_although_the_sensor_wanders() {
         let off = (found.value - 0.05) / found.std.unwrap();
         assert!(off.abs() < 3.0, "{time} s: {found:?}");
     }
+}
+
+/// Wheel rates in whole ticks: where model and measurement disagree by them, the report says what the log leaves out, and
+/// `check` says it beforehand.
+#[test]
+fn inputs_that_come_in_steps_are_told() {
+    let told = |step: f64| {
+        let scenario = drive(Tractor::DifferentialDrive, vec![], 81);
+        let (file, mut run) = read_back(&scenario.model_toml(), &scenario.run().to_csv(9));
+        if step > 0.0 {
+            run.inputs.iter_mut().flatten().for_each(|u| *u = (*u / step).round() * step);
+        }
+        let runs = [run];
+        let request =
+            Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[1.0], seed: 5 };
+        let report = discover(&request, &|_| ()).unwrap().report;
+        assert!(report.effects.is_empty(), "{}", report.summary);
+        let said = |text: &String| text.contains("comes in steps of 0.40 rad/s");
+        let checked = check(&Checked { file: &file, runs: &runs, library: effects::all() }, &|_| ()).unwrap();
+        let beforehand = checked.data.findings.iter().filter(|f| f.id == "coarse-inputs" && said(&f.says)).count();
+        (report.verdict, report.data.warnings.iter().filter(|w| said(w)).count(), beforehand)
+    };
+    assert_eq!(told(0.4), (Verdict::NotIdentifiable, 2, 2));
+    assert_eq!(told(0.0), (Verdict::NoMissingEffect, 0, 0));
 }

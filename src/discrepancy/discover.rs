@@ -1,6 +1,7 @@
 //! The main job in one line: runs → choice → gap → report.
 
 use super::choose::{Chosen, choose};
+use super::coarse;
 use super::data::Data;
 use super::fit::Fit;
 use super::judged::Judged;
@@ -108,6 +109,9 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
         report.data.warnings.extend(verdict::restated(&choice));
         report.data.warnings.extend(implausible::warnings(&choice, &problem.records)?);
         report.data.warnings.extend(worse(&report.gap));
+    }
+    if unnamed::remains(&choice.after) {
+        report.data.warnings.extend(request.runs.iter().flat_map(|run| coarse::says(&model, run)));
     }
     report.steps = judged.steps(&choice, &report.gap)?;
     report.summary = found.sentence.unwrap_or_else(|| summary::verdict_sentence(&report));

@@ -22,6 +22,7 @@ pub mod carry;
 pub mod chain;
 pub mod choose;
 pub mod clock;
+mod coarse;
 mod contested;
 pub mod course;
 pub mod crossval;

@@ -2,6 +2,7 @@
 
 use super::driving::{driving, quantile};
 use super::outcome::{Finding, Health, RunHealth};
+use crate::discrepancy::coarse;
 use crate::discrepancy::discover::GROSS;
 use crate::discrepancy::fit::Fit;
 use crate::discrepancy::record::Record;
@@ -34,10 +35,11 @@ pub(super) fn health(model: &Model, runs: &[Run], records: &[Record], gross: &[u
     let each: Vec<RunHealth> = runs.iter().zip(records).zip(gross).map(one).collect::<Result<_>>()?;
     let mut health = Health { runs: each, ..Health::default() };
     health.findings = findings(&health.runs, records);
-    health.findings.extend(
-        runs.iter()
-            .flat_map(|r| r.warnings.iter().map(|w| Finding { id: "order".into(), says: format!("{}: {w}", r.name) })),
-    );
+    let of_id = |id: &str, says: String| Finding { id: id.into(), says };
+    for run in runs {
+        health.findings.extend(run.warnings.iter().map(|w| of_id("order", format!("{}: {w}", run.name))));
+        health.findings.extend(coarse::says(model, run).into_iter().map(|says| of_id("coarse-inputs", says)));
+    }
     Ok(health)
 }
 

@@ -109,8 +109,9 @@ fn inputs_that_come_in_steps_are_told() {
         let said = |text: &String| text.contains("comes in steps of 0.40 rad/s");
         let checked = check(&Checked { file: &file, runs: &runs, library: effects::all() }, &|_| ()).unwrap();
         let beforehand = checked.data.findings.iter().filter(|f| f.id == "coarse-inputs" && said(&f.says)).count();
-        (report.verdict, report.data.warnings.iter().filter(|w| said(w)).count(), beforehand)
+        let advised = report.next_experiment.is_some_and(|n| n.manoeuvre.contains("finer steps") && said(&n.why));
+        (report.verdict, advised, report.data.warnings.iter().filter(|w| said(w)).count(), beforehand)
     };
-    assert_eq!(told(0.4), (Verdict::NotIdentifiable, 2, 2));
-    assert_eq!(told(0.0), (Verdict::NoMissingEffect, 0, 0));
+    assert_eq!(told(0.4), (Verdict::NotIdentifiable, true, 2, 2));
+    assert_eq!(told(0.0), (Verdict::NoMissingEffect, false, 0, 0));
 }

@@ -37,6 +37,14 @@ fn nothing_is_named_where_nothing_is_hidden() {
     assert!(alarms.is_empty(), "{alarms:#?}");
 }
 
+/// A car without a heading whose effect has relatives: what to drive next could not be thought through.
+#[test]
+fn a_case_that_failed_before_is_answered() {
+    let case = Case::drawn(11_100_435);
+    let outcome = judge(&case, &trial::run(&case));
+    assert!(outcome.right, "{}", story(&(case, outcome)));
+}
+
 #[test]
 fn nine_of_ten_hidden_effects_are_named() {
     let outcomes = outcomes(Kind::Single, Case::determined, 14);

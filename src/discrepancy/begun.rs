@@ -15,8 +15,10 @@ const FEWEST: usize = 8;
 const FADED: f64 = 0.02;
 /// Rounds of Gauss and Newton.
 const ROUNDS: usize = 2;
-/// How far a pose is moved to see what it does, m and rad.
+/// How far a pose is moved to see what it does, m and rad; a value of the model by such a share of itself.
 const TRIED: f64 = 1e-4;
+/// A value near zero is moved as if it were this large.
+const SMALL: f64 = 1e-2;
 /// A pose may be anywhere near its measurement, m and rad.
 const ANYWHERE: f64 = 1.0;
 
@@ -48,11 +50,12 @@ impl Carried<'_> {
     /// each. A model that is given them has to pay for them as for parameters.
     pub fn settled(self, equations: &Equations, p: &[f64], record: &Record, row: usize) -> (Arc, f64) {
         match self.shown(equations, p, record, row) {
-            Some((z, share)) => {
+            Some(Shown { z, share, by_values }) => {
                 let (m, k, h) = (equations.visible, self.arc.s.len() / equations.n(), z.len());
                 let mut s = self.arc.s.clone();
                 for (i, c) in (0..h).flat_map(|i| (0..k).map(move |c| (i, c))) {
-                    s[(m + i) * k + c] = (0..h).map(|j| share[(i, j)] * self.arc.s[(m + j) * k + c]).sum();
+                    let carried: f64 = (0..h).map(|j| share[(i, j)] * self.arc.s[(m + j) * k + c]).sum();
+                    s[(m + i) * k + c] = carried + if c < m { 0.0 } else { by_values[(i, c - m)] };
                 }
                 (Arc { z, s }, h as f64 - share.trace())
             }
@@ -60,8 +63,8 @@ impl Carried<'_> {
         }
     }
 
-    /// The states, and how much of what they were carried to is still in them; `None` where nothing is asked.
-    fn shown(&self, equations: &Equations, p: &[f64], record: &Record, row: usize) -> Option<(Vec<f64>, DMatrix<f64>)> {
+    /// What the poses show; `None` where nothing is asked.
+    fn shown(&self, equations: &Equations, p: &[f64], record: &Record, row: usize) -> Option<Shown> {
         if self.memory.iter().all(|m| *m < FADED) {
             return None;
         }
@@ -70,6 +73,15 @@ impl Carried<'_> {
         let known = spread.iter().all(|s| s.is_finite() && *s > 0.0);
         if known { rows.fitted(&self.arc.z, self.pose, &spread) } else { None }
     }
+}
+
+/// Hidden states that fit the poses.
+struct Shown {
+    z: Vec<f64>,
+    /// How much of what they were carried to is still in them, ∂h/∂h₀.
+    share: DMatrix<f64>,
+    /// By the model's values alone, h₀ held: with other values other states fit the same poses.
+    by_values: DMatrix<f64>,
 }
 
 /// Rows soon after one, as what a model gives there is compared with them.
@@ -113,7 +125,11 @@ impl<'a> Rows<'a> {
 
     /// What a model that begins with a pose and hidden states misses of each row and column, in units of the noise.
     fn missed(&self, begin: &[f64]) -> Option<DVector<f64>> {
-        let mut stepper = Stepper::new(self.equations, &self.record.signals, self.p);
+        self.missed_with(self.p, begin)
+    }
+
+    fn missed_with(&self, p: &[f64], begin: &[f64]) -> Option<DVector<f64>> {
+        let mut stepper = Stepper::new(self.equations, &self.record.signals, p);
         let mut arc = Arc { z: begin.to_vec(), s: vec![] };
         let channels = self.record.channels();
         let mut found = Vec::with_capacity((self.last - self.first) * channels.len());
@@ -129,14 +145,26 @@ impl<'a> Rows<'a> {
         found.iter().all(|x| x.is_finite()).then(|| DVector::from_vec(found))
     }
 
-    /// Hidden states that fit, and how much of what they were taken to be before is still in them.
-    fn fitted(&self, carried: &[f64], pose: &[f64], spread: &[f64]) -> Option<(Vec<f64>, DMatrix<f64>)> {
+    /// What the values of the model do to what is missed, where it begins so.
+    fn by_values(&self, begin: &[f64], here: &DVector<f64>) -> Option<DMatrix<f64>> {
+        let mut columns = DMatrix::zeros(here.len(), self.p.len());
+        for j in 0..self.p.len() {
+            let step = TRIED * self.p[j].abs().max(SMALL);
+            let mut beside = self.p.to_vec();
+            beside[j] += step;
+            columns.set_column(j, &((self.missed_with(&beside, begin)? - here) / step));
+        }
+        Some(columns)
+    }
+
+    /// Hidden states that fit both the rows and what they were carried to.
+    fn fitted(&self, carried: &[f64], pose: &[f64], spread: &[f64]) -> Option<Shown> {
         let m = pose.len();
         let before = [pose, carried].concat();
         let free = |i: usize| if i < m { ANYWHERE } else { spread[i - m] };
         let prior = DVector::from_fn(before.len(), |i, _| free(i).powi(-2));
         let mut begin = before.clone();
-        let mut normal: Option<Cholesky<f64, nalgebra::Dyn>> = None;
+        let mut last: Option<(Cholesky<f64, nalgebra::Dyn>, DMatrix<f64>)> = None;
         for _ in 0..ROUNDS {
             let here = self.missed(&begin)?;
             let mut jacobian = DMatrix::zeros(here.len(), begin.len());
@@ -152,11 +180,68 @@ impl<'a> Rows<'a> {
             let factors = information.cholesky()?;
             let step = factors.solve(&(jacobian.tr_mul(&here) + away));
             begin.iter_mut().zip(step.iter()).for_each(|(z, s)| *z -= s);
-            normal = Some(factors);
+            last = Some((factors, jacobian));
         }
-        let covariance = normal?.inverse();
+        let (factors, jacobian) = last?;
+        let covariance = factors.inverse();
         let h = carried.len();
         let share = DMatrix::from_fn(h, h, |i, j| covariance[(m + i, m + j)] * prior[m + j]);
-        begin.iter().all(|z| z.is_finite()).then(|| (begin.split_off(m), share))
+        // Where the sum is least its slope is zero whatever the values: they move the states by −(JᵀJ + P)⁻¹·Jᵀ·∂r/∂p.
+        let here = self.missed(&begin)?;
+        let moved = -factors.solve(&jacobian.tr_mul(&self.by_values(&begin, &here)?));
+        let by_values = moved.rows(m, h).into_owned();
+        begin.iter().all(|z| z.is_finite()).then(|| Shown { z: begin.split_off(m), share, by_values })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::carry;
+    use crate::effects::{self, Applied};
+    use crate::model::Model;
+    use crate::motion::Timing;
+
+    /// A vehicle that slides already when its log begins, and nearly forgets within it.
+    fn record(equations: &Equations, p: &[f64]) -> Record {
+        let time: Vec<f64> = (0..80).map(|i| 0.05 * f64::from(i)).collect();
+        let of = |f: &dyn Fn(f64) -> f64| time.iter().map(|t| f(*t)).collect::<Vec<f64>>();
+        let inputs = [of(&|t| 2.0 + (0.7 * t).sin()), of(&|t| 0.6 * (0.4 * t).cos())];
+        let mut record = Record::new("run", time, vec![vec![]; 3], true, &inputs, Timing::Sample);
+        let signals = record.signals.clone();
+        let mut stepper = Stepper::new(equations, &signals, p);
+        let mut arc = Arc { z: vec![0.0, 0.0, 0.2, -0.15], s: vec![] };
+        for i in 0..record.time.len() {
+            let y = stepper.outputs(&arc.z);
+            let noise = |c: usize| 2e-4 * ((i * i) as f64 + c as f64).sin();
+            (0..3).for_each(|c| record.columns[c].push(y[c] + noise(c)));
+            if i + 1 < record.time.len() {
+                stepper.advance(&mut arc, record.time[i], record.time[i + 1]);
+            }
+        }
+        record
+    }
+
+    /// The fit follows the slopes of these states by the values, so they must be those of what is found.
+    #[test]
+    fn states_move_with_the_values_as_their_slopes_say() {
+        let effect = Applied::new(effects::named("relaxation-length").unwrap(), None, vec![0.1, 0.8]).freed();
+        let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap().with_effect(effect);
+        let (equations, p) = (model.free_equations().unwrap(), model.free_values());
+        let record = record(&equations, &p);
+        let at = |p: &[f64]| carry::before(&equations, p, &record, 0, &record.measured(0));
+        let here = at(&p);
+        assert!((here.z[0] + 0.15).abs() < 2e-3, "{}", here.z[0]);
+        let (m, k) = (equations.visible, here.s.len() / equations.n());
+        for j in 0..p.len() {
+            let moved = |by: f64| {
+                let mut p = p.clone();
+                p[j] += by;
+                at(&p).z[0]
+            };
+            let slope = (moved(1e-3) - moved(-1e-3)) / 2e-3;
+            let said = here.s[m * k + m + j];
+            assert!((said - slope).abs() < 0.02 * slope.abs().max(0.01), "{j}: {said} for {slope}");
+        }
     }
 }

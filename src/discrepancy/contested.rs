@@ -40,6 +40,11 @@ fn named(effects: &[Applied]) -> Option<String> {
     (!names.is_empty()).then(|| listed_to(&names, most))
 }
 
+/// Whether something was asked for by some of the runs' parts or rows only.
+pub(super) fn is_contested(choice: &Choice) -> bool {
+    !choice.unshared.is_empty() || !choice.unsampled.is_empty()
+}
+
 /// What the report warns of where parts of the data contradict each other, or rows too far apart.
 pub(super) fn warnings(choice: &Choice) -> impl Iterator<Item = String> {
     let both = [contradiction(choice), too_seldom(choice)];

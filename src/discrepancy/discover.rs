@@ -111,7 +111,8 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
         report.data.warnings.extend(worse(&report.gap));
     }
     if unnamed::remains(&choice.after) {
-        report.data.warnings.extend(request.runs.iter().flat_map(|run| coarse::says(&model, run)));
+        let steps = request.runs.iter().flat_map(|run| coarse::says(&model, run)).collect();
+        told_of_steps(&mut report, steps, contested::is_contested(&choice));
     }
     report.steps = judged.steps(&choice, &report.gap)?;
     report.summary = found.sentence.unwrap_or_else(|| summary::verdict_sentence(&report));
@@ -124,6 +125,14 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
         pictures.residuals.extend(b.pictures(a));
     }
     Ok(Discovery { report, pictures, added })
+}
+
+/// What inputs in coarse steps may have left unexplained; where nothing else has a say, finer ones are the advice.
+fn told_of_steps(report: &mut Report, steps: Vec<String>, is_contested: bool) {
+    if let Some(first) = steps.first().filter(|_| report.verdict == Verdict::NotIdentifiable && !is_contested) {
+        report.next_experiment = Some(coarse::finer(first));
+    }
+    report.data.warnings.extend(steps);
 }
 
 /// The input roles that all runs log.

@@ -205,7 +205,9 @@ impl<'a> Thought<'a> {
         let equations = other.model.free_equations().ok()?;
         let records = [record];
         let plan = plan(&records);
-        let mut starts: Starts = plan.iter().map(|s| course::starts(&equations, &records[0], &s.windows)).collect();
+        // Where no heading is measured, the motion at the values that were found tells it.
+        let found = other.model.equations(&[]).ok()?;
+        let mut starts: Starts = plan.iter().map(|s| course::starts(&found, &records[0], &s.windows)).collect();
         let mut p = other.p.clone();
         let mut left = f64::NAN;
         for _ in 0..PASSES {

@@ -79,13 +79,17 @@ fn a_device_without_end_is_refused() {
 fn sound(run: &Run) -> bool {
     let rows = run.time.len();
     let poses = [&run.x, &run.y].into_iter().chain(&run.heading).chain(&run.trailer_headings);
-    let mut columns = poses.chain(&run.inputs).chain([&run.time]);
+    // Rows without a pose have inputs all the same.
+    let logged = run.apart.as_ref().map_or(&run.time, |a| &a.time);
+    let whole = |column: &Vec<f64>, rows: usize| column.len() == rows && column.iter().all(|v| v.is_finite());
     let dropped: usize = run.why_dropped.values().sum();
     rows >= 2
         && run.time.is_sorted_by(|a, b| a < b)
         && run.roles.len() == run.inputs.len()
         && run.rows_dropped == dropped
-        && columns.all(|column| column.len() == rows && column.iter().all(|value| value.is_finite()))
+        && logged.is_sorted_by(|a, b| a < b)
+        && run.inputs.iter().all(|column| whole(column, logged.len()))
+        && poses.into_iter().chain([&run.time]).all(|column| whole(column, rows))
 }
 
 const TRAILERS: &str = "\

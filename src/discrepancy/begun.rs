@@ -123,12 +123,9 @@ impl<'a> Rows<'a> {
         sizes
     }
 
-    /// What a model that begins with a pose and hidden states misses of each row and column, in units of the noise.
-    fn missed(&self, begin: &[f64]) -> Option<DVector<f64>> {
-        self.missed_with(self.p, begin)
-    }
-
-    fn missed_with(&self, p: &[f64], begin: &[f64]) -> Option<DVector<f64>> {
+    /// What a model with such values that begins with a pose and hidden states misses of each row and column, in units
+    /// of the noise.
+    fn missed(&self, p: &[f64], begin: &[f64]) -> Option<DVector<f64>> {
         let mut stepper = Stepper::new(self.equations, &self.record.signals, p);
         let mut arc = Arc { z: begin.to_vec(), s: vec![] };
         let channels = self.record.channels();
@@ -145,18 +142,6 @@ impl<'a> Rows<'a> {
         found.iter().all(|x| x.is_finite()).then(|| DVector::from_vec(found))
     }
 
-    /// What the values of the model do to what is missed, where it begins so.
-    fn by_values(&self, begin: &[f64], here: &DVector<f64>) -> Option<DMatrix<f64>> {
-        let mut columns = DMatrix::zeros(here.len(), self.p.len());
-        for j in 0..self.p.len() {
-            let step = TRIED * self.p[j].abs().max(SMALL);
-            let mut beside = self.p.to_vec();
-            beside[j] += step;
-            columns.set_column(j, &((self.missed_with(&beside, begin)? - here) / step));
-        }
-        Some(columns)
-    }
-
     /// Hidden states that fit both the rows and what they were carried to.
     fn fitted(&self, carried: &[f64], pose: &[f64], spread: &[f64]) -> Option<Shown> {
         let m = pose.len();
@@ -166,14 +151,8 @@ impl<'a> Rows<'a> {
         let mut begin = before.clone();
         let mut last: Option<(Cholesky<f64, nalgebra::Dyn>, DMatrix<f64>)> = None;
         for _ in 0..ROUNDS {
-            let here = self.missed(&begin)?;
-            let mut jacobian = DMatrix::zeros(here.len(), begin.len());
-            for i in 0..begin.len() {
-                let step = TRIED * free(i).min(1.0);
-                let mut beside = begin.clone();
-                beside[i] += step;
-                jacobian.set_column(i, &((self.missed(&beside)? - &here) / step));
-            }
+            let here = self.missed(self.p, &begin)?;
+            let jacobian = slopes(&begin, |i| free(i).min(1.0), &here, |begin| self.missed(self.p, begin))?;
             let mut information = jacobian.tr_mul(&jacobian);
             (0..begin.len()).for_each(|i| information[(i, i)] += prior[i]);
             let away = DVector::from_fn(begin.len(), |i, _| prior[i] * (begin[i] - before[i]));
@@ -187,11 +166,29 @@ impl<'a> Rows<'a> {
         let h = carried.len();
         let share = DMatrix::from_fn(h, h, |i, j| covariance[(m + i, m + j)] * prior[m + j]);
         // Where the sum is least its slope is zero whatever the values: they move the states by −(JᵀJ + P)⁻¹·Jᵀ·∂r/∂p.
-        let here = self.missed(&begin)?;
-        let moved = -factors.solve(&jacobian.tr_mul(&self.by_values(&begin, &here)?));
+        let here = self.missed(self.p, &begin)?;
+        let by_values = slopes(self.p, |j| self.p[j].abs().max(SMALL), &here, |p| self.missed(p, &begin))?;
+        let moved = -factors.solve(&jacobian.tr_mul(&by_values));
         let by_values = moved.rows(m, h).into_owned();
         begin.iter().all(|z| z.is_finite()).then(|| Shown { z: begin.split_off(m), share, by_values })
     }
+}
+
+/// What numbers do to what is missed: each is moved by a small share of its size, and nothing else.
+fn slopes(
+    at: &[f64],
+    size: impl Fn(usize) -> f64,
+    here: &DVector<f64>,
+    missed: impl Fn(&[f64]) -> Option<DVector<f64>>,
+) -> Option<DMatrix<f64>> {
+    let mut slopes = DMatrix::zeros(here.len(), at.len());
+    for i in 0..at.len() {
+        let step = TRIED * size(i);
+        let mut beside = at.to_vec();
+        beside[i] += step;
+        slopes.set_column(i, &((missed(&beside)? - here) / step));
+    }
+    Some(slopes)
 }
 
 #[cfg(test)]

@@ -5,17 +5,16 @@
 
 use super::chain::{Variances, eliminate};
 use super::choose::{Choice, Scored};
-use super::course;
 use super::envelope::Envelope;
 use super::fit::Fit;
 use super::manoeuvre::{LENGTH, Manoeuvre, library};
-use super::problem::Problem;
+use super::problem::{Problem, starts};
 use super::record::Record;
 use super::relatives::Relative;
 use super::report::{NextExperiment, Verdict};
 use super::selection::{SCREEN, without};
 use super::verdict::{Outcome, missed};
-use super::windows::{Starts, linearise, plan};
+use super::windows::{linearise, plan};
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
@@ -205,9 +204,7 @@ impl<'a> Thought<'a> {
         let equations = other.model.free_equations().ok()?;
         let records = [record];
         let plan = plan(&records);
-        // Where no heading is measured, the motion at the values that were found tells it.
-        let found = other.model.equations(&[]).ok()?;
-        let mut starts: Starts = plan.iter().map(|s| course::starts(&found, &records[0], &s.windows)).collect();
+        let mut starts = starts(&other.model, &records, &plan).ok()?;
         let mut p = other.p.clone();
         let mut left = f64::NAN;
         for _ in 0..PASSES {

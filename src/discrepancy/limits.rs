@@ -53,5 +53,5 @@ fn in_place_of(selection: &Selection, named: &Grown, limit: &Applied, whole: &Ap
     }
     let mut steps = named.steps.clone();
     steps.push((whole.label(), fit.model.clone()));
-    Ok(Some(Grown { fit, steps, ..named.clone() }))
+    Ok(Some(Grown { fit, steps, candidates: named.candidates.clone(), refused: named.refused.clone() }))
 }

@@ -62,10 +62,15 @@ impl Problem {
 
     /// Poses at the windows' starts from the measurements alone, as the model's sensor says.
     pub fn starts(&self, model: &Model) -> Result<Starts> {
-        let equations = model.equations(&[])?;
-        let of_segment = |s: &Segment| course::starts(&equations, &self.records[s.record], &s.windows);
-        Ok(self.plan.iter().map(of_segment).collect())
+        starts(model, &self.records, &self.plan)
     }
+}
+
+/// Poses at the windows' starts from the measurements alone, as a model's sensor says; where no heading is measured, its
+/// motion at the values that it has.
+pub(super) fn starts(model: &Model, records: &[Record], plan: &[Segment]) -> Result<Starts> {
+    let equations = model.equations(&[])?;
+    Ok(plan.iter().map(|s| course::starts(&equations, &records[s.record], &s.windows)).collect())
 }
 
 /// Whether a run is long enough to be cut into windows.

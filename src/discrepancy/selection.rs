@@ -36,7 +36,6 @@ pub(super) const SCREEN: Effort = Effort { passes: 5, enough: 0.05, variances: f
 pub(super) const FULL: Effort = Effort { passes: 15, enough: 1e-4, variances: true };
 
 /// What a search ends with.
-#[derive(Clone)]
 pub(super) struct Grown {
     /// The model with what was found.
     pub fit: Fit,

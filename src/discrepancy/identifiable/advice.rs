@@ -4,14 +4,13 @@ use super::information::Driven;
 use super::marks::Ground;
 use super::pairs::{separating, told_apart};
 use super::prospects::{Bar, Candidate, Shown, gain};
-use crate::discrepancy::course;
 use crate::discrepancy::experiment::{ALIKE, Thought};
 use crate::discrepancy::fit::Fit;
 use crate::discrepancy::manoeuvre::{Manoeuvre, library};
-use crate::discrepancy::problem::Problem;
+use crate::discrepancy::problem::{Problem, starts};
 use crate::discrepancy::report::NextExperiment;
 use crate::discrepancy::summary::listed_to;
-use crate::discrepancy::windows::{Starts, plan};
+use crate::discrepancy::windows::plan;
 use crate::error::Result;
 use rayon::prelude::*;
 
@@ -67,10 +66,9 @@ impl Open<'_> {
 
     fn driven(&self, thought: &Thought, fit: &Fit, m: &Manoeuvre) -> Result<Option<Driven>> {
         let Some(record) = thought.driven(m, &fit.model) else { return Ok(None) };
-        let equations = fit.model.equations(&[])?;
         let records = vec![record];
         let plan = plan(&records);
-        let starts: Starts = plan.iter().map(|s| course::starts(&equations, &records[0], &s.windows)).collect();
+        let starts = starts(&fit.model, &records, &plan)?;
         Ok(Some(Driven { records, plan, starts }))
     }
 

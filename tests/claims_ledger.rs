@@ -62,7 +62,7 @@ fn the_ledger_is_the_same_for_any_number_of_threads() {
 #[test]
 fn a_seed_changes_the_cases_and_not_the_ledger() {
     let one: Vec<Claim> = claims::all().into_iter().filter(|c| c.id == "realisation").collect();
-    let of = |seed| verify(&one, &Options { cases: 3, seed }, &|_| ());
+    let of = |seed| verify(&one, &Options { cases: 12, seed }, &|_| ());
     assert!(of(1).all_earned() && of(2).all_earned());
     // A check that tells the seed it was given shows that the seed arrives.
     let told = std::sync::Arc::new(std::sync::Mutex::new(Vec::new()));

@@ -8,6 +8,7 @@ mod reviewed;
 #[path = "support/rounded.rs"]
 mod rounded;
 
+use creepage::discrepancy::html::gap_svg;
 use creepage::discrepancy::summary::summary_text;
 use creepage::effects::{self, Applied};
 use creepage::figures::fixed;
@@ -35,6 +36,9 @@ fn a_report() {
         })
     });
     reviewed("report-patched-effects", &short.collect::<Vec<_>>().join("\n"));
+    let kept = std::fs::read_to_string(format!("{home}examples/gap.svg")).unwrap();
+    let again = "run the first command of the README and copy report/gap.svg to examples";
+    assert!(kept == gap_svg(&found.report, &found.pictures), "examples/gap.svg is stale: {again}");
 }
 
 /// Inputs of the reviewed drive, by the beginning of their role: smooth, turning to both sides, never alike.

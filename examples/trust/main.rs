@@ -11,6 +11,8 @@
 mod heat_map;
 mod interval;
 mod rows;
+#[path = "../../tests/simulator/mod.rs"]
+mod simulator;
 mod suite;
 mod table;
 mod tally;

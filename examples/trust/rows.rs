@@ -1,9 +1,9 @@
 //! The cases and their parameters as CSV, one row each.
 
+use crate::simulator::{Hidden, Timing};
 use crate::suite::case::Case;
 use crate::suite::make::Target;
 use crate::suite::secret;
-use crate::suite::simulator::{Hidden, Timing};
 use crate::workers::Outcome;
 use std::fmt::Write as _;
 

@@ -3,6 +3,7 @@
 mod commands;
 mod documents;
 mod fences;
+mod groups;
 mod links;
 mod sandbox;
 
@@ -39,6 +40,11 @@ fn the_book_has_every_chapter_and_leads_nowhere_else() {
 #[test]
 fn every_chapter_of_the_theory_is_a_module() {
     none(links::modules());
+}
+
+#[test]
+fn every_file_of_tests_is_run() {
+    none(groups::left_out());
 }
 
 #[test]

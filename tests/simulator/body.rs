@@ -5,6 +5,7 @@ use super::laws::Laws;
 use super::profile::Profile;
 use super::trailer::{self, Trailer};
 use super::vehicle::{Parameters, Tractor};
+use std::cell::Cell;
 
 /// Where the parts of the state vector stand: pose, velocity through the carpet of the
 /// kinematic slips, relaxed slip, then one absolute heading for each trailer.
@@ -45,6 +46,35 @@ pub struct Body {
     pub trailers: Vec<Trailer>,
     /// The driver.
     pub profile: Profile,
+    /// What was asked of the wheels at the last times: an implicit scheme asks for the same three again and again.
+    pub asked: Asked,
+}
+
+/// Times, and the speed and turn asked at each; no time is the same as what was never asked.
+#[derive(Debug)]
+pub struct Asked {
+    known: Cell<[(f64, (f64, f64)); 4]>,
+    oldest: Cell<usize>,
+}
+
+impl Default for Asked {
+    fn default() -> Self {
+        Asked { known: Cell::new([(f64::NAN, (0.0, 0.0)); 4]), oldest: Cell::new(0) }
+    }
+}
+
+impl Asked {
+    fn at(&self, t: f64, ask: impl FnOnce() -> (f64, f64)) -> (f64, f64) {
+        let mut known = self.known.get();
+        if let Some((_, value)) = known.iter().find(|(at, _)| *at == t) {
+            return *value;
+        }
+        let value = ask();
+        known[self.oldest.get()] = (t, value);
+        self.known.set(known);
+        self.oldest.set((self.oldest.get() + 1) % known.len());
+        value
+    }
 }
 
 impl Body {
@@ -204,7 +234,7 @@ impl Body {
     /// Nominal rim speed (m/s) and turn (rad/s or rad) that act at time `t`.
     fn asked_of_wheels(&self, t: f64) -> (f64, f64) {
         let logged_at = t - self.laws.delay;
-        (self.profile.speed.value(logged_at), self.profile.turn.value(logged_at))
+        self.asked.at(logged_at, || (self.profile.speed.value(logged_at), self.profile.turn.value(logged_at)))
     }
 
     /// How fast the speed asked by the drive changes, m/s²: it depends on time alone, so a

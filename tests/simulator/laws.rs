@@ -133,6 +133,11 @@ impl Laws {
         (one(self.radius.0 * left, self.e_rc.0), one(self.radius.1 * right, self.e_rc.1))
     }
 
+    /// Whether a slip has a time or a length in which it settles.
+    pub fn settles(&self) -> bool {
+        self.traction.is_some() || self.cornering.is_some() || self.relaxation.is_some()
+    }
+
     /// The true steering angle (rad) for the logged one.
     pub fn steered(&self, logged: f64) -> f64 {
         let (gain, offset, cubic) = self.steering;

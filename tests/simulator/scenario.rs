@@ -1,6 +1,6 @@
 //! A scenario: a vehicle, what it hides, how it is driven and how it is logged.
 
-use super::body::{Body, HEADING, TRAILERS};
+use super::body::{Asked, Body, HEADING, TRAILERS};
 use super::contact::{arrow, left_of};
 use super::gauss::advance;
 use super::hidden::Hidden;
@@ -13,8 +13,11 @@ use super::vehicle::{Channel, Parameters, Vehicle, channels};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// The longest integration step unless a scenario says otherwise, s.
-const STEP: f64 = 0.005;
+/// The longest integration step, s: what a driver does takes seconds.
+const STEP: f64 = 0.02;
+
+/// The same where a hidden slip settles in tenths of a second, s; with longer ones the scheme would not converge.
+const SHORT_STEP: f64 = 0.005;
 
 /// What a row of the log holds in its input columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -66,8 +69,6 @@ pub struct Scenario {
     pub lead_in: f64,
     /// Articulation of each trailer when the drive began: heading ahead minus its own, rad.
     pub articulation: Vec<f64>,
-    /// The longest integration step, s.
-    pub step: f64,
     /// Of jitter, lost rows and noise; the profile is already drawn.
     pub seed: u64,
 }
@@ -98,7 +99,6 @@ impl Scenario {
             wrap_heading: false,
             lead_in: 20.0,
             articulation: vec![0.0; vehicle.trailers()],
-            step: STEP,
             vehicle,
             seed,
         }
@@ -161,6 +161,7 @@ impl Scenario {
             laws,
             trailers,
             profile: self.profile.clone(),
+            asked: Asked::default(),
         }
     }
 
@@ -192,13 +193,14 @@ impl Scenario {
                 behind
             })
             .collect();
+        let step = if body.laws.settles() { SHORT_STEP } else { STEP };
         let began = body.at_rest_in(-self.lead_in, self.start, &headings);
-        let arrived = advance(&rates, began, -self.lead_in, 0.0, self.step);
+        let arrived = advance(&rates, began, -self.lead_in, 0.0, step);
         let mut state = body.moved_to(&arrived, self.start);
         let mut now = 0.0;
         let mut truth = Vec::with_capacity(times.len());
         for &t in times {
-            state = advance(&rates, state, now, t, self.step);
+            state = advance(&rates, state, now, t, step);
             now = t;
             let pace = body.pace(t, &state);
             truth.push(Truth {

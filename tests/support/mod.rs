@@ -10,12 +10,13 @@ pub mod tree;
 use proptest::prelude::*;
 use proptest::test_runner::{FileFailurePersistence, RngSeed, TestRunner};
 use std::fmt::Debug;
+use std::panic::Location;
 
 pub type Outcome = Result<(), TestCaseError>;
 
 /// Tries a law on `cases` random values; the same values on every machine and in every run.
 ///
-/// A failure is kept in `tests/proptest-regressions/` and tried first from then on.
+/// A failure is kept in `tests/proptest-regressions/`, in a file for each file of tests, and tried first from then on.
 #[track_caller]
 pub fn check<S: Strategy>(cases: u32, values: S, law: impl Fn(S::Value) -> Outcome)
 where
@@ -25,7 +26,7 @@ where
         cases,
         max_shrink_iters: 4000,
         rng_seed: RngSeed::Fixed(0x0063_7265_6570),
-        failure_persistence: Some(Box::new(FileFailurePersistence::Direct(REGRESSIONS))),
+        failure_persistence: Some(Box::new(FileFailurePersistence::Direct(kept(Location::caller().file())))),
         ..ProptestConfig::default()
     };
     if let Err(failure) = TestRunner::new(config).run(&values, law) {
@@ -33,7 +34,11 @@ where
     }
 }
 
-const REGRESSIONS: &str = concat!("tests/proptest-regressions/", env!("CARGO_CRATE_NAME"), ".txt");
+/// Where failures of a file of tests are kept, which has to live as long as the process.
+fn kept(file: &str) -> &'static str {
+    let name = file.trim_start_matches("tests/").trim_end_matches(".rs").replace('/', "_");
+    format!("tests/proptest-regressions/{name}.txt").leak()
+}
 
 /// A finite number of modest size, often a small whole one or zero.
 pub fn modest() -> impl Strategy<Value = f64> + Clone {

@@ -5,7 +5,7 @@ use super::logging;
 use super::make::{MAKES, Make, PAIRINGS, TARGETS, Target};
 use super::power::{Power, powers};
 use super::secret;
-use super::simulator::{Hidden, Scenario};
+use crate::simulator::{Hidden, Scenario};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

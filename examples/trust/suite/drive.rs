@@ -1,6 +1,6 @@
 //! How the vehicle is driven: sums of smooth signals, to both sides, to one side, in circles, with stops.
 
-use super::simulator::{Profile, Signal, Tractor};
+use crate::simulator::{Profile, Signal, Tractor};
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::TAU;

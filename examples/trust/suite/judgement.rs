@@ -146,7 +146,7 @@ fn listed(named: &Named, wanted: Target) -> bool {
 }
 
 /// Every parameter of a hidden effect with what was found for it, by the class' own parameters.
-fn measured(hidden: &super::simulator::Hidden, named: &Named) -> Vec<Parameter> {
+fn measured(hidden: &crate::simulator::Hidden, named: &Named) -> Vec<Parameter> {
     let id = secret::target(hidden).0;
     let found: Vec<(&'static str, f64, f64)> = named
         .parameters

@@ -1,6 +1,6 @@
 //! How a run is logged: rate, noise, gaps, jitter, wrapped angles, gross errors.
 
-use super::simulator::{Mounting, Noise, Outliers, Scenario, Timing};
+use crate::simulator::{Mounting, Noise, Outliers, Scenario, Timing};
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 

@@ -1,6 +1,6 @@
 //! The makes of vehicle a case is drawn from, and which effects apply to each.
 
-use super::simulator::{Parameters, Scenario, Tractor, Vehicle};
+use crate::simulator::{Parameters, Scenario, Tractor, Vehicle};
 use creepage::effects;
 use creepage::files::ModelFile;
 use creepage::model::{self, Model};
@@ -89,7 +89,7 @@ impl Make {
         let roles = scenario.roles().into_iter().map(|(role, _)| role).filter(|role| !poses.contains(role));
         let roles: Vec<String> = roles.map(String::from).collect();
         let model = Model::from_file(&file, effects::all(), &roles).expect("every make is a vehicle of the library");
-        // What is asked for in the place of its limit is made by forces: tests/discover_forces.rs.
+        // What is asked for in the place of its limit is made by forces: tests/discovery/forces.rs.
         let first = model.applicable(effects::all()).into_iter().filter(|(e, _)| e.limit.is_none());
         let applicable = first.map(|(e, trailer)| (e.id.as_str(), trailer));
         applicable.filter(|(id, _)| self.heading || !self.is_a_start_heading(id)).collect()

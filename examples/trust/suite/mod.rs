@@ -6,11 +6,8 @@
 //! Nothing here looks at an answer of the library before it is judged: whether the data of a case can tell
 //! its secret is computed from the simulator alone ([`power`]).
 
-// The benchmark and the test that mount this module use different parts of it.
+// The benchmark and the test that mount this module use different parts of it, beside a `simulator` of theirs.
 #![allow(dead_code)]
-
-#[path = "../../../tests/simulator/mod.rs"]
-pub mod simulator;
 
 pub mod basis;
 pub mod case;

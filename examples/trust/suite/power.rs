@@ -8,7 +8,7 @@ use super::basis::Basis;
 use super::class;
 use super::make::Target;
 use super::secret;
-use super::simulator::{Hidden, Log, Noise, Outliers, Scenario, Vehicle};
+use crate::simulator::{Hidden, Log, Noise, Outliers, Scenario, Vehicle};
 use nalgebra::DVector;
 
 /// χ² an effect has to make to count as visible: 14 standard deviations.
@@ -102,7 +102,6 @@ impl<'a> Clean<'a> {
             wrap_heading: false,
             rate: THINNED,
             duration: FITTED * scenario.duration,
-            step: 0.02,
             ..scenario.clone()
         };
         let rows = (scenario.rate * (1.0 - scenario.dropouts) / THINNED).sqrt();
@@ -110,10 +109,7 @@ impl<'a> Clean<'a> {
     }
 
     fn log(&self, hidden: &[Hidden]) -> Log {
-        // The scheme for stiff laws converges only with short steps.
-        let stiff = |h: &Hidden| matches!(h, Hidden::TractionCreep { .. } | Hidden::CorneringCreep { .. });
-        let step = if hidden.iter().any(stiff) { 0.005 } else { self.thinned.step };
-        Scenario { hidden: hidden.to_vec(), step, ..self.thinned.clone() }.run()
+        Scenario { hidden: hidden.to_vec(), ..self.thinned.clone() }.run()
     }
 
     /// How many columns are measured: x, y, headings.

@@ -1,7 +1,7 @@
 //! Hidden effects by the library's names: sizes drawn, amplitudes changed, small ones to feel for rivals.
 
 use super::make::Target;
-use super::simulator::{Hidden, Tractor};
+use crate::simulator::{Hidden, Tractor};
 use creepage::effects;
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;

@@ -31,7 +31,7 @@ fn intrinsic() -> Vec<Claim> {
             .under("sin φ ≠ 0")
             .chapter(CHAPTER)
             .code(&[FORMS])
-            .tests(&["tests/formula_creep.rs"])
+            .tests(&["tests/formula/creep.rs"])
             .proof(
                 "σ without creep, and the row divided by sin φ",
                 &[("sigma", "cot(phi)"), ("g/sin(phi)", "x' - cot(phi)*y'")],
@@ -53,7 +53,7 @@ fn intrinsic() -> Vec<Claim> {
         .remark("(21) follows from (17) with the v_t of section 4; creep turns the course by arctan e.")
         .chapter(CHAPTER)
         .code(&[FORMS])
-        .tests(&["tests/formula_creep.rs", "tests/mechanism_forms.rs"])
+        .tests(&["tests/formula/creep.rs", "tests/mechanism/forms.rs"])
         .proof(
             "σ of the derived form, its closed form, and the row",
             &[
@@ -85,7 +85,7 @@ fn intrinsic() -> Vec<Claim> {
             )
             .chapter(REGULAR)
             .code(&[FORMS])
-            .tests(&["tests/mechanism_forms.rs", "tests/formula_creep.rs"])
+            .tests(&["tests/mechanism/forms.rs", "tests/formula/creep.rs"])
             .refutation(
                 "σ has a value everywhere",
                 &[("sigma", "(cot(phi) - e_tc)/(1 + e_tc*cot(phi))")],
@@ -121,7 +121,7 @@ fn regular() -> Vec<Claim> {
         .about(&[21])
         .chapter(REGULAR)
         .code(&[FORMS])
-        .tests(&["tests/mechanism_forms.rs"])
+        .tests(&["tests/mechanism/forms.rs"])
         .proof(
             "the row, its length, and its angle form with e = tan α",
             &[("g", "(sin(phi) + e_tc*cos(phi))*x' - (cos(phi) - e_tc*sin(phi))*y'"), ("s^2 + p^2", "1 + e_tc^2")],
@@ -137,7 +137,7 @@ fn regular() -> Vec<Claim> {
             .about(&[21])
             .chapter(REGULAR)
             .code(&["src/formula/derive.rs", FORMS])
-            .tests(&["tests/formula_derivatives.rs"])
+            .tests(&["tests/formula/derivatives.rs"])
             .proof("in the velocities of the body", &[("g_phi", "v_l + e_tc*v_t"), ("g_e", "v_l")], on_sleigh)
             .proof(
                 "of the pair (s, p)",
@@ -159,7 +159,7 @@ fn regular() -> Vec<Claim> {
         .under("sin φ + e·cos φ ≠ 0")
         .chapter(REGULAR)
         .code(&["src/formula/derive.rs"])
-        .tests(&["tests/formula_derivatives.rs"])
+        .tests(&["tests/formula/derivatives.rs"])
         .proof(
             "in φ",
             &[
@@ -198,7 +198,7 @@ fn group() -> Vec<Claim> {
         .under("1 − e₁·e₂ ≠ 0")
         .chapter(REGULAR)
         .code(&[FORMS])
-        .tests(&["tests/formula_creep.rs"])
+        .tests(&["tests/formula/creep.rs"])
         .proof(
             "composition, inverse, and addition of angles",
             &[

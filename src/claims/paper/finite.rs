@@ -17,7 +17,7 @@ pub(super) fn claims() -> Vec<Claim> {
             .under("constant e_rc; any wheel rate")
             .chapter(CHAPTER)
             .code(&["src/motion/trajectory.rs"])
-            .tests(&["tests/motion_kinematics.rs"])
+            .tests(&["tests/motion/kinematics.rs"])
             .sample(
                 "displacements of simulated disks: (d, θ) is proportional, a rotational pair",
                 &[("d", "r*theta*(1 - e_rc)"), ("theta_rc", "theta*e_rc")],
@@ -29,7 +29,7 @@ pub(super) fn claims() -> Vec<Claim> {
             .under("the disk turns: ω ≠ 0")
             .chapter(CHAPTER)
             .code(&["src/motion/trajectory.rs"])
-            .tests(&["tests/motion_sensitivity.rs"])
+            .tests(&["tests/motion/sensitivity.rs"])
             .sample(
                 "finite motions of disks driven through a viscous contact, in ever shorter times: the quotient tends \
                  to the coefficient with the first power of the time",

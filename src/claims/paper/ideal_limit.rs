@@ -30,7 +30,7 @@ fn base(id: &str, status: Status, says: &str) -> Claim {
         .at("section 1 and conclusions: creep vanishes with its coefficients; corrected theorem (d)")
         .chapter(CHAPTER)
         .code(&["src/motion/trajectory.rs"])
-        .tests(&["tests/motion_kinematics.rs", "tests/motion_sensitivity.rs"])
+        .tests(&["tests/motion/kinematics.rs", "tests/motion/sensitivity.rs"])
 }
 
 fn one_wheel() -> Claim {

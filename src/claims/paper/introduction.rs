@@ -20,7 +20,7 @@ pub(super) fn claims() -> Vec<Claim> {
         .under("k_g > 0, constant speed; the effect relaxation-length with the length 1/k_g")
         .chapter(CHAPTER)
         .code(&[EFFECTS])
-        .tests(&["tests/mechanism_effects.rs"])
+        .tests(&["tests/mechanism/effects.rs"])
         .sample(
             "simulated wheels whose creep builds up: the deviation from its final value after a way s",
             &[("deviation", "-e_tc*v_l*exp(-k_g*s)")],
@@ -36,7 +36,7 @@ pub(super) fn claims() -> Vec<Claim> {
         .under("quasi-static: the lateral friction f = −k_r·θ_c balances m·v_l·φ̇; small angles, θ_c = v_t/v_l")
         .chapter(CHAPTER)
         .code(&[EFFECTS])
-        .tests(&["tests/mechanism_effects.rs"])
+        .tests(&["tests/mechanism/effects.rs"])
         .proof(
             "the motion with the effect load-dependent-creep, c = m/k_r",
             &[("m*v_l*phi'", "-k_r*v_t/v_l"), ("v_t", "-m*v_l^2*phi'/k_r")],

@@ -6,7 +6,7 @@ use crate::formula::{Expr, Symbol};
 
 const CHAPTER: &str = "10-viscous";
 const LAWS: &str = "src/dynamics/law.rs";
-const TESTS: &str = "tests/dynamics_laws.rs";
+const TESTS: &str = "tests/dynamics/laws.rs";
 
 pub(super) fn claims() -> Vec<Claim> {
     vec![growth(), elastic(), two_laws()]

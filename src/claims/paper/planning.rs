@@ -11,7 +11,7 @@ pub(super) fn claims() -> Vec<Claim> {
             .under("constant known coefficients; the plan turns the wheel on the spot, then follows a given pair of rates, stretched")
             .chapter("09-planning")
             .code(&["src/motion/trajectory.rs"])
-            .tests(&["tests/motion_kinematics.rs"])
+            .tests(&["tests/motion/kinematics.rs"])
             .sample(
                 "plans for generated goals, executed in the simulator: where they end",
                 &[

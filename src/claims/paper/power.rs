@@ -77,7 +77,7 @@ fn energy_falls() -> Claim {
         )
         .chapter(CHAPTER)
         .code(&["src/dynamics/derive.rs", "src/dynamics/bodies.rs", "src/dynamics/contact.rs"])
-        .tests(&["tests/dynamics_energy.rs"])
+        .tests(&["tests/dynamics/energy.rs"])
         .refutation("a disk that slips", &[("E'", "0")], &[("E'", "-b_R*v_A^2")], proving(slipping))
         .proof("one wheel", &[("E'", "-b_R*v_A^2 - b_T*v_t^2")], proving(wheel))
         .proof("one wheel driven by a torque", &[("E'", "tau*theta' - b_R*v_A^2 - b_T*v_t^2")], proving(driven))

@@ -21,7 +21,7 @@ pub(super) fn claims() -> Vec<Claim> {
                 "src/effects/catalogue.toml",
                 "src/claims/generated/moving.rs",
             ])
-            .tests(&["tests/mechanism_effects.rs", "tests/motion_kinematics.rs", "tests/claims_generated.rs"])
+            .tests(&["tests/mechanism/effects.rs", "tests/motion/kinematics.rs", "tests/claims/generated.rs"])
             .sample(
                 "generated twists and trailer rates of unicycles, differential drives and cars with up to five trailers, \
                  every wheel of its own radius and fixed at its own angle: coefficients from velocities of the contacts, \

@@ -17,7 +17,7 @@ pub(super) fn claims() -> Vec<Claim> {
             .remark(remark)
             .chapter("02-rotation-creep")
             .code(CODE)
-            .tests(&["tests/mechanism_regime.rs"])
+            .tests(&["tests/mechanism/regime.rs"])
             .sample(
                 "at, just inside and beyond generated limits: slipping 2, backward 1, ideal 0, forward −1, skidding −2",
                 &[("at_upper", "2"), ("inside_upper", "1"), ("zero", "0"), ("inside_lower", "-1"), ("at_lower", "-2"), ("no_spin", "9")],
@@ -30,7 +30,7 @@ pub(super) fn claims() -> Vec<Claim> {
             .remark(remark)
             .chapter("03-traverse-creep")
             .code(CODE)
-            .tests(&["tests/mechanism_regime.rs"])
+            .tests(&["tests/mechanism/regime.rs"])
             .sample(
                 "at, just inside and beyond generated limits: left 1, ideal 0, right −1, side-slip 2",
                 &[("at_upper", "2"), ("inside_upper", "1"), ("zero", "0"), ("inside_lower", "-1"), ("at_lower", "2"), ("no_spin", "9")],

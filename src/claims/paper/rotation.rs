@@ -46,7 +46,7 @@ fn kinematics() -> Vec<Claim> {
             .under("no creep")
             .chapter(CHAPTER)
             .code(&[FORMS, "src/vehicles/catalogue.toml"])
-            .tests(&["tests/mechanism_forms.rs", "tests/mechanism_motion.rs"])
+            .tests(&["tests/mechanism/forms.rs", "tests/mechanism/motion.rs"])
             .proof("the row of the disk without creep", &[("v_l - r*theta'", "0"), ("v_A", "0")], ideal)
             .sabotaged_by(&[&[("v_l + r*theta'", "0")], &[("v_A", "theta'")], &[("v_l - theta'/r", "0")]]),
         Claim::new("eq-4", Status::Proved, "the contact of a creeping disk moves with v_A = v_l − r·ω = −r·ω·e_rc")
@@ -55,7 +55,7 @@ fn kinematics() -> Vec<Claim> {
             .remark("The paper writes v_i for the ideal and for the real velocity; in (4) it is the real one, v_l.")
             .chapter(CHAPTER)
             .code(&[FORMS])
-            .tests(&["tests/mechanism_forms.rs"])
+            .tests(&["tests/mechanism/forms.rs"])
             .proof(
                 "velocity of the particle of the rim that touches the ground",
                 &[("v_A", "v_l - r*omega"), ("v_A", "-r*omega*e_rc")],
@@ -80,7 +80,7 @@ fn kinematics() -> Vec<Claim> {
             .under("r·ω ≠ 0")
             .chapter(CHAPTER)
             .code(&[FORMS, "src/mechanism/regime.rs"])
-            .tests(&["tests/mechanism_forms.rs", "tests/formula_creep.rs"])
+            .tests(&["tests/mechanism/forms.rs", "tests/formula/creep.rs"])
             .proof(
                 "the row solved for its coefficient, and for the speed",
                 &[("e_rc", "1 - v_l/(r*theta')"), ("v_l", "r*theta'*(1 - e_rc)")],
@@ -95,7 +95,7 @@ fn kinematics() -> Vec<Claim> {
             )
             .chapter(CHAPTER)
             .code(&[FORMS, "src/mechanism/solve.rs"])
-            .tests(&["tests/formula_creep.rs", "tests/mechanism_regime.rs"])
+            .tests(&["tests/formula/creep.rs", "tests/mechanism/regime.rs"])
             .refutation(
                 "the derived motion solved for its coefficient, only the disk at rest left out",
                 &[("e_rc", "v_l^2 + omega^2")],
@@ -181,7 +181,7 @@ fn friction() -> Vec<Claim> {
         .about(&[11])
         .chapter(CHAPTER)
         .code(&["src/effects/catalogue.toml"])
-        .tests(&["tests/simulator_laws.rs"])
+        .tests(&["tests/discovery/simulator_laws.rs"])
         .proof(
             "power of the friction on the contact, never positive for b_R > 0",
             &[("f_R*v_A", "-b_R*v_A^2"), ("f_R*v_A", "-b_R*(r*omega*e_rc)^2")],
@@ -193,7 +193,7 @@ fn friction() -> Vec<Claim> {
             .under("b_R·r·ω ≠ 0")
             .chapter(CHAPTER)
             .code(&["src/effects/catalogue.toml"])
-            .tests(&["tests/simulator_laws.rs"])
+            .tests(&["tests/discovery/simulator_laws.rs"])
             .proof(
                 "friction, coefficient and speed in a circle",
                 &[("e_rc", "f_R/(b_R*r*omega)"), ("v_l", "r*omega - f_R/b_R"), ("v_l", "(1 - e_rc)*r*omega")],
@@ -205,7 +205,7 @@ fn friction() -> Vec<Claim> {
             .under("constant radius and creep")
             .chapter(CHAPTER)
             .code(&["src/mechanism/integrals.rs"])
-            .tests(&["tests/mechanism_growth.rs"])
+            .tests(&["tests/mechanism/growth.rs"])
             .proof(
                 "the differential of x − r·(1 − e_rc)·θ along the motion",
                 &[("v_l - r*(1 - e_rc)*theta'", "0")],
@@ -227,7 +227,7 @@ fn generic_form() -> Vec<Claim> {
         .under("the vehicles of the catalogue")
         .chapter(CHAPTER)
         .code(&[FORMS])
-        .tests(&["tests/mechanism_forms.rs", "tests/describe_formulas.rs"])
+        .tests(&["tests/mechanism/forms.rs", "tests/describe/formulas.rs"])
         .proof("all rolling rows of the catalogue against the form", &[("sigma", "r*(1 - e)")], type_r)
         .proof("its derivatives", &[("by_e", "r*theta'"), ("by_rate", "-r*(1 - e_rc)")], |s, _| {
             let row = Expr::parse("v_l - r*(1 - e_rc)*theta'").unwrap_or_else(|_| Expr::int(0));

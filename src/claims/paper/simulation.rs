@@ -27,7 +27,7 @@ fn figure() -> Claim {
     .under("data of the paper; generated coefficients beside its four cases")
     .chapter(CHAPTER)
     .code(&[CONSERVATIVE])
-    .tests(&["tests/fig7.rs"])
+    .tests(&["tests/reports/fig7.rs"])
     .sample(
         "end points after 2π seconds",
         &[("ideal_y", "pi/20"), ("x", "-(1 - e_rc)*e_tc*ideal_y"), ("y", "(1 - e_rc)*ideal_y")],
@@ -85,7 +85,7 @@ fn energy_rule() -> Claim {
         )
         .chapter(CHAPTER)
         .code(&["src/model/equations.rs"])
-        .tests(&["tests/fig7.rs"])
+        .tests(&["tests/reports/fig7.rs"])
         .sample(
             "energies of generated vehicles with up to three trailers through the compiled equations",
             &[("lambda", "sqrt(E_ideal/E_crept)")],
@@ -212,7 +212,7 @@ fn constant_energy() -> Claim {
         )
         .chapter(CHAPTER)
         .code(&[CONSERVATIVE])
-        .tests(&["tests/fig7.rs"])
+        .tests(&["tests/reports/fig7.rs"])
         .refutation(
             "the value at the start, kept",
             &[("energy", "11/2")],
@@ -243,7 +243,7 @@ fn traverse_first() -> Claim {
         )
         .chapter(CHAPTER)
         .code(&["src/model/build.rs", CONSERVATIVE])
-        .tests(&["tests/fig7.rs"])
+        .tests(&["tests/reports/fig7.rs"])
         .refutation(
             "without the energy rule",
             &[("sign(apart_T - apart_R)", "1")],

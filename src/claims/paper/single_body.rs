@@ -79,7 +79,7 @@ fn equations() -> Vec<Claim> {
             .under("no creep; wheel 1 is the right one, a the full track, equal radii")
             .chapter(CHAPTER)
             .code(&[CONSTRAINTS, "src/vehicles/catalogue.toml"])
-            .tests(&["tests/mechanism_motion.rs", "tests/mechanism_growth.rs"])
+            .tests(&["tests/mechanism/motion.rs", "tests/mechanism/growth.rs"])
     };
     vec![
         base("eq-26", 26, "the two-wheeler moves with the mean of its wheels: ẋ·cos φ + ẏ·sin φ − r·(θ̇₁ + θ̇₂)/2 = 0")
@@ -124,7 +124,7 @@ fn slips() -> Vec<Claim> {
             )
             .chapter(CHAPTER)
             .code(&[BUILD])
-            .tests(&["tests/motion_kinematics.rs"])
+            .tests(&["tests/motion/kinematics.rs"])
             .refutation(
                 "equal coefficients on both wheels",
                 &[("a*phi'", "r*(theta_1' - theta_2')")],
@@ -181,7 +181,7 @@ fn corrected_theorem() -> Vec<Claim> {
         .under("θ̇₁, θ̇₂ ≠ 0 and v_l ≠ 0")
         .chapter("05b-corrected-single-body")
         .code(&[BUILD, "src/mechanism/realisation.rs"])
-        .tests(&["tests/mechanism_growth.rs"])
+        .tests(&["tests/mechanism/growth.rs"])
         .proof(
             "motion, determinant of (v_l, v_t, φ̇) by (e₁, e₂, e_t), and the inverse",
             &[
@@ -198,7 +198,7 @@ fn corrected_theorem() -> Vec<Claim> {
             .under("ω ≠ 0, e_r ≠ 1, cos δ ≠ 0, 1 − e_f·tan δ ≠ 0")
             .chapter("05b-corrected-single-body")
             .code(&[BUILD, "src/mechanism/realisation.rs"])
-            .tests(&["tests/mechanism_growth.rs", "tests/mechanism_motion.rs"])
+            .tests(&["tests/mechanism/growth.rs", "tests/mechanism/motion.rs"])
             .proof(
                 "yaw rate, determinant of (v_l, v_t, φ̇) by (e_r, e_t, e_f)",
                 &[
@@ -217,7 +217,7 @@ fn corrected_theorem() -> Vec<Claim> {
         .under("first order in the creeps; a left turn has e < 0, so the car understeers iff |e_f|·sec²δ > |e_r|")
         .chapter("05b-corrected-single-body")
         .code(&[BUILD, "src/effects/catalogue.toml"])
-        .tests(&["tests/mechanism_effects.rs"])
+        .tests(&["tests/mechanism/effects.rs"])
         .proof(
             "derivatives of the yaw rate at the ideal car",
             &[("yaw_by_f", "r*theta'/(L*cos(delta)^2)"), ("yaw_by_r", "-r*theta'/L")],
@@ -248,7 +248,7 @@ fn reference_point() -> Vec<Claim> {
             )
             .chapter("05b-corrected-single-body")
             .code(&["src/mechanism/velocity.rs"])
-            .tests(&["tests/mechanism_forms.rs"])
+            .tests(&["tests/mechanism/forms.rs"])
             .refutation(
                 "the same coefficient everywhere on the body",
                 &[("e_there", "e")],

@@ -157,7 +157,7 @@ fn base(id: &str, status: Status, says: &str) -> Claim {
     Claim::new(id, status, says)
         .chapter(CHAPTER)
         .code(&[GROWTH, INTEGRALS, "src/formula/jet.rs", "src/claims/paper/descriptions.toml"])
-        .tests(&["tests/mechanism_growth.rs", "tests/mechanism_growth_laws.rs"])
+        .tests(&["tests/mechanism/growth.rs", "tests/mechanism/growth_laws.rs"])
 }
 
 fn counts(found: &Found) -> Claim {

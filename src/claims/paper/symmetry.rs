@@ -52,7 +52,7 @@ fn hopper() -> Claim {
     .about(&[20])
     .under("no moment acts in flight; the momentum is zero at take-off")
     .code(&[MOMENTUM, "src/model/own.rs", "src/vehicles/catalogue.toml"])
-    .tests(&["tests/symmetry_hopper.rs", "tests/symmetry_momentum.rs"])
+    .tests(&["tests/symmetry/hopper.rs", "tests/symmetry/momentum.rs"])
     .proof(
         "σ(l), derived from the kinetic energy and the turn that leaves it unchanged, and the motion of the vehicle",
         &[
@@ -79,7 +79,7 @@ fn curvature() -> Claim {
     base("hopper-curvature", Status::Proved, "the hopper's constraint is nonholonomic: its curvature dσ/dl is not zero")
         .under("I > 0, m > 0, l + d > 0")
         .code(&[CONNECTION, "src/mechanism/growth.rs"])
-        .tests(&["tests/symmetry_connection.rs"])
+        .tests(&["tests/symmetry/connection.rs"])
         .proof(
             "by exact derivatives of the local form",
             &[("curvature", "-2*I*m*(l + d)/(I + m*(l + d)^2)^2")],
@@ -165,7 +165,7 @@ fn phase() -> Claim {
     )
     .under("momentum zero; smooth closed loops")
     .code(&[CONNECTION, "src/connection/quadrature.rs", "src/motion/simulate.rs"])
-    .tests(&["tests/symmetry_hopper.rs", "tests/symmetry_connection.rs"])
+    .tests(&["tests/symmetry/hopper.rs", "tests/symmetry/connection.rs"])
     .sample(
         "l = 1/2 + 3/10·cos t, θ = 4/5·sin t, I = 1, m = 2/5, d = 3/5: both integrals to 1e-12",
         &[("line", "-0.29741719748508"), ("area", "-0.29741719748508")],
@@ -230,7 +230,7 @@ fn one_hinge() -> Claim {
         .under("angular momentum zero; one shape variable")
         .remark("Any form in one variable is closed, so that this needs no particular masses; the loop is a check of the program.")
         .code(&["src/connection/bodies.rs", CONNECTION])
-        .tests(&["tests/symmetry_bodies.rs"])
+        .tests(&["tests/symmetry/bodies.rs"])
         .proof("brackets: none, so one constraint of one", &[("growth", "1"), ("holonomic", "1"), ("nonholonomic", "0")], |s, _| {
             numbers(s, counted(2))
         })
@@ -256,7 +256,7 @@ fn two_hinges() -> Claim {
              rods it is −0.00676934.",
         )
         .code(&["src/connection/bodies.rs", CONNECTION])
-        .tests(&["tests/symmetry_bodies.rs"])
+        .tests(&["tests/symmetry/bodies.rs"])
         .proof("by brackets", &[("growth", "23"), ("nonholonomic", "1")], |s, _| numbers(s, counted(3)))
         .sample(
             "circles of radius 0.04 and 0.02 about (0.7, −0.4): the error of phase/area falls with the square of the radius",
@@ -312,7 +312,7 @@ fn cat() -> Claim {
     )
     .under("equal halves with moments a, a, c; bent by γ towards τ, here at τ = 0; angular momentum zero")
     .code(&[ROTATION, "src/connection/space.rs"])
-    .tests(&["tests/symmetry_cat.rs"])
+    .tests(&["tests/symmetry/cat.rs"])
     .proof(
         "local form in the frame of the first half, bending and going round",
         &[
@@ -339,7 +339,7 @@ fn cat_loop() -> Claim {
     base("falling-cat-loop", Status::Sampled, "once round with the bend γ turns the cat by −5.4848·γ² about its axis at γ = 0.05 and by 3.0196 in all at γ = 1")
         .under("J = diag(1, 1, 1/4)")
         .code(&[ROTATION])
-        .tests(&["tests/symmetry_cat.rs"])
+        .tests(&["tests/symmetry/cat.rs"])
         .sample(
             "orientation integrated along the loop",
             &[("about_z", "-5.4848"), ("angle", "3.0196")],

@@ -14,7 +14,7 @@ const DRAG: &str = "src/connection/drag.rs";
 const AIR: &str = "c_b*psi'^2/2 + c_l*(psi' + theta')^2/2";
 /// Drag that grows with the square of the leg's length.
 const ON_THE_LEG: &str = "c_b*psi'^2/2 + c_l*(l + d)^2*(psi' + theta')^2/2";
-const TESTS: [&str; 1] = ["tests/symmetry_drag.rs"];
+const TESTS: [&str; 1] = ["tests/symmetry/drag.rs"];
 
 pub(super) fn claims() -> Vec<Claim> {
     vec![memory(), no_memory(), coefficient(), creep(), recovery()]
@@ -102,7 +102,7 @@ fn coefficient() -> Claim {
     )
     .under("θ̇ ≠ 0, m > 0, l + d ≠ 0; as a description of one motion, not as a law")
     .code(&["src/mechanism/constraint_types.toml", "src/mechanism/momentum.rs"])
-    .tests(&["tests/symmetry_hopper.rs"])
+    .tests(&["tests/symmetry/hopper.rs"])
     .proof(
         "from the coefficient to the motion and back; its slope is not zero where the leg turns",
         &[

@@ -11,8 +11,8 @@ use proptest::prelude::*;
 
 const REALISATION: &str = "src/mechanism/realisation.rs";
 const GENERATED: &str = "src/claims/generated/stand.rs";
-const TESTS: &str = "tests/mechanism_realisation.rs";
-const DRAWN: &str = "tests/claims_generated.rs";
+const TESTS: &str = "tests/mechanism/realisation.rs";
+const DRAWN: &str = "tests/claims/generated.rs";
 
 pub(super) fn claims() -> Vec<Claim> {
     vec![single_body(), passive(), trailers(), only_traverse()]
@@ -240,7 +240,7 @@ fn only_traverse() -> Claim {
         .remark("Those coordinates have N + 2 constraints and all are directions; without a wheel angle there is no type R.")
         .chapter("06-trailers")
         .code(&["src/model/constraints.rs"])
-        .tests(&["tests/mechanism_growth.rs"])
+        .tests(&["tests/mechanism/growth.rs"])
         .refutation("one of type R, N + 1 of type T", &[("k", "1"), ("m", "N + 1")], &[("k", "0"), ("m", "N + 2")], forms)
         .proof("constraints of the kinematic car with N = 0 … 10 trailers", &[("k", "0"), ("m", "N + 2")], forms)
 }

@@ -38,7 +38,7 @@ fn base(id: &str, says: &str, place: &str) -> Claim {
         .at(place)
         .chapter(CHAPTER)
         .code(&[BUILD])
-        .tests(&["tests/motion_kinematics.rs"])
+        .tests(&["tests/motion/kinematics.rs"])
 }
 
 fn recursion() -> Vec<Claim> {

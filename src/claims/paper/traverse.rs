@@ -21,7 +21,7 @@ fn velocities() -> Vec<Claim> {
             .under("no creep")
             .chapter(CHAPTER)
             .code(&[FORMS])
-            .tests(&["tests/mechanism_forms.rs"])
+            .tests(&["tests/mechanism/forms.rs"])
             .proof("the derived row without creep", &[("ideal", "x'*sin(phi) - y'*cos(phi)")], on_row),
         Claim::new("E1", Status::Corrected, "the lateral velocity is v_t = ẋ·sin φ − ẏ·cos φ")
             .at("section 3, above (15); errata E1")
@@ -32,7 +32,7 @@ fn velocities() -> Vec<Claim> {
             )
             .chapter(CHAPTER)
             .code(&["src/model/build.rs", FORMS])
-            .tests(&["tests/mechanism_motion.rs"])
+            .tests(&["tests/mechanism/motion.rs"])
             .refutation(
                 "section 3 against the ẋ and ẏ of section 4",
                 &[("v_t", "x'*sin(phi) - y'*cos(phi)")],
@@ -94,7 +94,7 @@ fn coefficient() -> Vec<Claim> {
             .under("the wheel moves along its heading: v_l ≠ 0")
             .chapter(CHAPTER)
             .code(&["src/motion/trajectory.rs"])
-            .tests(&["tests/motion_sensitivity.rs"])
+            .tests(&["tests/motion/sensitivity.rs"])
             .sample(
                 "finite motions of wheels held by a viscous contact, in ever shorter times",
                 &[("limit", "v_t/v_l"), ("order", "1")],
@@ -113,7 +113,7 @@ fn coefficient() -> Vec<Claim> {
             .under("v_l ≠ 0 for the quotient; the row needs nothing")
             .chapter(CHAPTER)
             .code(&[FORMS])
-            .tests(&["tests/mechanism_forms.rs"])
+            .tests(&["tests/mechanism/forms.rs"])
             .proof("the derived row in the velocities of the body", &[("g", "e_tc*v_l - v_t")], on_sleigh),
         Claim::new("E8", Status::Corrected, "the coefficient (17) is undefined for the sleigh that stands or turns on the spot alone")
             .at("section 3, below (17); errata E8")
@@ -124,7 +124,7 @@ fn coefficient() -> Vec<Claim> {
             )
             .chapter(CHAPTER)
             .code(&[FORMS])
-            .tests(&["tests/mechanism_regime.rs"])
+            .tests(&["tests/mechanism/regime.rs"])
             .refutation(
                 "the derived row solved for its coefficient, only the sleigh that does not travel left out",
                 &[("e_tc", "v_l^2 + v_t^2")],
@@ -193,7 +193,7 @@ fn friction() -> Vec<Claim> {
         .about(&[18])
         .chapter(CHAPTER)
         .code(&["src/effects/catalogue.toml"])
-        .tests(&["tests/simulator_laws.rs"])
+        .tests(&["tests/discovery/simulator_laws.rs"])
         .proof(
             "power of the friction",
             &[("f_T*v_t", "-b_T*v_t^2"), ("f_T*v_t", "-b_T*(e_tc*v_l)^2")],
@@ -205,7 +205,7 @@ fn friction() -> Vec<Claim> {
             .under("b_T·v_l ≠ 0")
             .chapter(CHAPTER)
             .code(&["src/effects/catalogue.toml"])
-            .tests(&["tests/simulator_laws.rs"])
+            .tests(&["tests/discovery/simulator_laws.rs"])
             .proof("(17) and (18)", &[("e_tc", "-f_T/(b_T*v_l)")], move |s, _| prove(&machine(), s)),
     ]
 }

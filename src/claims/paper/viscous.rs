@@ -17,7 +17,7 @@ fn base(id: &str, says: &str) -> Claim {
     Claim::new(id, Status::Proved, says)
         .chapter(CHAPTER)
         .code(CODE)
-        .tests(&["tests/dynamics_sleigh.rs", "tests/dynamics_derived.rs"])
+        .tests(&["tests/dynamics/sleigh.rs", "tests/dynamics/derived.rs"])
 }
 
 const DISK: [(&str, &str); 6] = [
@@ -159,7 +159,7 @@ fn caplygin() -> Claim {
         .at("section 3, (14); corrected theorem (e)")
         .about(&[14])
         .under("C = √(2E/m); E the kinetic energy, which stays")
-        .tests(&["tests/dynamics_sleigh.rs"])
+        .tests(&["tests/dynamics/sleigh.rs"])
         .proof(
             "put into the derived equations, with the force that the blade needs",
             &[

@@ -20,7 +20,7 @@ fn base(id: &str, says: &str) -> Claim {
         .about(&[11, 18])
         .chapter(CHAPTER)
         .code(&["src/dynamics/system.rs", "src/motion/stiff.rs"])
-        .tests(&["tests/dynamics_sleigh.rs", "tests/dynamics_vehicles.rs"])
+        .tests(&["tests/dynamics/sleigh.rs", "tests/dynamics/vehicles.rs"])
 }
 
 fn order() -> Claim {

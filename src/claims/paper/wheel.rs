@@ -48,7 +48,7 @@ fn equations() -> Vec<Claim> {
             .about(&[n])
             .chapter(CHAPTER)
             .code(&["src/vehicles/catalogue.toml", "src/mechanism/contact.rs", BUILD])
-            .tests(&["tests/mechanism_motion.rs", "tests/motion_kinematics.rs"])
+            .tests(&["tests/mechanism/motion.rs", "tests/motion/kinematics.rs"])
     };
     vec![
         base("eq-22", 22, "the wheel rolls: ẋ·cos φ + ẏ·sin φ − r·θ̇ = 0").under("no creep").proof(
@@ -108,7 +108,7 @@ fn proposition() -> Vec<Claim> {
             )
             .chapter("04a-one-wheel")
             .code(&[BUILD, "src/mechanism/realisation.rs"])
-            .tests(&["tests/mechanism_motion.rs", "tests/mechanism_growth.rs"])
+            .tests(&["tests/mechanism/motion.rs", "tests/mechanism/growth.rs"])
             .refutation("every motion has coefficients", &printed, &rows, |s, _| defined_everywhere(s))
             .proof(
                 "determinant, and the inverse on both sides",
@@ -180,7 +180,7 @@ fn similarity() -> Vec<Claim> {
         .under("constant e_rc and e_tc; any inputs")
         .chapter(CHAPTER)
         .code(&["src/motion/trajectory.rs"])
-        .tests(&["tests/motion_kinematics.rs"])
+        .tests(&["tests/motion/kinematics.rs"])
         .proof(
             "velocities, X and Y those of the ideal wheel; κ is constant, so the same holds for the paths",
             &[("x'", "(1 - e_rc)*(X' - e_tc*Y')"), ("y'", "(1 - e_rc)*(e_tc*X' + Y')")],

@@ -1,7 +1,7 @@
 //! Which test meets which mutants, and how long it takes.
 
 use crate::Places;
-use crate::units::{CLAIM, DOCTESTS, End, ONE_IN, binaries, claims, doctests, run, tests};
+use crate::units::{CLAIM, DOCTESTS, End, ONE_IN, binaries, claims, doctests, is_asked, is_one_of, run, tests};
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Mutex;
@@ -22,10 +22,15 @@ pub struct Test {
 /// of tests it puts their lines in place of those before.
 pub fn measure(at: &Places, only: &[&str]) {
     let old = at.read("reach.tsv");
-    let kept = |l: &&str| !only.is_empty() && !only.iter().any(|o| l.starts_with(&format!("{o}\t")));
+    let named = |l: &str| {
+        let cells: Vec<&str> = l.split('\t').collect();
+        is_one_of(&format!("{}::{}", cells[0], cells[2]), only)
+    };
+    let kept = |l: &&str| !only.is_empty() && !named(l);
     let mut out: String = old.lines().filter(kept).map(|l| format!("{l}\n")).collect();
     let tested = |(binary, path): (String, String)| {
-        let names = tests(at, &path);
+        let asked = |name: &String| is_asked(at, only, &format!("{binary}::{name}"));
+        let names = tests(at, &path).into_iter().filter(asked).collect();
         (binary, path, names)
     };
     let mut all: Vec<_> = binaries(at, only).into_iter().map(tested).collect();

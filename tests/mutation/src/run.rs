@@ -74,7 +74,7 @@ pub fn run(at: &Places, up_to: f64, part: usize, of: usize) {
 
 /// The claims rest on everything: their tests are the last to ask about what lies below them.
 fn is_far(unit: &Unit, source: &str) -> bool {
-    (unit.key.starts_with("claims_ledger") || unit.key.starts_with(CLAIM)) && !source.starts_with("src/claims")
+    unit.key.starts_with(CLAIM) && !source.starts_with("src/claims")
 }
 
 /// The layers in the order they are wanted in; the paper's claims are mostly data.
@@ -96,7 +96,12 @@ fn judge(at: &Places, id: usize, units: &[Unit]) -> (&'static str, String) {
     ("alive", String::new())
 }
 
-/// Quick tests of a binary run together, the others alone; many claims a few at a time.
+/// The file of tests, or the module of the crate, that a test is in.
+fn file(test: &str) -> &str {
+    test.rsplit_once("::").map_or(test, |(module, _)| module)
+}
+
+/// Quick tests of a file run together, the others alone; many claims a few at a time.
 fn units<'a>(tests: &'a [Test], id: usize, from: f64, up_to: f64) -> Vec<Unit<'a>> {
     const TOGETHER: f64 = 0.1;
     const MANY: usize = 20;
@@ -106,7 +111,7 @@ fn units<'a>(tests: &'a [Test], id: usize, from: f64, up_to: f64) -> Vec<Unit<'a
     for (i, t) in tests.iter().filter(met).enumerate() {
         let key = match t.binary == CLAIM && claims > MANY && t.seconds < 1.0 {
             true => format!("{CLAIM} {}", i / 10),
-            false if t.seconds < TOGETHER => t.binary.clone(),
+            false if t.seconds < TOGETHER => format!("{} {}", t.binary, file(&t.name)),
             false => format!("{} {}", t.binary, t.name),
         };
         let empty = Unit { path: &t.path, key: key.clone(), tests: Vec::new(), one_in: t.one_in, seconds: 0.01 };

@@ -12,21 +12,21 @@ use std::time::{Duration, Instant};
 /// Beginnings of the paths of the three layers below the rest.
 const BELOW: [&str; 3] = ["src/formula", "src/mechanism", "src/claims"];
 
-/// Beginnings of the names of test binaries that hardly concern the three layers and take long.
+/// Beginnings of the tests, `binary::test`, that hardly concern the three layers and take long.
 const LEFT_OUT: [&str; 9] = [
-    "discover_laws",
-    "discover_names",
-    "fit_statistics",
-    "motion_sensitivity",
-    "next_experiment",
-    "report_html",
-    "simulator_laws",
-    "trust_small",
-    "unnamed",
+    "discovery::fit_statistics",
+    "discovery::laws",
+    "discovery::names",
+    "discovery::next_experiment",
+    "discovery::simulator_laws",
+    "discovery::trust_small",
+    "discovery::unnamed",
+    "motion::sensitivity",
+    "reports::html",
 ];
 
 /// The same for the layers above: what takes minutes.
-const LEFT_OUT_ABOVE: [&str; 3] = ["claims_ledger", "cost_of_trailers", "trust_small"];
+const LEFT_OUT_ABOVE: [&str; 3] = ["claims::ledger", "discovery::trust_small", "motion::cost_of_trailers"];
 
 /// The variable that says which share of its cases a property tries.
 pub const ONE_IN: &str = "MUTATION_ONE_IN";
@@ -54,16 +54,18 @@ pub enum End {
     TooLong,
 }
 
-/// Builds the tests, or only those in some files of `tests`: names and paths of their binaries.
+/// Builds the tests, or only the binaries that some tests are in: names and paths of the binaries.
 pub fn binaries(at: &Places, only: &[&str]) -> Vec<(String, String)> {
+    let only: Vec<&str> = only.iter().map(|o| o.split("::").next().unwrap()).collect();
     let mut wanted = vec!["test".to_string(), "--no-run".into()];
     for (name, target) in [(LIBRARY, "--lib"), (PROGRAM, "--bins")] {
         wanted.extend((only.is_empty() || only.contains(&name)).then(|| target.into()));
     }
-    let mut names: Vec<String> = std::fs::read_dir(at.root.join("tests"))
-        .unwrap()
-        .filter_map(|f| f.unwrap().file_name().to_str()?.strip_suffix(".rs").map(String::from))
-        .filter(|name| if only.is_empty() { is_asked(at, name) } else { only.contains(&name.as_str()) })
+    let folder = std::fs::read_dir(at.root.join("tests")).unwrap().map(|f| f.unwrap().path());
+    let mut names: Vec<String> = folder
+        .filter(|f| f.extension().is_some_and(|e| e == "rs") || f.join("main.rs").is_file())
+        .map(|f| f.file_stem().unwrap().to_str().unwrap().to_string())
+        .filter(|name| only.is_empty() || only.contains(&name.as_str()))
         .collect();
     names.sort();
     wanted.extend(names.iter().map(|name| format!("--test={name}")));
@@ -81,10 +83,18 @@ pub fn binaries(at: &Places, only: &[&str]) -> Vec<(String, String)> {
     lines.lines().filter_map(|l| binary(serde_json::from_str(l).ok()?)).collect()
 }
 
-/// Whether the tests of a file are asked about these mutants unless others are named.
-fn is_asked(at: &Places, name: &str) -> bool {
+/// Whether a test, `binary::test`, is asked about these mutants; one that is named is asked in any case.
+pub fn is_asked(at: &Places, only: &[&str], test: &str) -> bool {
+    if !only.is_empty() {
+        return is_one_of(test, only);
+    }
     let left_out: &[&str] = if is_below(at) { &LEFT_OUT } else { &LEFT_OUT_ABOVE };
-    !left_out.iter().any(|l| name.starts_with(l))
+    !is_one_of(test, left_out)
+}
+
+/// Whether a test is one of some, or in a module or binary of them.
+pub fn is_one_of(test: &str, some: &[&str]) -> bool {
+    some.iter().any(|s| test.strip_prefix(s).is_some_and(|rest| rest.is_empty() || rest.starts_with("::")))
 }
 
 /// Whether only layers are mutated that the claims are about.

@@ -1,0 +1,8 @@
+//! The claims of the paper and of users, and the ledger of them.
+
+mod checks;
+mod generated;
+mod ledger;
+#[path = "../support/mod.rs"]
+mod support;
+mod written;

@@ -1,0 +1,26 @@
+//! The program as it is run: what it prints and writes, and what it does with what is bad, odd or cut short.
+
+mod bad_input;
+#[path = "../support/bad_inputs.rs"]
+#[allow(dead_code)]
+mod bad_inputs;
+mod cli;
+mod daily_use;
+#[path = "../support/digits.rs"]
+mod digits;
+mod edges;
+mod hostile_names;
+mod killed;
+#[path = "../support/known.rs"]
+mod known;
+mod odd_paths;
+mod output;
+mod own_states;
+mod quiet;
+#[path = "../support/reviewed.rs"]
+mod reviewed;
+#[path = "../simulator/mod.rs"]
+mod simulator;
+#[path = "../support/slips.rs"]
+mod slips;
+mod sweep;

@@ -1,0 +1,314 @@
+//! What `describe` prints reads back, means the same, has units, and names every symbol.
+
+use crate::models::{self, machines, machines_with_effects, reviewed, reviewed_as_text, still, with_each_effect};
+use creepage::describe::{self, Description};
+use creepage::effects::{self, Applied};
+use creepage::formula::{Expr, Symbol, Unit};
+use creepage::model::Model;
+use creepage::vehicles;
+use rayon::prelude::*;
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::sync::LazyLock;
+
+/// Every machine alone, with each effect, and those that were reviewed; one logged as speed.
+fn all() -> Vec<(String, Model)> {
+    let named = |m: Model| {
+        let effects: Vec<String> = m.effects.iter().map(Applied::label).collect();
+        (format!("{} + {} {effects:?}", m.vehicle.id, m.trailers.len()), m)
+    };
+    let still_with = still().iter().flat_map(with_each_effect).collect::<Vec<_>>();
+    let with = machines_with_effects().into_iter().chain(still_with).map(|(m, e, t)| {
+        let sizes = e.parameters.values().map(|p| p.size).collect();
+        m.with_effect(Applied::new(e, t, sizes))
+    });
+    let mut speed = reviewed()[0].1.clone();
+    speed.inputs = vec!["speed".into(), "yaw_rate".into()];
+    let reviewed = reviewed().into_iter().map(|(_, m)| m);
+    let later = reviewed_as_text().into_iter().map(|(_, m)| m);
+    machines().into_iter().chain(still()).chain(with).chain(reviewed).chain(later).chain([speed]).map(named).collect()
+}
+
+/// What is said of all of them, found once for the tests of this file.
+fn described() -> &'static [(String, Description)] {
+    static ALL: LazyLock<Vec<(String, Description)>> =
+        LazyLock::new(|| all().into_par_iter().map(|(name, m)| (name, Description::of(&m).unwrap())).collect());
+    &ALL
+}
+
+fn parse(text: &str) -> Expr {
+    Expr::parse(text).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// Some value for every name.
+fn anything(s: &Symbol) -> f64 {
+    s.as_str().bytes().fold(0.37, |x, b| (x * 7.3 + f64::from(b)).sin() + 1.3)
+}
+
+fn same(a: &Expr, b: &Expr) -> bool {
+    match (a.eval(&anything), b.eval(&anything)) {
+        (Some(x), Some(y)) => (x - y).abs() <= 1e-12 * (1.0 + x.abs()),
+        (None, None) => true,
+        _ => false,
+    }
+}
+
+#[test]
+fn every_formula_reads_back_and_means_the_same() {
+    for (name, d) in described() {
+        for f in d.formulas() {
+            assert!(same(&parse(&f.to_string()), &f), "{name}: {f}");
+        }
+    }
+}
+
+/// The formulas in a text: lines four columns in, with those eight columns in that continue them.
+fn printed(text: &str) -> Vec<String> {
+    let mut found: Vec<String> = Vec::new();
+    for line in text.lines() {
+        match (line.strip_prefix("        "), line.strip_prefix("    ")) {
+            (Some(more), _) => {
+                let last = found.last_mut().unwrap();
+                last.push(' ');
+                last.push_str(more);
+            }
+            (None, Some(start)) => found.push(start.into()),
+            _ => {}
+        }
+    }
+    found
+}
+
+#[test]
+fn the_text_holds_every_formula_in_readable_lines() {
+    for (name, d) in described() {
+        let text = describe::text(d);
+        let (_, formulas) = text.split_once("## Constraints").unwrap();
+        text.lines().for_each(|l| assert!(l.chars().count() <= 100, "{name}: {l}"));
+        let mut read: Vec<Expr> = Vec::new();
+        for line in printed(formulas) {
+            if let Some(entries) = line.strip_prefix('[') {
+                read.extend(entries.trim_end_matches(']').split(", ").map(parse));
+                continue;
+            }
+            let (left, right) = line.split_once(" = ").unwrap();
+            read.push(parse(if right == "0" && !Symbol::new(left).is_well_formed() { left } else { right }));
+        }
+        for f in d.formulas() {
+            assert!(read.iter().any(|r| same(r, &f)), "{name}: {f} is not printed");
+        }
+    }
+}
+
+#[test]
+fn the_formulas_of_every_constraint_are_among_those_of_the_description() {
+    for (name, d) in described() {
+        let all: BTreeSet<String> = d.formulas().iter().map(Expr::to_string).collect();
+        for c in &d.constraints {
+            let parts = c.parts.iter().map(|p| p.formula.clone());
+            let rows = c.rows().map(|(_, row)| row);
+            let each = parts.chain(rows).chain([c.generic.clone()]).chain(c.singular.clone());
+            each.for_each(|f| assert!(all.contains(&f.to_string()), "{name}, {}: {f}", c.name));
+        }
+    }
+}
+
+#[test]
+fn every_symbol_is_in_the_table_with_a_unit_and_a_meaning_and_no_two_look_alike() {
+    for (name, d) in described() {
+        let used: BTreeSet<Symbol> = d.formulas().iter().flat_map(Expr::symbols).collect();
+        for s in used {
+            let entry = d.symbols.get(&s).unwrap_or_else(|| panic!("{name}: {s}"));
+            assert!(Unit::parse(&entry.unit).is_some() && !entry.meaning.is_empty(), "{name}: {s}");
+        }
+        let latex: BTreeSet<&str> = d.symbols.entries().iter().map(|e| e.latex.as_str()).collect();
+        assert_eq!(latex.len(), d.symbols.entries().len(), "{name}");
+    }
+}
+
+/// The unit of a formula by the units of the table.
+fn unit(d: &Description, e: &Expr, name: &str) -> Unit {
+    let of = |s: &Symbol| Unit::parse(&d.symbols.get(s).unwrap().unit).unwrap();
+    e.eval(&of).unwrap_or_else(|| panic!("{name}: {e} mixes units"))
+}
+
+#[test]
+fn every_formula_has_one_unit() {
+    let [speed, second] = ["m/s", "s"].map(|u| Unit::parse(u).unwrap());
+    for (name, d) in described() {
+        let of = |s: &Symbol| Unit::parse(&d.symbols.get(s).unwrap().unit).unwrap();
+        for e in &d.definitions {
+            assert!(unit(d, &e.formula, name).fits(&of(&e.name)), "{name}: {} = {}", e.name, e.formula);
+        }
+        for e in &d.states {
+            let rate = creepage::formula::Scalar::mul(&unit(d, &e.formula, name), &second);
+            assert!(rate.fits(&of(&e.name)), "{name}: rate of {} = {}", e.name, e.formula);
+        }
+        for c in &d.constraints {
+            let speed = if c.kind.letter == 'S' { unit(d, &c.generic, name) } else { speed };
+            let zero = [c.generic.clone()].into_iter().chain(c.rows().map(|(_, row)| row));
+            zero.for_each(|row| assert!(unit(d, &row, name).fits(&speed), "{name}: {row}"));
+            let times = |e: &Expr, s: &Symbol| e * &Expr::sym(s.clone());
+            let by_q = c.jacobian.q.iter().map(|(q, r)| times(&r.expr(), q));
+            let by_rate = c.jacobian.rates.iter().map(|(rate, k)| times(k, rate));
+            by_q.chain(by_rate).for_each(|t| assert!(unit(d, &t, name).fits(&speed), "{name}: {t}"));
+            assert!(unit(d, &c.jacobian.e.expr(), name).fits(&speed), "{name}: {}", c.name);
+            for p in &c.parts {
+                let slot = c.kind.slots.iter().find(|s| s.name.as_str() == p.label).unwrap();
+                let found = unit(d, &p.formula, name);
+                // A momentum may be an angular or a linear one.
+                let wanted = slot.unit.as_ref().map(|u| Unit::parse(u).unwrap());
+                assert!(wanted.is_none_or(|u| found.fits(&u)), "{name}: {}", p.formula);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_latex_is_balanced() {
+    for (name, d) in described() {
+        let text = describe::latex(d);
+        let count = |part: &str| text.matches(part).count();
+        let plain = text.replace(r"\{", "").replace(r"\}", "").replace(r"\$", "");
+        let mut depth = 0i32;
+        for c in plain.chars() {
+            depth += i32::from(c == '{') - i32::from(c == '}');
+            assert!(depth >= 0, "{name}");
+        }
+        assert_eq!(depth, 0, "{name}");
+        assert_eq!(plain.matches('$').count() % 2, 0, "{name}");
+        assert_eq!(count(r"\left"), count(r"\right"), "{name}");
+        assert_eq!(count(r"\bigl"), count(r"\bigr"), "{name}");
+        for environment in ["document", "align*", "longtable"] {
+            assert_eq!(
+                count(&format!(r"\begin{{{environment}}}")),
+                count(&format!(r"\end{{{environment}}}")),
+                "{name}"
+            );
+        }
+        assert!(count(r"\begin{document}") == 1 && text.is_ascii(), "{name}");
+        let outside: String = plain.split('$').step_by(2).collect();
+        let tables = outside.split(r"\begin{align*}").map(|p| p.split(r"\end{align*}").last().unwrap());
+        tables.for_each(|p| assert!(!p.replace(r"\_", "").contains(['_', '^']), "{name}: {p}"));
+        // Each line of a display closes what it opens.
+        for line in text.lines().filter(|l| l.contains(r"\left")) {
+            assert_eq!(line.matches(r"\left").count(), line.matches(r"\right").count(), "{name}: {line}");
+        }
+    }
+}
+
+/// Every `{text, latex}` of a JSON value.
+fn texts(v: &Value, found: &mut Vec<String>) {
+    match v {
+        Value::Array(a) => a.iter().for_each(|v| texts(v, found)),
+        Value::Object(o) => {
+            if let (Some(text), Some(_), 2) = (o.get("text"), o.get("latex"), o.len()) {
+                found.push(text.as_str().unwrap().into());
+            }
+            o.values().for_each(|v| texts(v, found));
+        }
+        _ => {}
+    }
+}
+
+#[test]
+fn the_json_holds_every_formula_and_every_symbol() {
+    for (name, d) in described() {
+        let json = describe::json(d);
+        let mut found = Vec::new();
+        texts(&json, &mut found);
+        for f in d.formulas() {
+            assert!(found.contains(&f.to_string()), "{name}: {f}");
+        }
+        assert_eq!(json["symbols"].as_array().unwrap().len(), d.symbols.entries().len());
+        assert_eq!(json["pfaffian"]["columns"].as_array().unwrap().len(), d.coordinates.len());
+        assert_eq!(
+            json["constraints"].as_array().unwrap().len(),
+            d.signature.counts.iter().map(|(_, n)| n).sum::<usize>()
+        );
+    }
+}
+
+#[test]
+fn signatures_are_those_of_the_theory() {
+    (0..=10).into_par_iter().for_each(|n| {
+        let trailers = vec![creepage::model::Trailer { length: 1.0, hitch: 0.0 }; n];
+        for (id, r, t) in [
+            ("unicycle", 1, 1),
+            ("differential-drive", 2, 1),
+            ("car", 1, 2),
+            ("four-wheel-car", 1, 2),
+            ("tricycle", 1, 2),
+            ("differential-drive-castor", 3, 2),
+            ("synchro-drive", 3, 3),
+        ] {
+            let d = Description::of(&models::vehicle(id, &[1.0]).with_trailers(&trailers)).unwrap();
+            assert_eq!((d.signature.count('R'), d.signature.count('T')), (r, t + n), "{id} + {n}");
+        }
+    });
+    for (id, r, t) in [("disk", 1, 0), ("sleigh", 0, 1), ("skid-steer", 4, 2)] {
+        let d = Description::of(&models::vehicle(id, &[1.0])).unwrap();
+        assert_eq!((d.signature.count('R'), d.signature.count('T')), (r, t), "{id}");
+    }
+}
+
+#[test]
+fn the_front_axle_of_a_car_is_the_row_of_the_paper_up_to_sign() {
+    let d = Description::of(&reviewed()[2].1).unwrap();
+    let paper = parse("cos(delta)*L*phi' - sin(phi + delta)*x' + cos(phi + delta)*y'");
+    assert!((&d.constraints[2].ideal.expr() + &paper).tidy().is_zero());
+}
+
+#[test]
+fn the_row_of_a_model_holds_its_effects() {
+    let d = Description::of(&reviewed()[4].1).unwrap();
+    let row = |k: usize| d.constraints[k].model.to_string();
+    assert_eq!(row(0), "cos(phi)*x' + sin(phi)*y' - r*(1 - rotation_creep.e_rc)*theta'");
+    assert_eq!(row(1), "sin(phi)*x' - cos(phi)*y'");
+    assert!(row(2).contains("front_traverse_creep.e_tc") && row(2).contains("wheelbase*(1 + wheelbase.scale)"));
+    assert!(row(2).contains("sin(phi + steering_angle*(1 + steering_gain.scale))"), "{}", row(2));
+    let beside: Vec<&str> = d.beside_rows.iter().map(Symbol::as_str).collect();
+    assert_eq!(beside, ["v_t", "x'", "y'"]);
+}
+
+#[test]
+fn the_catalogues_parse_and_hold_these_entries() {
+    let ids: Vec<&str> = vehicles::all().iter().map(|v| v.id.as_str()).collect();
+    let first = ["unicycle", "differential-drive", "car", "four-wheel-car", "tricycle"];
+    let later = ["disk", "sleigh", "hopper", "differential-drive-castor", "synchro-drive", "skid-steer"];
+    assert_eq!(ids, first.into_iter().chain(later).collect::<Vec<_>>());
+    let ids: Vec<&str> = effects::all().iter().map(|e| e.id.as_str()).collect();
+    let expected = [
+        "rotation-creep",
+        "wheel-radius",
+        "wheel-radius-mismatch",
+        "unequal-rotation-creep",
+        "traction-creep",
+        "traverse-creep",
+        "cornering-creep",
+        "load-dependent-creep",
+        "rocard-creep",
+        "relaxation-length",
+        "side-slope",
+        "yaw-rate-scale",
+        "yaw-rate-bias",
+        "track-width",
+        "steering-gain",
+        "steering-offset",
+        "front-traverse-creep",
+        "wheelbase",
+        "understeer",
+        "input-delay",
+        "heading-misalignment",
+        "lever-arm",
+        "drift",
+        "trailer-traverse-creep",
+        "trailer-length",
+        "hitch-offset",
+    ];
+    assert_eq!(ids, expected);
+    for e in effects::all() {
+        assert!(e.parameters.values().all(|p| Unit::parse(&p.unit).is_some() && p.range[0] < p.range[1]), "{}", e.id);
+        assert!(machines().iter().any(|m| !m.applicable(std::slice::from_ref(e)).is_empty()), "{}", e.id);
+    }
+}

@@ -1,0 +1,29 @@
+//! The discrepancy workflow on drawn runs: names, laws, intervals, verdicts, advice.
+
+mod asynchronous;
+mod begun_anywhere;
+mod bootstrap;
+mod coloured_noise;
+mod contradicted;
+mod different_drives;
+mod fit_rates;
+mod fit_statistics;
+#[path = "../forced/mod.rs"]
+mod forced;
+mod forces;
+mod gross_errors;
+mod laws;
+mod names;
+mod next_experiment;
+mod places_alone;
+#[path = "../support/read_back.rs"]
+mod read_back;
+mod short_runs;
+#[path = "../simulator/mod.rs"]
+mod simulator;
+mod simulator_laws;
+mod slow_logs;
+mod sparse_poses;
+mod trust_small;
+mod unit_slips;
+mod unnamed;

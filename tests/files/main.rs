@@ -1,0 +1,36 @@
+//! Files that a user hands over: models, logs, effects, vehicles of their own.
+
+#[path = "../support/bad_effects.rs"]
+mod bad_effects;
+#[path = "../support/bad_formulas.rs"]
+mod bad_formulas;
+#[path = "../support/bad_inputs.rs"]
+#[allow(dead_code, reason = "the table of bad inputs is another test's")]
+mod bad_inputs;
+#[path = "../support/bad_vehicles.rs"]
+#[allow(dead_code)]
+mod bad_vehicles;
+mod bag_messages;
+mod bounds;
+mod effects_identity;
+mod kept;
+#[path = "../support/known.rs"]
+mod known;
+mod log_formats;
+mod model_terms;
+#[path = "../models/mod.rs"]
+mod models;
+mod parquet_types;
+mod read;
+#[path = "../simulator/mod.rs"]
+mod simulator;
+#[path = "../support/slips.rs"]
+mod slips;
+#[path = "../support/mod.rs"]
+mod support;
+mod two_files;
+#[cfg(any(feature = "mcap", feature = "parquet"))]
+#[path = "../support/two_names.rs"]
+mod two_names;
+mod user_effects;
+mod user_vehicles;

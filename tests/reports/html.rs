@@ -1,0 +1,337 @@
+//! The page, the drawing for the README and the one-screen summary.
+
+use crate::reviewed::reviewed;
+use crate::synthetic::{bare, path_picture, pictures, report, residual};
+use creepage::discrepancy::html::{gap_svg, html};
+use creepage::discrepancy::report::*;
+use creepage::discrepancy::summary::summary_text;
+
+const VERDICTS: [Verdict; 5] = [
+    Verdict::UnusableData,
+    Verdict::NotIdentifiable,
+    Verdict::UnnamedEffect,
+    Verdict::MissingEffect,
+    Verdict::NoMissingEffect,
+];
+
+/// Tags of a text, in order, without the angle brackets; panics where a bracket or an ampersand stands loose.
+fn tags(text: &str) -> Vec<&str> {
+    let mut tags = Vec::new();
+    let mut rest = text;
+    while let Some(open) = rest.find('<') {
+        check_text(&rest[..open]);
+        let close = open + rest[open..].find('>').expect("a tag that ends");
+        let tag = &rest[open + 1..close];
+        assert!(!tag.contains('<'), "a bracket inside the tag {tag}");
+        assert_eq!(tag.matches('"').count() % 2, 0, "quotation marks in {tag}");
+        tags.push(tag);
+        rest = &rest[close + 1..];
+    }
+    check_text(rest);
+    tags
+}
+
+fn check_text(text: &str) {
+    assert!(!text.contains('>'), "a loose bracket in {text:.80}");
+    for after in text.split('&').skip(1) {
+        assert!(["amp;", "lt;", "gt;", "quot;"].iter().any(|e| after.starts_with(e)), "a loose & before {after:.20}");
+    }
+}
+
+/// Panics unless every tag that opens also closes, in order, and no id stands twice.
+fn check_well_formed(text: &str) {
+    let mut open = Vec::new();
+    let mut ids = std::collections::BTreeSet::new();
+    for tag in tags(text) {
+        if let Some(id) = tag.split(" id=\"").nth(1).and_then(|t| t.split('"').next()) {
+            assert!(ids.insert(id), "the id {id} stands twice");
+        }
+        match tag.strip_prefix('/') {
+            Some(name) => assert_eq!(open.pop(), Some(name)),
+            None if tag.ends_with('/') || tag.starts_with('!') => {}
+            None => open.push(tag.split(' ').next().unwrap()),
+        }
+    }
+    assert!(open.is_empty(), "never closed: {open:?}");
+}
+
+/// Panics where a page would ask for anything outside itself, or holds a number that is none.
+fn check_harmless(text: &str) {
+    let text = text.replace("http://www.w3.org/2000/svg", "").replace("http-equiv", "").to_lowercase();
+    for word in ["http", "src=", "href", "url(", "@import", "<script", "javascript", "<iframe", "<link", "//"] {
+        assert!(!text.contains(word), "{word} in the page");
+    }
+    let numbers = text.split(" d=\"").skip(1).map(|t| t.split('"').next().unwrap());
+    for d in numbers.chain(text.split(" x=\"").skip(1).map(|t| t.split('"').next().unwrap())) {
+        assert!(!d.contains("nan") && !d.contains("inf"), "{d:.60}");
+    }
+    let mut words = text.split(|c: char| !c.is_alphanumeric());
+    assert!(!words.any(|w| w == "nan" || w == "inf"), "a number that is none is written out");
+}
+
+fn check(report: &Report, pictures: &Pictures) -> [String; 2] {
+    let written = [html(report, pictures), gap_svg(report, pictures)];
+    for text in &written {
+        check_well_formed(text);
+        check_harmless(text);
+    }
+    written
+}
+
+#[test]
+fn the_page_is_well_formed_and_asks_for_nothing() {
+    let [page, svg] = check(&report(), &pictures());
+    assert!(page.contains("default-src 'none'; style-src 'unsafe-inline'"));
+    assert_eq!(page.matches("<figure>").count(), 5);
+    assert_eq!(page.matches("<figcaption>").count(), 5);
+    assert!(svg.contains("prefers-color-scheme:dark") && page.contains("prefers-color-scheme:dark"));
+}
+
+#[test]
+fn every_picture_has_a_title_and_a_description() {
+    let [page, svg] = check(&report(), &pictures());
+    for text in [page, svg] {
+        for drawing in text.split("role=\"img\"").skip(1) {
+            let drawing = &drawing[..drawing.len().min(400)];
+            assert!(drawing.contains("<title") && drawing.contains("<desc"), "{drawing}");
+        }
+    }
+}
+
+/// Panels stand side by side, none over another and none outside.
+#[test]
+fn the_panels_of_the_drawing_lie_within_it() {
+    let [_, svg] = check(&report(), &pictures());
+    let number = |text: &str, name: &str| -> Option<f64> {
+        text.split_once(&format!(" {name}=\""))?.1.split_once('"')?.0.parse().ok()
+    };
+    let tags = || svg.split('<').map(|t| t.split('>').next().unwrap());
+    let [width, height] = ["width", "height"].map(|name| number(tags().nth(1).unwrap(), name).unwrap());
+    let panels: Vec<[f64; 4]> = tags()
+        .filter(|t| t.contains("role=\"img\"") && t.contains(" x=\""))
+        .map(|t| ["x", "y", "width", "height"].map(|name| number(t, name).unwrap()))
+        .collect();
+    assert_eq!(panels.len(), 2);
+    assert!(panels.iter().all(|[x, y, w, h]| *x > 0.0 && x + w < width && *y > 0.0 && y + h < height), "{panels:?}");
+    assert!(panels.windows(2).all(|p| p[0][0] + p[0][2] <= p[1][0]), "{panels:?}");
+}
+
+#[test]
+fn the_drawing_says_in_its_title_what_shrank() {
+    let [page, svg] = check(&report(), &pictures());
+    let (title, _) = svg.split_once("</title>").unwrap();
+    let gap = report().gap[1].held_out.unwrap();
+    let mm = |v: f64| creepage::picture::number::significant(1000.0 * v, 2);
+    let shrank = format!(
+        "Held-out position error after 5 s: {} → {} mm",
+        mm(gap.position_rms_before),
+        mm(gap.position_rms_after)
+    );
+    assert!(title.contains(&shrank), "{title} and {shrank}");
+    assert!(page.contains(&shrank), "the page says it, too");
+}
+
+/// Where nothing can be said the warnings say why, before any picture; elsewhere they wait at the end.
+#[test]
+fn the_reason_for_no_answer_stands_at_the_top() {
+    for (verdict, at_the_top) in [(Verdict::UnusableData, true), (Verdict::NotIdentifiable, false)] {
+        let mut report = bare(verdict);
+        report.data.warnings = vec!["the log stands still".into()];
+        let [page, _] = check(&report, &pictures());
+        let (top, _) = page.split_once("<figure>").unwrap();
+        assert_eq!(top.contains("<li>the log stands still</li>"), at_the_top);
+    }
+}
+
+/// Candidates beyond the usual number are drawn where they are chosen or not told from what is.
+#[test]
+fn what_is_chosen_is_drawn_however_far_behind() {
+    let mut pictures = pictures();
+    let one = |i: usize| Candidate { id: format!("effect-{i}"), delta_bic: 50.0 - i as f64, ..Candidate::default() };
+    pictures.candidates = (0..20).map(one).collect();
+    pictures.candidates[0].chosen = true;
+    pictures.candidates[16].chosen = true;
+    pictures.candidates[18].rival = true;
+    let [page, _] = check(&report(), &pictures);
+    let is_drawn = |i: usize| page.contains(&format!("effect-{i}<"));
+    let drawn: Vec<usize> = (0..20).filter(|i| is_drawn(*i)).collect();
+    assert_eq!(drawn, (0..14).chain([16, 18]).collect::<Vec<_>>());
+}
+
+#[test]
+fn both_axes_of_a_path_have_one_scale() {
+    let mut run = path_picture("line.csv", true, 0);
+    run.measured = vec![[0.0, 0.0], [10.0, 0.0], [10.0, 1.0]];
+    (run.before, run.after) = (vec![], vec![]);
+    let page = gap_svg(&bare(Verdict::NoMissingEffect), &Pictures { paths: vec![run], ..Pictures::default() });
+    let path = page.split("line measured\" d=\"").last().unwrap().split('"').next().unwrap();
+    let points: Vec<Vec<f64>> =
+        path[1..].split('L').map(|p| p.split(' ').map(|v| v.parse().unwrap()).collect()).collect();
+    let (across, up) = (points[1][0] - points[0][0], points[1][1] - points[2][1]);
+    assert!((across - 10.0 * up).abs() < 1.0, "{across} px for 10 m, {up} px for 1 m");
+}
+
+#[test]
+fn text_from_files_stays_text() {
+    let evil = "<script>alert(\"1\")</script>&\u{1b}[31m";
+    let (mut report, mut pictures) = (report(), pictures());
+    report.summary = evil.into();
+    report.effects[0].id = evil.into();
+    report.effects[0].equation = evil.into();
+    report.disagreement[0].run = evil.into();
+    report.data.warnings.push(evil.into());
+    report.provenance.inputs_sha256.insert(evil.into(), evil.into());
+    pictures.paths.iter_mut().for_each(|p| p.run = evil.into());
+    pictures.residuals[0].constraint = evil.into();
+    pictures.candidates[0].id = evil.into();
+    let [page, svg] = check(&report, &pictures);
+    assert!(page.contains("&lt;script&gt;alert(&quot;1&quot;)&lt;/script&gt;&amp;"));
+    assert!(svg.contains("&lt;script&gt;"));
+    assert!(!page.contains('\u{1b}') && !svg.contains('\u{1b}') && !summary_text(&report).contains('\u{1b}'));
+}
+
+#[test]
+fn the_same_report_gives_the_same_bytes() {
+    assert_eq!(check(&report(), &pictures()), check(&report(), &pictures()));
+}
+
+#[test]
+fn every_verdict_reads_with_and_without_pictures() {
+    for verdict in VERDICTS {
+        let [page, svg] = check(&bare(verdict), &Pictures::default());
+        assert!(!page.contains("<figure>") && page.contains("<h1>") && !page.contains("<h1></h1>"));
+        assert!(svg.contains("<text class=\"title\""));
+        let mut full = report();
+        full.verdict = verdict;
+        check(&full, &pictures());
+    }
+}
+
+#[test]
+fn an_unnamed_effect_shows_its_place_and_equation() {
+    let mut report = bare(Verdict::UnnamedEffect);
+    let [place, equation] = ["traverse constraint", "v_t = -0.03*v_l^2"].map(String::from);
+    report.unnamed.push(Unnamed { place, equation, held_out_reduction: 0.8, parameters: Default::default() });
+    let [page, _] = check(&report, &Pictures::default());
+    assert!(
+        page.contains("at the traverse constraint: <code>v_t = -0.03*v_l^2</code>")
+            && page.contains("v_t = -0.03*v_l^2")
+            && page.contains("80 %")
+    );
+    assert!(summary_text(&report).contains("v_t = -0.03*v_l^2"));
+}
+
+#[test]
+fn values_that_are_no_numbers_break_lines_and_never_reach_the_page() {
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let (mut report, mut pictures) = (report(), pictures());
+        pictures.paths[2].measured[500] = [bad, 0.0];
+        pictures.paths[2].before[1] = vec![[bad, bad]; 3];
+        pictures.residuals[1].before[100] = bad;
+        pictures.residuals[0].noise = bad;
+        pictures.gap.after[2] = bad;
+        pictures.gap.floor[0] = bad;
+        pictures.candidates[3].delta_bic = bad;
+        report.gap[1].held_out.as_mut().unwrap().position_rms_after = bad;
+        report.effects[0].evidence.delta_bic = bad;
+        report.effects[0].parameters.get_mut("mass_over_bT").unwrap().value = bad;
+        let [page, _] = check(&report, &pictures);
+        assert!(!page.contains("cy=\"0\""), "a marker for no value");
+        let path = page.split("line measured\" d=\"").nth(2).unwrap().split('"').next().unwrap();
+        assert_eq!(path.matches('M').count(), 2, "the line breaks once");
+        assert!(!summary_text(&report).contains("NaN") && !summary_text(&report).contains("inf"));
+    }
+    check(
+        &report(),
+        &Pictures { paths: vec![PathPicture { measured: vec![[f64::NAN; 2]; 9], ..Default::default() }], ..pictures() },
+    );
+}
+
+#[test]
+fn a_million_rows_still_give_a_small_page() {
+    let mut pictures = pictures();
+    let long = |i: usize| {
+        let t = i as f64 * 1e-3;
+        [t.sin() * 20.0 + (i % 7) as f64 * 0.01, (t * 1.3).cos() * 15.0]
+    };
+    for path in &mut pictures.paths {
+        path.measured = (0..1_000_000).map(long).collect();
+        path.before = path.measured.chunks(1000).map(<[_]>::to_vec).collect();
+        path.after = path.before.clone();
+    }
+    let mut more = pictures.paths.clone();
+    more.iter_mut().for_each(|p| p.held_out = false);
+    pictures.paths.extend(more);
+    let mut residual = residual("traverse constraint", "long.csv", 0.1, 1);
+    residual.time = (0..1_000_000).map(|i| i as f64 * 1e-3).collect();
+    residual.before = (0..1_000_000_u64).map(|i| (i * 7919 % 1000) as f64 * 1e-3).collect();
+    residual.after = residual.before.clone();
+    pictures.residuals = vec![residual; 12];
+    pictures.paths.push(path_picture("seventh.csv", false, 1));
+    let [page, svg] = check(&report(), &pictures);
+    println!("page {} bytes, drawing {} bytes", page.len(), svg.len());
+    assert_eq!(page.matches("id=\"path-").count(), 2 * 6, "six runs: a title and a description each");
+    assert!(page.contains("Not drawn: 1 further run.") && page.contains("Not drawn: 6 further pairs"));
+    assert!(page.len() < 1_500_000, "{} bytes", page.len());
+    assert!(svg.len() < 300_000, "{} bytes", svg.len());
+}
+
+#[test]
+fn the_summary_fits_a_screen() {
+    let mut crowded = report();
+    crowded.summary = "A long sentence that goes on and on. ".repeat(20);
+    crowded.effects = vec![crowded.effects[0].clone(); 9];
+    crowded.gap = vec![crowded.gap[1].clone(); 9];
+    crowded.data.warnings = vec!["a warning that is much longer than one line of a terminal ".repeat(5); 4];
+    crowded.next_experiment.as_mut().unwrap().why = "because ".repeat(60);
+    for report in VERDICTS.map(bare).into_iter().chain([report(), crowded]) {
+        let text = summary_text(&report);
+        assert!(text.lines().count() <= 24, "{} lines\n{text}", text.lines().count());
+        assert!(text.lines().all(|l| l.chars().count() <= 80), "{text}");
+    }
+    assert!(summary_text(&report()).contains("0.1094 ± 0.0021"));
+    let mut sharp = report();
+    let estimate = sharp.effects[0].parameters.get_mut("mass_over_bT").unwrap();
+    (estimate.value, estimate.std) = (-0.009900918, Some(7.4e-7));
+    assert!(summary_text(&sharp).contains(" −0.00990092 ± 7.4e−7 "), "{}", summary_text(&sharp));
+}
+
+#[test]
+fn the_summary_is_as_reviewed() {
+    reviewed("summary", &summary_text(&report()));
+}
+
+/// The same pictures with a far origin, a clock's epoch, long names and a small gap.
+fn hard(mut pictures: Pictures) -> Pictures {
+    for path in &mut pictures.paths {
+        path.run = "a-very-long-name-of-a-run-recorded-on-a-rainy-day-2024-11-21T10-22-33.csv".into();
+        let pieces = path.before.iter_mut().chain(&mut path.after).chain([&mut path.measured]);
+        pieces.flatten().for_each(|p| *p = [500_000.0 + 20.0 * p[0], 4_500_000.0 + p[1]]);
+    }
+    for residual in &mut pictures.residuals {
+        residual.run = pictures.paths[0].run.clone();
+        residual.time.iter_mut().for_each(|t| *t += 1.7e9);
+        residual.before.iter_mut().chain(&mut residual.after).for_each(|v| *v *= 1e-4);
+        residual.noise *= 1e-4;
+    }
+    pictures.candidates.iter_mut().for_each(|c| c.delta_bic *= -0.01);
+    pictures.candidates[5].id = "an-effect-of-the-user-with-a-long-name".into();
+    pictures
+}
+
+/// Writes the pages to look at into `target/look`: `cargo test --release --test reports html -- --ignored`.
+#[test]
+#[ignore = "writes files to look at"]
+fn pages_to_look_at() {
+    let dir = concat!(env!("CARGO_MANIFEST_DIR"), "/target/look");
+    std::fs::create_dir_all(dir).unwrap();
+    let write = |name: &str, text: String| std::fs::write(format!("{dir}/{name}"), text).unwrap();
+    write("missing.html", html(&report(), &pictures()));
+    write("gap.svg", gap_svg(&report(), &pictures()));
+    write("hard.html", html(&report(), &hard(pictures())));
+    write("hard.svg", gap_svg(&report(), &hard(pictures())));
+    for verdict in VERDICTS {
+        write(&format!("bare-{verdict:?}.html"), html(&bare(verdict), &Pictures::default()));
+    }
+    println!("{}", summary_text(&report()));
+}

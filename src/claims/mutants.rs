@@ -1,8 +1,7 @@
 //! Sabotage made mechanically: statements one small slip away from a true one.
 
 use super::Statement;
-use crate::formula::{Expr, Fun, Node, Symbol};
-use num_rational::BigRational;
+use crate::formula::{BigRational, Expr, Fun, Node, Symbol};
 use num_traits::One;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;

@@ -1,10 +1,9 @@
 //! Dual numbers as a carrier: exact first and second derivatives.
 
+use super::rational::{BigRational, nearest_f64};
 use super::{Fun, Scalar, float};
 use nalgebra::{Dyn, U1};
 use num_dual::{Derivative, Dual2, Dual2Vec, Dual64, DualNum, DualVec, HyperDual};
-use num_rational::BigRational;
-use num_traits::ToPrimitive;
 
 /// A number of `num-dual` as a carrier, for derivatives of any formula with respect to anything.
 ///
@@ -121,7 +120,7 @@ impl Parts for Dual2Vec<f64, f64, Dyn> {
 
 impl<D: DualNum<f64> + Parts> Scalar for Dual<D> {
     fn number(value: &BigRational) -> Self {
-        Dual(D::from(value.to_f64().unwrap_or(f64::NAN)))
+        Dual(D::from(nearest_f64(value)))
     }
     fn add(&self, other: &Self) -> Self {
         Dual(self.0.clone() + other.0.clone())

@@ -1,9 +1,8 @@
 //! Exact numbers as a carrier: rationals of any size, and angles as rational points of the circle.
 
+use super::rational::{BigInt, BigRational, nearest_f64};
 use super::{Fun, Scalar};
-use num_bigint::BigInt;
 use num_integer::Integer;
-use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::f64::consts::TAU;
 use std::fmt;
@@ -96,12 +95,12 @@ impl Exact {
     /// The value to about fifteen digits.
     pub fn to_f64(&self) -> f64 {
         match &self.0 {
-            Value::Number(v) => v.to_f64().unwrap_or(f64::NAN),
+            Value::Number(v) => nearest_f64(v),
             Value::Angle(x, y, turns) => {
                 // A quotient of the two is exact enough and cannot overflow.
                 let size = BigRational::from_integer(x.abs().max(y.abs()));
-                let part = |v: &BigInt| (BigRational::from_integer(v.clone()) / &size).to_f64().unwrap_or(f64::NAN);
-                part(y).atan2(part(x)) + TAU * turns.to_f64().unwrap_or(f64::NAN)
+                let part = |v: &BigInt| nearest_f64(&(BigRational::from_integer(v.clone()) / &size));
+                part(y).atan2(part(x)) + TAU * nearest_f64(&BigRational::from_integer(turns.clone()))
             }
             Value::Undefined => f64::NAN,
         }
@@ -119,7 +118,7 @@ impl Exact {
 /// √v where it is rational.
 pub(super) fn root(v: &BigRational) -> Option<BigRational> {
     let whole = |n: &BigInt| {
-        let root = n.sqrt();
+        let root = num_integer::Roots::sqrt(n);
         (&root * &root == *n).then_some(root)
     };
     if v.is_negative() {
@@ -239,7 +238,7 @@ impl Scalar for Exact {
 
 /// An angle a whole number of times; a thousand turns are as many as a formula can hold.
 fn times(n: &BigRational, angle: &Exact) -> Exact {
-    let count = if n.is_integer() { n.to_i32().filter(|k| k.abs() <= 1000) } else { None };
+    let count = if n.is_integer() { n.numer().to_i32().filter(|k| k.abs() <= 1000) } else { None };
     let Some(count) = count else { return Exact::undefined() };
     let once = if count < 0 { angle.neg() } else { angle.clone() };
     (0..count.unsigned_abs()).fold(Exact::ratio(0, 1), |sum, _| sum.add(&once))

@@ -1,8 +1,7 @@
 //! Expressions as data.
 
 use super::{Fun, Scalar, Symbol};
-use num_bigint::BigInt;
-use num_rational::BigRational;
+use crate::formula::{BigInt, BigRational};
 use num_traits::{One, Signed, Zero};
 use std::collections::BTreeSet;
 use std::sync::Arc;

@@ -1,8 +1,7 @@
 //! Floating-point numbers as a carrier: the value of a formula.
 
+use super::rational::{BigRational, nearest_f64};
 use super::{Fun, Scalar};
-use num_rational::BigRational;
-use num_traits::ToPrimitive;
 
 /// NaN for anything that is not a finite number: overflow is undefined, not infinite.
 #[inline]
@@ -42,7 +41,7 @@ pub(super) fn call(f: Fun, x: f64) -> f64 {
 
 impl Scalar for f64 {
     fn number(value: &BigRational) -> Self {
-        value.to_f64().map_or(f64::NAN, finite)
+        finite(nearest_f64(value))
     }
     fn add(&self, other: &Self) -> Self {
         finite(self + other)

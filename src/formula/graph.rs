@@ -1,7 +1,7 @@
 //! Expressions as a graph in which equal sub-expressions stand once.
 
 use super::{Expr, Fun, Node, Symbol};
-use num_rational::BigRational;
+use crate::formula::BigRational;
 use num_traits::{One, Signed, Zero};
 use std::collections::HashMap;
 

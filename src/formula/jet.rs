@@ -6,7 +6,7 @@ mod taylor;
 pub use layout::Layout;
 
 use super::{Exact, Fun, Scalar, Symbol};
-use num_rational::BigRational;
+use crate::formula::BigRational;
 use num_traits::{One, Zero};
 use std::collections::BTreeMap;
 use std::sync::Arc;

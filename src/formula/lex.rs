@@ -3,8 +3,7 @@
 use super::Symbol;
 use super::symbol::{is_inner, is_start};
 use crate::error::{Error, Result};
-use num_bigint::BigInt;
-use num_rational::BigRational;
+use crate::formula::{BigInt, BigRational};
 use num_traits::Zero;
 
 /// A piece of a formula and the column (from zero, in characters of the whole text) where it begins.

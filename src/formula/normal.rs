@@ -6,10 +6,10 @@ mod fraction;
 mod poly;
 
 use super::{Exact, Expr, Fun, Scalar, Symbol};
+use crate::formula::BigRational;
 use angle::Angle;
 use atom::Atom;
 use fraction::Fraction;
-use num_rational::BigRational;
 use num_traits::Zero;
 use std::fmt;
 use std::sync::Arc;

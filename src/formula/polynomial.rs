@@ -1,7 +1,7 @@
 //! A formula as a polynomial in its atoms: like terms collected, products multiplied out.
 
 use super::{Expr, Fun, Node};
-use num_rational::BigRational;
+use crate::formula::BigRational;
 use num_traits::{One, Signed, Zero};
 use std::collections::BTreeMap;
 

@@ -1,9 +1,8 @@
 //! Expressions to text that reads back as the same expression.
 
 use super::{Expr, Node};
-use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{One, Zero};
+use crate::formula::{BigInt, BigRational};
+use num_traits::Zero;
 use std::fmt;
 
 /// How tightly a form binds; a part that binds less tightly than its place asks for gets parentheses.

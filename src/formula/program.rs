@@ -1,9 +1,8 @@
 //! A formula compiled to a flat list of instructions.
 
 use super::float;
+use super::rational::{BigRational, nearest_f64};
 use super::{Fun, Graph, NodeId, Op, Scalar, Symbol};
-use num_rational::BigRational;
-use num_traits::ToPrimitive;
 
 /// One instruction; it writes the register of its own position.
 #[derive(Clone, Copy, Debug)]
@@ -66,7 +65,7 @@ impl Program {
         let at = |x: &NodeId| register[*x];
         Ok(match op {
             Op::Num(v) => {
-                self.constants.push(v.to_f64().map_or(f64::NAN, float::finite));
+                self.constants.push(float::finite(nearest_f64(v)));
                 self.exact.push(v.clone());
                 Instruction::Constant(self.constants.len() as u32 - 1)
             }

@@ -1,7 +1,7 @@
 //! What a formula can be evaluated in.
 
 use super::Fun;
-use num_rational::BigRational;
+use crate::formula::BigRational;
 
 /// A carrier: a set of values in which a formula can be read.
 ///

@@ -1,7 +1,7 @@
 //! Expressions as a carrier: substitution is evaluation.
 
 use super::{Expr, Fun, Node, Scalar, Symbol};
-use num_rational::BigRational;
+use crate::formula::BigRational;
 
 impl Scalar for Expr {
     fn number(value: &BigRational) -> Self {

@@ -1,7 +1,8 @@
 //! Unit exponents as a carrier: the units of a formula, or why it has none.
 
 use super::{Fun, Scalar};
-use num_rational::{BigRational, Rational32};
+use crate::formula::BigRational;
+use num_rational::Rational32;
 use num_traits::{CheckedAdd, CheckedMul, Zero};
 use std::fmt;
 

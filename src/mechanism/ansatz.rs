@@ -3,9 +3,7 @@
 use super::Point;
 use super::linear::{Echelon, dot, whole_and_positive};
 use super::samples::Samples;
-use crate::formula::{Exact, Expr, Fun, Scalar, Symbol};
-use num_bigint::BigInt;
-use num_rational::BigRational;
+use crate::formula::{BigInt, BigRational, Exact, Expr, Fun, Scalar, Symbol};
 use num_traits::{One, Signed, Zero};
 
 /// A product of parameters, a coordinate, and the cosine or sine of an angle; of the last two one may be missing.

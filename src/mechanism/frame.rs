@@ -59,7 +59,7 @@ fn series(row: &Row, coordinates: &[Symbol], at: &Point, layout: &Arc<Layout>) -
 }
 
 fn zero() -> Jet {
-    Jet::number(&num_rational::BigRational::zero())
+    Jet::number(&crate::formula::BigRational::zero())
 }
 
 /// Gauss–Jordan elimination; the places of the pivots, which become one with zeros above and below.
@@ -101,7 +101,7 @@ fn pivot(matrix: &[Vec<Jet>], pivots: &[(usize, usize)]) -> Option<(usize, usize
 /// The motion in which one free coordinate moves at unit rate and the other free ones rest.
 fn motion(matrix: &[Vec<Jet>], pivots: &[(usize, usize)], free: usize, count: usize) -> Vec<Jet> {
     let mut field = vec![zero(); count];
-    field[free] = Jet::number(&num_rational::BigRational::one());
+    field[free] = Jet::number(&crate::formula::BigRational::one());
     pivots.iter().for_each(|(r, c)| field[*c] = matrix[*r][free].neg());
     field
 }

@@ -1,8 +1,7 @@
 //! Exact linear algebra: what is independent, and what a set of linear forms sends to zero.
 
-use num_bigint::BigInt;
+use crate::formula::{BigInt, BigRational};
 use num_integer::Integer;
-use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 /// Rows reduced against each other: each has a column of its own in which all others are zero.

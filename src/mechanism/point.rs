@@ -2,8 +2,7 @@
 
 use super::Row;
 use crate::error::{Error, Result};
-use crate::formula::{Exact, Expr, Symbol};
-use num_rational::BigRational;
+use crate::formula::{BigRational, Exact, Expr, Symbol};
 use std::collections::BTreeMap;
 
 /// Exact values for coordinates and parameters.

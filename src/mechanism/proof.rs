@@ -3,8 +3,7 @@
 use super::linear::Echelon;
 use super::vanish::vanishes;
 use super::{Row, ansatz::Sample};
-use crate::formula::{Exact, Expr, Fun, Scalar, Symbol};
-use num_rational::BigRational;
+use crate::formula::{BigRational, Exact, Expr, Fun, Scalar, Symbol};
 use num_traits::One;
 
 /// The size of the largest determinant that is written out.

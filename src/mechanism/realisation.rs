@@ -3,8 +3,7 @@
 use super::linear::{Echelon, dot};
 use super::{Mechanism, Point, Row, rank};
 use crate::error::{Error, Result};
-use crate::formula::{Expr, Symbol};
-use num_rational::BigRational;
+use crate::formula::{BigRational, Expr, Symbol};
 use num_traits::Zero;
 
 /// As many smallest sets as are listed at most.

@@ -1,8 +1,7 @@
 //! Random rational points at which formulas are looked at.
 
 use super::Point;
-use crate::formula::{Exact, Expr, Symbol};
-use num_rational::BigRational;
+use crate::formula::{BigRational, Exact, Expr, Symbol};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeSet;
@@ -57,7 +56,7 @@ impl Samples {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use num_traits::{Signed, Zero};
+    use num_traits::Signed;
 
     #[test]
     fn angles_turn_to_both_sides_and_are_no_multiple_of_a_right_angle() {

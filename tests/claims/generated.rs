@@ -5,9 +5,8 @@ use creepage::claims::generated::{
     Drive, Facing, Generated, Moving, Placed, any_drive, loose_vehicles, moving, vehicles,
 };
 use creepage::claims::written;
-use creepage::formula::{Exact, Fun, Scalar, Symbol};
+use creepage::formula::{BigRational, Exact, Fun, Scalar, Symbol};
 use creepage::mechanism::{Constraint, Mechanism, Point};
-use num_rational::BigRational;
 use num_traits::Zero;
 use proptest::prelude::*;
 use std::cell::RefCell;

@@ -3,10 +3,9 @@
 use crate::support::rounding::Rounded;
 use crate::support::tree::{NAMES, formulas, functions, named, points, small_formulas};
 use crate::support::{Outcome, check};
-use creepage::formula::{Dual, Expr, Graph, Program, Symbol};
+use creepage::formula::{Dual, Expr, Graph, Program, Symbol, exact_f64, nearest_f64};
 use nalgebra::{DVector, RowDVector};
 use num_dual::{Derivative, Dual2_64, Dual2DVec64, Dual64, DualDVec64, HyperDual64};
-use num_rational::BigRational;
 use proptest::prelude::*;
 
 type Point = [f64; 8];
@@ -77,7 +76,7 @@ fn the_carrier_that_bounds_rounding_decides_often_enough() {
 fn substituting_numbers_gives_the_value() {
     check(2000, (formulas(), points()), |(e, at)| {
         let Some(expected) = rounded(&e, &at) else { return Ok(()) };
-        let number = |s: &Symbol| BigRational::from_float(named(&at, s.as_str())).map(|v| Expr::number(&v));
+        let number = |s: &Symbol| exact_f64(named(&at, s.as_str())).map(|v| Expr::number(&v));
         let written = e.substitute(&number);
         prop_assert!(written.symbols().is_empty());
         agrees("substituted", expected, value(&written, &at))
@@ -148,9 +147,7 @@ fn tidying_leaves_a_product_alone_that_would_not_end() {
 /// Whether every number of a graph is a double, so that folding constants rounds nothing.
 fn folds_exactly(graph: &Graph) -> bool {
     (0..graph.len()).all(|id| match graph.op(id) {
-        creepage::formula::Op::Num(v) => {
-            BigRational::from_float(num_traits::ToPrimitive::to_f64(v).unwrap()).as_ref() == Some(v)
-        }
+        creepage::formula::Op::Num(v) => exact_f64(nearest_f64(v)).as_ref() == Some(v),
         _ => true,
     })
 }

@@ -2,11 +2,9 @@
 
 use crate::support::laws::{Carrier, laws, number, overflow_is_undefined};
 use crate::support::{check, modest, nonzero};
-use creepage::formula::{Dual, Exact, Expr, Normal, Scalar, Unit};
+use creepage::formula::{BigInt, BigRational, Dual, Exact, Expr, Normal, Scalar, Unit};
 use nalgebra::{DMatrix, DVector, RowDVector};
-use num_bigint::BigInt;
 use num_dual::{Derivative, Dual2_64, Dual2DVec64, Dual64, DualDVec64, HyperDual64};
-use num_rational::BigRational;
 use proptest::prelude::*;
 
 /// A carrier that lies over floating point: all its numbers in a row.

@@ -1,9 +1,9 @@
 //! Carriers where a shortcut, a size or a layout could be mistaken for another.
 
-use creepage::formula::{Dual, Exact, Expr, Graph, Jet, Layout, Polynomial, Program, Scalar, Unit};
-use num_bigint::BigInt;
+use creepage::formula::{
+    BigInt, BigRational, Dual, Exact, Expr, Graph, Jet, Layout, Polynomial, Program, Scalar, Unit,
+};
 use num_dual::{Dual2, Dual2Vec, Dual64, DualVec};
-use num_rational::BigRational;
 use std::sync::Arc;
 
 fn layout(name: &str, order: usize) -> Arc<Layout> {
@@ -78,7 +78,7 @@ fn the_hyperbolic_tangent_keeps_its_digits_near_zero() {
 
 #[test]
 fn an_angle_of_long_numbers_has_a_value() {
-    let ten = |k: u32| BigInt::from(10).pow(k);
+    let ten = |k: usize| BigInt::from(10).pow(k);
     let angle = Exact::direction(ten(400) + 1, ten(399) * 3);
     assert!((angle.to_f64() - 0.3f64.atan()).abs() < 1e-12, "{}", angle.to_f64());
 }

@@ -1,8 +1,7 @@
 //! The carrier of truncated power series: a ring, with functions that obey the chain rule.
 
 use crate::support::{Outcome, check};
-use creepage::formula::{Exact, Expr, Fun, Jet, Layout, Scalar, Symbol};
-use num_rational::BigRational;
+use creepage::formula::{BigRational, Exact, Expr, Fun, Jet, Layout, Scalar, Symbol};
 use num_traits::Zero;
 use proptest::prelude::*;
 use std::sync::Arc;

@@ -2,8 +2,7 @@
 
 use crate::support::tree::{Tree, formulas, number_text, points, small_trees, trees};
 use crate::support::{self, check};
-use creepage::formula::{Expr, Symbol, latex_symbol};
-use num_rational::BigRational;
+use creepage::formula::{BigRational, Expr, Symbol, latex_symbol};
 use proptest::prelude::*;
 
 /// Printed text reads back as the very same expression.

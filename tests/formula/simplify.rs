@@ -1,7 +1,6 @@
 //! What building an expression or a graph leaves out, and that it leaves out nothing else: one form for each case.
 
-use creepage::formula::{Expr, Graph, NodeId};
-use num_rational::BigRational;
+use creepage::formula::{BigRational, Expr, Graph, NodeId};
 
 fn e(text: &str) -> Expr {
     Expr::parse(text).unwrap()

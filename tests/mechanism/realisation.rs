@@ -1,10 +1,9 @@
 //! RᵏTᵐ by ranks: which coefficients realise a motion, given what is measured.
 
 use crate::support::described::*;
-use creepage::formula::{Exact, Symbol};
+use creepage::formula::{BigRational, Exact, Symbol};
 use creepage::mechanism::{Mechanism, Point, Realisation};
 use creepage::{model::mechanism, vehicles};
-use num_rational::BigRational;
 
 fn rates(names: &[&str]) -> Vec<Symbol> {
     names.iter().map(|n| Symbol::from(*n)).collect()

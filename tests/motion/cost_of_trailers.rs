@@ -87,7 +87,7 @@ fn a_jacobian_is_linear_in_its_entries() {
     let costs = HARD.map(|n| {
         let (mut graph, rates, states, slots) = train(n);
         let entries: Vec<NodeId> = states.iter().flat_map(|s| graph.derivatives(&rates, s)).collect();
-        let zero = |id: &NodeId| matches!(graph.op(*id), Op::Num(v) if *v == num_rational::BigRational::default());
+        let zero = |id: &NodeId| matches!(graph.op(*id), Op::Num(v) if *v == creepage::formula::BigRational::default());
         let entries: Vec<NodeId> = entries.iter().copied().filter(|id| !zero(id)).collect();
         steps(&graph, &entries, &slots) as f64 / entries.len() as f64
     });

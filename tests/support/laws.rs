@@ -1,9 +1,7 @@
 //! The laws of a carrier.
 
 use super::{Outcome, check};
-use creepage::formula::{Fun, Scalar};
-use num_bigint::BigInt;
-use num_rational::BigRational;
+use creepage::formula::{BigInt, BigRational, Fun, Scalar};
 use proptest::prelude::*;
 use std::fmt::Debug;
 

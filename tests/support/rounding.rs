@@ -1,8 +1,7 @@
 //! A carrier of the tests' own: a value with a bound on what rounding may have done to it.
 
 use super::tree::function;
-use creepage::formula::{Fun, Scalar};
-use num_rational::BigRational;
+use creepage::formula::{BigRational, Fun, Scalar};
 
 /// NaN for what is not finite.
 pub fn finite(x: f64) -> f64 {

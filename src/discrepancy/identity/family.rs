@@ -4,9 +4,8 @@ use super::Measured;
 use super::motion::Motion;
 use super::tangent::Tangent;
 use crate::effects::Applied;
-use crate::formula::{Expr, Fun, Normal, Scalar, Symbol};
+use crate::formula::{BigRational, Expr, Fun, Normal, Scalar, Symbol};
 use crate::model::{Model, trailer_heading};
-use num_rational::BigRational;
 use std::collections::BTreeMap;
 
 /// Values of parameters; what is not given stands for itself.

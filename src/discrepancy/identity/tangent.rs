@@ -1,7 +1,6 @@
 //! A value with its derivative as a carrier, both in normal form.
 
-use crate::formula::{Fun, Normal, Scalar};
-use num_rational::BigRational;
+use crate::formula::{BigRational, Fun, Normal, Scalar};
 use num_traits::Zero;
 
 /// f + f′·ε with ε² = 0: exact derivatives of formulas as formulas.

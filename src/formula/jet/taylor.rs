@@ -1,7 +1,6 @@
 //! The Taylor coefficients of the functions of the language at an exact place.
 
-use crate::formula::{Exact, Fun, Scalar};
-use num_rational::BigRational;
+use crate::formula::{BigRational, Exact, Fun, Scalar};
 use num_traits::{One, Zero};
 
 /// f(c) and the coefficients of u, u², … up to the order in f(c + u); `None` where they are not exact or not known.

@@ -3,8 +3,7 @@
 use super::atom::{Atom, Monomial};
 use super::fraction::Fraction;
 use crate::formula::exact::root;
-use num_bigint::BigInt;
-use num_rational::BigRational;
+use crate::formula::{BigInt, BigRational};
 use num_traits::{One, Pow, ToPrimitive};
 use std::sync::Arc;
 
@@ -29,8 +28,11 @@ impl Angle {
         let (size, p) = value.as_multiple()?;
         let part = |m: &Monomial, v: &BigInt| {
             let times = size * BigRational::from_integer(v.clone());
-            let times =
-                if times.is_integer() { times.to_i32().filter(|k| k.abs() <= MAX_TIMES)? } else { return None };
+            let times = if times.is_integer() {
+                times.numer().to_i32().filter(|k| k.abs() <= MAX_TIMES)?
+            } else {
+                return None;
+            };
             m.as_atom().filter(|a| matches!(a, Atom::Symbol(_) | Atom::Arctan(_))).map(|a| (a.clone(), times))
         };
         p.terms().map(|(m, v)| part(m, v)).collect::<Option<_>>().map(Self)

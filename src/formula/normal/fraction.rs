@@ -3,9 +3,8 @@
 use super::atom::{Atom, Monomial};
 use super::poly::{MAX_BITS, Poly};
 use crate::formula::Expr;
-use num_bigint::BigInt;
+use crate::formula::rational::{BigInt, BigRational, bits};
 use num_integer::Integer;
-use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -80,7 +79,7 @@ impl Fraction {
         if n < 0 && !self.is_surely_nonzero() {
             return None;
         }
-        let bits = self.coefficient.numer().bits().max(self.coefficient.denom().bits());
+        let bits = bits(self.coefficient.numer()).max(bits(self.coefficient.denom()));
         if bits > 1 && bits.checked_mul(n.unsigned_abs().into())? > MAX_BITS {
             return None;
         }
@@ -121,7 +120,7 @@ impl Fraction {
     }
 
     fn bounded(self) -> Option<Self> {
-        (self.coefficient.numer().bits().max(self.coefficient.denom().bits()) <= MAX_BITS).then_some(self)
+        (bits(self.coefficient.numer()).max(bits(self.coefficient.denom())) <= MAX_BITS).then_some(self)
     }
 
     /// Multiplies by a power of any polynomial but zero.

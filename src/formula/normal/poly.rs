@@ -2,10 +2,9 @@
 
 use super::atom::{Atom, Monomial};
 use crate::formula::polynomial::signed_sum;
+use crate::formula::rational::{BigInt, BigRational, bits};
 use crate::formula::{Expr, Symbol};
-use num_bigint::BigInt;
 use num_integer::Integer;
-use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 use std::cmp::Ordering;
 use std::collections::btree_map::{BTreeMap, Entry};
@@ -99,7 +98,7 @@ impl Poly {
 
     /// Nothing where a bound is passed.
     fn bounded(self) -> Option<Self> {
-        let small = self.terms.len() <= MAX_TERMS && self.terms.values().all(|v| v.bits() <= MAX_BITS);
+        let small = self.terms.len() <= MAX_TERMS && self.terms.values().all(|v| bits(v) <= MAX_BITS);
         small.then_some(self)
     }
 

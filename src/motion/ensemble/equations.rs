@@ -3,10 +3,11 @@
 use super::LANES;
 use super::steps::Lane;
 use crate::error::{Error, Result};
-use crate::formula::{Changes, Expr, Graph, Isa, Lanes, Memory, NodeId, Op, Program, Symbol};
+use crate::formula::{
+    BigRational, Changes, Expr, Graph, Isa, Lanes, Memory, NodeId, Op, Program, Symbol, exact_f64, nearest_f64,
+};
 use crate::model::Model;
 use crate::motion::Signals;
-use num_rational::BigRational;
 use std::collections::BTreeMap;
 
 /// What drives every case.
@@ -78,7 +79,7 @@ impl Varied {
 }
 
 fn exact(value: f64) -> Result<BigRational> {
-    BigRational::from_float(value).ok_or_else(|| Error::input("a parameter is not a finite number"))
+    exact_f64(value).ok_or_else(|| Error::input("a parameter is not a finite number"))
 }
 
 impl LaneEquations {
@@ -151,7 +152,7 @@ impl LaneEquations {
             readings: Lanes::new(&readings, &changes),
             read,
             log: inputs.log.as_ref().map(|(_, signals)| signals.clone()),
-            delay: delay.as_number().map_or(0.0, |d| num_traits::ToPrimitive::to_f64(&d).unwrap_or(f64::NAN)),
+            delay: delay.as_number().map_or(0.0, |d| nearest_f64(&d)),
             own_clocks,
             plain_sensor,
             time_slot: states.len() + varied.len(),

@@ -3,14 +3,13 @@
 use super::choose::{Chosen, choose};
 use super::coarse;
 use super::data::Data;
-use super::fit::Fit;
 use super::judged::Judged;
-use super::locate;
+use super::listed::{named, without_name};
 use super::problem::Problem;
-use super::relatives::{self, Relative, relatives};
+use super::relatives::{self, relatives};
 use super::remaining::remaining;
 use super::report::*;
-use super::{contested, experiment, implausible, picture, slips, summary, unnamed, verdict};
+use super::{contested, experiment, implausible, locate, picture, slips, summary, unnamed, verdict};
 use crate::effects::Effect;
 use crate::error::{Error, Result};
 use crate::files::{EffectEntry, ModelFile, Run};
@@ -206,48 +205,6 @@ fn nothing_to_fit(request: &Request, data: &Data, paths: Vec<PathPicture>, outco
     report.summary = outcome.sentence.unwrap_or_else(|| summary::verdict_sentence(&report));
     report.next_experiment = outcome.next_experiment;
     Discovery { report, pictures: Pictures { paths, ..Pictures::default() }, added: vec![] }
-}
-
-/// A chosen effect as the report lists it.
-fn named(chosen: &Chosen, relatives: &[Relative], model: &Model) -> Named {
-    let a = &chosen.applied;
-    let values = a.effect.parameters.iter().zip(&a.values).zip(&chosen.std);
-    let mut parameters: BTreeMap<String, Estimate> = values
-        .map(|(((name, p), value), std)| (name.clone(), Estimate { value: *value, std: *std, unit: p.unit.clone() }))
-        .collect();
-    if let Some(i) = a.trailer {
-        parameters.insert("trailer".into(), Estimate { value: i as f64, std: None, unit: "1".into() });
-    }
-    let rival = |r: &Relative| Rival { id: r.applied.effect.id.clone(), why: r.why.into() };
-    Named {
-        id: a.effect.id.clone(),
-        says: a.effect.says.clone(),
-        place: a.effect.place.clone(),
-        parameters,
-        evidence: Evidence { delta_bic: chosen.delta_bic, p_value: chosen.p_value },
-        indistinguishable_from: relatives.iter().map(rival).collect(),
-        equation: picture::equation(a, model),
-    }
-}
-
-/// Chosen terms as the report lists them, judged on the held-out data.
-fn without_name(terms: &[&Chosen], data: &Data, after: &Fit, model: &Model) -> Result<Vec<Unnamed>> {
-    if terms.is_empty() {
-        return Ok(vec![]);
-    }
-    let judged = if data.held_out.is_empty() { &data.fitted } else { &data.held_out };
-    let mut bare = after.model.clone();
-    bare.effects.retain(|e| !unnamed::is_term(e));
-    let violations =
-        |m: &Model| -> Result<Vec<_>> { judged.iter().map(|r| locate::Violation::of(m, r, &after.noise())).collect() };
-    let (without, with) = (violations(&bare)?, violations(&after.model)?);
-    let one = |c: &&Chosen| Unnamed {
-        place: c.applied.effect.place.clone(),
-        equation: unnamed::equation(&c.applied, model),
-        held_out_reduction: unnamed::reduction(&c.applied.effect.place, &without, &with),
-        parameters: named(c, &[], model).parameters,
-    };
-    Ok(terms.iter().map(one).collect())
 }
 
 /// The horizons asked for that no run is long enough for.

@@ -55,7 +55,7 @@ pub fn compiled(trailers: usize) -> Compiled {
     let (mut places, mut nodes) = (vec![], vec![]);
     for (column, symbol) in slots.iter().enumerate() {
         for (row, node) in graph.derivatives(&rows, symbol).into_iter().enumerate() {
-            if !matches!(graph.op(node), Op::Num(v) if *v == num_rational::BigRational::default()) {
+            if !matches!(graph.op(node), Op::Num(v) if *v == creepage::formula::BigRational::default()) {
                 places.push((row, column));
                 nodes.push(node);
             }

@@ -1,17 +1,8 @@
 //! The command line as a script sees it: exit codes, messages, files.
 
 use crate::bad_inputs::{BAD_LOGS, BAD_MODELS, CSV, MODEL};
-use std::path::Path;
-use std::process::{Command, Output};
+use crate::program::{creepage, stderr};
 use tempfile::TempDir;
-
-fn creepage(dir: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_creepage")).current_dir(dir).args(arguments).output().unwrap()
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
-}
 
 fn folder(files: &[(&str, &[u8])]) -> TempDir {
     let dir = tempfile::tempdir().unwrap();

@@ -1,5 +1,6 @@
 //! `creepage init`, `creepage check`, completions and manual pages.
 
+use crate::program::creepage;
 use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
 use creepage::discrepancy::fit::Effort;
 use creepage::discrepancy::identifiable::{Check, Checked, Seen, Standing, check};
@@ -10,12 +11,6 @@ use creepage::files::{ModelFile, Run};
 use creepage::model::{self, Model};
 use creepage::starter::{Starter, Wanted};
 use creepage::{effects, vehicles};
-use std::path::Path;
-use std::process::{Command, Output};
-
-fn creepage(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_creepage")).current_dir(folder).args(arguments).output().unwrap()
-}
 
 fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()

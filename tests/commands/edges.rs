@@ -1,8 +1,9 @@
 //! Numbers at the edge of what can be written: they work, or end in one message, and they end.
 
+use crate::program;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 use std::time::{Duration, Instant};
 
 /// What a command may take on a machine that is busy with other things.
@@ -10,7 +11,7 @@ const MOST: Duration = Duration::from_secs(240);
 
 fn creepage(dir: &Path, arguments: &[&str]) -> Output {
     let begin = Instant::now();
-    let output = Command::new(env!("CARGO_BIN_EXE_creepage")).current_dir(dir).args(arguments).output().unwrap();
+    let output = program::creepage(dir, arguments);
     assert!(begin.elapsed() < MOST, "{arguments:?} took {:?}", begin.elapsed());
     let message = String::from_utf8_lossy(&output.stderr);
     let lines = message.trim_end().lines().count();

@@ -1,7 +1,7 @@
 //! Names that would be code in a page stay text: of a column, a file, an effect.
 
+use crate::program;
 use std::fs;
-use std::process::Command;
 
 const SCRIPT: &str = "<script>alert(1)</script>";
 
@@ -12,7 +12,7 @@ fn elements(text: &str) -> Vec<&str> {
 }
 
 fn creepage(dir: &std::path::Path, arguments: &[&str]) {
-    let output = Command::new(env!("CARGO_BIN_EXE_creepage")).current_dir(dir).args(arguments).output().unwrap();
+    let output = program::creepage(dir, arguments);
     assert!(output.status.success(), "{output:?}");
 }
 

@@ -2,7 +2,6 @@
 
 mod bad_input;
 #[path = "../support/bad_inputs.rs"]
-#[allow(dead_code)]
 mod bad_inputs;
 mod cli;
 mod daily_use;
@@ -16,6 +15,8 @@ mod known;
 mod odd_paths;
 mod output;
 mod own_states;
+#[path = "../support/program.rs"]
+mod program;
 mod quiet;
 #[path = "../support/reviewed.rs"]
 mod reviewed;

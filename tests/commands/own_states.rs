@@ -1,12 +1,8 @@
 //! Vehicles and effects of a user's own with sections and states that the catalogue's do not have: every command takes them.
 
+use crate::program::creepage;
 use crate::simulator::{Noise, Scenario, Tractor};
 use std::path::Path;
-use std::process::{Command, Output};
-
-fn creepage(dir: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_creepage")).current_dir(dir).args(arguments).output().unwrap()
-}
 
 #[track_caller]
 fn succeeds(dir: &Path, arguments: &[&str]) -> String {

@@ -2,16 +2,11 @@
 
 #![cfg(feature = "mcap")]
 
+use crate::to_bag::Cdr;
+use crate::two_names::read_under_two_names;
 use creepage::files::{ModelFile, Run};
 use creepage::{Result, effects, model};
 use std::collections::BTreeMap;
-
-#[path = "../../examples/to_bag.rs"]
-#[allow(dead_code)]
-mod to_bag;
-
-use crate::two_names::read_under_two_names;
-use to_bag::Cdr;
 
 /// A message: its topic, its type, when it was recorded in nanoseconds, and what it says.
 type Said = (&'static str, &'static str, u64, Vec<u8>);

@@ -1,17 +1,12 @@
 //! Logs that are no CSV: read back to the same run, or refused with one message.
 
+#[cfg(feature = "mcap")]
+use crate::to_bag;
+#[cfg(feature = "parquet")]
+use crate::to_parquet;
 use creepage::files::{ModelFile, Run};
 use creepage::{Error, effects, model};
 use std::path::{Path, PathBuf};
-
-#[cfg(feature = "mcap")]
-#[path = "../../examples/to_bag.rs"]
-#[allow(dead_code)]
-mod to_bag;
-#[cfg(feature = "parquet")]
-#[path = "../../examples/to_parquet.rs"]
-#[allow(dead_code)]
-mod to_parquet;
 
 #[cfg(any(feature = "parquet", feature = "mcap"))]
 const EXAMPLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/runs/cornering/eights.csv");

@@ -8,7 +8,6 @@ mod bad_formulas;
 #[allow(dead_code, reason = "the table of bad inputs is another test's")]
 mod bad_inputs;
 #[path = "../support/bad_vehicles.rs"]
-#[allow(dead_code)]
 mod bad_vehicles;
 mod bag_messages;
 mod bounds;
@@ -21,6 +20,8 @@ mod model_terms;
 #[path = "../models/mod.rs"]
 mod models;
 mod parquet_types;
+#[path = "../support/program.rs"]
+mod program;
 mod read;
 #[path = "../simulator/mod.rs"]
 mod simulator;
@@ -28,6 +29,14 @@ mod simulator;
 mod slips;
 #[path = "../support/mod.rs"]
 mod support;
+#[cfg(feature = "mcap")]
+#[path = "../../examples/to_bag.rs"]
+#[allow(dead_code)]
+mod to_bag;
+#[cfg(feature = "parquet")]
+#[path = "../../examples/to_parquet.rs"]
+#[allow(dead_code)]
+mod to_parquet;
 mod two_files;
 #[cfg(any(feature = "mcap", feature = "parquet"))]
 #[path = "../support/two_names.rs"]

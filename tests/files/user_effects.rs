@@ -3,6 +3,7 @@
 use crate::bad_effects::{BAD_FILES, GOOD};
 use crate::bad_formulas::BAD_FORMULAS;
 use crate::models::OWN_EFFECTS;
+use crate::program::{creepage, stderr};
 use crate::simulator::{Hidden, Noise, Scenario, Tractor};
 use crate::slips;
 use creepage::describe::{self, Description};
@@ -15,15 +16,6 @@ use rand::SeedableRng;
 use rand_distr::Distribution;
 use serde_json::Value;
 use std::path::Path;
-use std::process::{Command, Output};
-
-fn creepage(dir: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_creepage")).current_dir(dir).args(arguments).output().unwrap()
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
-}
 
 /// The library with a file of this text, or the message without the name of the file.
 fn library(text: &[u8]) -> Result<Vec<Effect>, String> {

@@ -2,6 +2,7 @@
 
 use crate::bad_vehicles::{BAD_CONSTRAINTS, BAD_MODELS, BAD_VEHICLES, GOOD, ROPE};
 use crate::models::{effect, instant, situation};
+use crate::program::{creepage, stderr};
 use crate::simulator::{Hidden, Noise, Scenario, Tractor, Vehicle as Simulated};
 use crate::slips;
 use crate::support::check;
@@ -15,17 +16,9 @@ use proptest::prelude::*;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
 const BUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/bus/bus.toml");
-
-fn creepage(dir: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_creepage")).current_dir(dir).args(arguments).output().unwrap()
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
-}
 
 fn stdout(output: &Output) -> String {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(output));

@@ -1,7 +1,6 @@
 //! Expressions as data.
 
-use super::{Fun, Scalar, Symbol};
-use crate::formula::{BigInt, BigRational};
+use super::{BigInt, BigRational, Fun, Scalar, Symbol};
 use num_traits::{One, Signed, Zero};
 use std::collections::BTreeSet;
 use std::sync::Arc;

@@ -1,7 +1,6 @@
 //! Expressions as a graph in which equal sub-expressions stand once.
 
-use super::{Expr, Fun, Node, Symbol};
-use crate::formula::BigRational;
+use super::{BigRational, Expr, Fun, Node, Symbol};
 use num_traits::{One, Signed, Zero};
 use std::collections::HashMap;
 

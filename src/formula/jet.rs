@@ -5,8 +5,7 @@ mod taylor;
 
 pub use layout::Layout;
 
-use super::{Exact, Fun, Scalar, Symbol};
-use crate::formula::BigRational;
+use super::{BigRational, Exact, Fun, Scalar, Symbol};
 use num_traits::{One, Zero};
 use std::collections::BTreeMap;
 use std::sync::Arc;

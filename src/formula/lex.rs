@@ -1,9 +1,8 @@
 //! Text to tokens.
 
-use super::Symbol;
 use super::symbol::{is_inner, is_start};
+use super::{BigInt, BigRational, Symbol};
 use crate::error::{Error, Result};
-use crate::formula::{BigInt, BigRational};
 use num_traits::Zero;
 
 /// A piece of a formula and the column (from zero, in characters of the whole text) where it begins.

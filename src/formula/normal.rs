@@ -5,8 +5,7 @@ mod atom;
 mod fraction;
 mod poly;
 
-use super::{Exact, Expr, Fun, Scalar, Symbol};
-use crate::formula::BigRational;
+use super::{BigRational, Exact, Expr, Fun, Scalar, Symbol};
 use angle::Angle;
 use atom::Atom;
 use fraction::Fraction;

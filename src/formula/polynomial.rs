@@ -1,7 +1,6 @@
 //! A formula as a polynomial in its atoms: like terms collected, products multiplied out.
 
-use super::{Expr, Fun, Node};
-use crate::formula::BigRational;
+use super::{BigRational, Expr, Fun, Node};
 use num_traits::{One, Signed, Zero};
 use std::collections::BTreeMap;
 

@@ -1,7 +1,6 @@
 //! Expressions to text that reads back as the same expression.
 
-use super::{Expr, Node};
-use crate::formula::{BigInt, BigRational};
+use super::{BigInt, BigRational, Expr, Node};
 use num_traits::Zero;
 use std::fmt;
 

@@ -1,7 +1,6 @@
 //! What a formula can be evaluated in.
 
-use super::Fun;
-use crate::formula::BigRational;
+use super::{BigRational, Fun};
 
 /// A carrier: a set of values in which a formula can be read.
 ///

@@ -1,7 +1,6 @@
 //! Expressions as a carrier: substitution is evaluation.
 
-use super::{Expr, Fun, Node, Scalar, Symbol};
-use crate::formula::BigRational;
+use super::{BigRational, Expr, Fun, Node, Scalar, Symbol};
 
 impl Scalar for Expr {
     fn number(value: &BigRational) -> Self {

@@ -1,7 +1,6 @@
 //! Unit exponents as a carrier: the units of a formula, or why it has none.
 
-use super::{Fun, Scalar};
-use crate::formula::BigRational;
+use super::{BigRational, Fun, Scalar};
 use num_rational::Rational32;
 use num_traits::{CheckedAdd, CheckedMul, Zero};
 use std::fmt;

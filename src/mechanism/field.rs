@@ -1,7 +1,7 @@
 //! Vector fields near a point, and their brackets, in whole numbers.
 
 use super::linear::common_factor;
-use crate::formula::{BigInt, Jet, Layout};
+use crate::formula::{BigInt, BigRational, Jet, Layout};
 use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
@@ -29,7 +29,7 @@ impl Field {
         let constants = constants?;
         let all = components.iter().flat_map(|j| j.terms().values()).chain(constants.iter().copied());
         let denominator = all.fold(BigInt::one(), |d, v| d.lcm(v.denom()));
-        let component = |(jet, constant): (&Jet, &&crate::formula::BigRational)| {
+        let component = |(jet, constant): (&Jet, &&BigRational)| {
             let mut whole = vec![BigInt::zero(); layout.count(layout.order())];
             let terms = jet.terms().iter().map(|(m, v)| (*m, v)).chain([(0, *constant)]);
             terms.for_each(|(m, v)| whole[m] = v.numer() * (&denominator / v.denom()));

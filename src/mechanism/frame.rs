@@ -4,7 +4,7 @@ use super::field::Field;
 use super::point::not_exact;
 use super::{Point, Row};
 use crate::error::{Error, Result};
-use crate::formula::{Expr, Jet, Layout, Scalar, Symbol};
+use crate::formula::{BigRational, Expr, Jet, Layout, Scalar, Symbol};
 use num_traits::{One, Zero};
 use std::sync::Arc;
 
@@ -59,7 +59,7 @@ fn series(row: &Row, coordinates: &[Symbol], at: &Point, layout: &Arc<Layout>) -
 }
 
 fn zero() -> Jet {
-    Jet::number(&crate::formula::BigRational::zero())
+    Jet::number(&BigRational::zero())
 }
 
 /// Gauss–Jordan elimination; the places of the pivots, which become one with zeros above and below.
@@ -101,7 +101,7 @@ fn pivot(matrix: &[Vec<Jet>], pivots: &[(usize, usize)]) -> Option<(usize, usize
 /// The motion in which one free coordinate moves at unit rate and the other free ones rest.
 fn motion(matrix: &[Vec<Jet>], pivots: &[(usize, usize)], free: usize, count: usize) -> Vec<Jet> {
     let mut field = vec![zero(); count];
-    field[free] = Jet::number(&crate::formula::BigRational::one());
+    field[free] = Jet::number(&BigRational::one());
     pivots.iter().for_each(|(r, c)| field[*c] = matrix[*r][free].neg());
     field
 }

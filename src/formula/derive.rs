@@ -74,11 +74,7 @@ impl Graph {
             Op::Neg(x) => self.neg(known(&x)),
             Op::Add(a, b) => self.add(known(&a), known(&b)),
             Op::Sub(a, b) => self.sub(known(&a), known(&b)),
-            Op::Mul(a, b) => {
-                let left = self.mul(known(&a), b);
-                let right = self.mul(a, known(&b));
-                self.add(left, right)
-            }
+            Op::Mul(a, b) => self.product_rule([a, b], [known(&a), known(&b)]),
             Op::Div(a, b) => self.quotient_rule(id, known(&a), b, known(&b)),
             Op::Pow(x, n) => self.power_rule(x, n, known(&x)),
             // A function of what does not depend on the symbol does not either.
@@ -90,10 +86,26 @@ impl Graph {
         }
     }
 
+    /// (a·b)′ = a′·b + a·b′
+    ///
+    /// A product by a factor that does not move is left out even where the other factor is not defined everywhere: kept
+    /// as 0·tan(α), it would pass for a dependence.
+    fn product_rule(&mut self, [a, b]: [NodeId; 2], [da, db]: [NodeId; 2]) -> NodeId {
+        match (self.is_zero(da), self.is_zero(db)) {
+            (true, true) => da,
+            (true, false) => self.mul(a, db),
+            (false, true) => self.mul(da, b),
+            (false, false) => {
+                let (left, right) = (self.mul(da, b), self.mul(a, db));
+                self.add(left, right)
+            }
+        }
+    }
+
     /// (a/b)′ = (a′ − (a/b)·b′)/b
     fn quotient_rule(&mut self, quotient: NodeId, da: NodeId, b: NodeId, db: NodeId) -> NodeId {
-        if self.is_zero(da) && self.is_zero(db) {
-            return da;
+        if self.is_zero(db) {
+            return if self.is_zero(da) { da } else { self.div(da, b) };
         }
         let carried = self.mul(quotient, db);
         let top = self.sub(da, carried);

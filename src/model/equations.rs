@@ -478,4 +478,14 @@ mod tests {
         assert!(plain.equations(&[]).unwrap().carried().is_none());
         assert!(relaxing().equations_by(&["wheel_radius".into()]).unwrap().carried().is_none());
     }
+
+    /// A car turns by tan(α), which is not defined everywhere; that is no dependence on the pose.
+    #[test]
+    fn what_is_undefined_somewhere_does_not_pass_for_a_dependence() {
+        let car = Model::new("car", &[("wheel_radius", 0.5), ("wheelbase", 2.0)]).unwrap();
+        let creeping = Applied::new(named("cornering-creep").unwrap(), None, vec![0.1]);
+        let e = car.with_effect(creeping).equations(&[]).unwrap();
+        assert_eq!((e.unread(), e.read_by()[3].clone()), (2, vec![3]));
+        assert!(e.carried().is_some());
+    }
 }

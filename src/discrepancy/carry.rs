@@ -23,7 +23,7 @@ pub(super) fn asked(equations: &Equations, p: &[f64], record: &Record, row: usiz
     let way = Way::to(equations, p, record, row, visible);
     let rest = way.at_rest();
     let arc = way.along(rest.clone());
-    let elsewhere = Arc { z: rest.z.iter().map(|z| z + 1.0).collect(), s: rest.s };
+    let elsewhere = Arc { z: rest.z.iter().map(|z| z + 1.0).collect(), s: vec![] };
     let memory = way.along(elsewhere).z.iter().zip(&arc.z).map(|(a, b)| (a - b).abs()).collect();
     Carried { arc, pose: visible, memory }.settled(equations, p, record, row)
 }
@@ -75,7 +75,11 @@ impl<'a> Way<'a> {
         let (mut stepper, time) = (self.stepper(), &self.record.time);
         for i in self.first..self.row {
             // The pose a hidden state sees is the measured one; only the hidden states are carried.
-            let mut arc = stepper.start(&[self.visible, &hidden.z].concat(), Some(&hidden.s));
+            let z = [self.visible, &hidden.z].concat();
+            let mut arc = match hidden.s.is_empty() {
+                true => Arc { z, s: vec![] },
+                false => stepper.start(&z, Some(&hidden.s)),
+            };
             stepper.advance(&mut arc, time[i], time[i + 1]);
             hidden = Arc { z: arc.z[self.equations.visible..].to_vec(), s: arc.s };
         }

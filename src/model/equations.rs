@@ -211,6 +211,11 @@ impl Equations {
         (0..self.visible).take_while(|j| !read(*j)).count()
     }
 
+    /// How many of the states, the first ones, hang on nothing: their sensitivities stay as they are.
+    pub(crate) fn still(&self) -> usize {
+        self.live_by_rate().iter().take_while(|live| live.is_empty()).count()
+    }
+
     /// The columns that the rate of each state depends on: of (z, u, p), or of what the derivatives were asked by.
     pub(crate) fn live_by_rate(&self) -> Vec<Vec<usize>> {
         let n = self.n();
@@ -472,6 +477,7 @@ mod tests {
         let (a, b) = (slopes(&whole, [2.0, 0.3]), slopes(carried, [2.0, 0.3]));
         assert_eq!((b[..2].to_vec(), b[2..4].to_vec()), (vec![0.0; 2], a[2..4].to_vec()));
         assert_eq!(b[4 + 3 * 6..], a[4 + 3 * 6..]);
+        assert_eq!((carried.still(), whole.still()), (3, 0));
         assert!(b[4..4 + 3 * 6].iter().all(|v| *v == 0.0));
         // Nothing hidden, nothing to follow; and derivatives by parameters alone say nothing of the states.
         let plain = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();

@@ -117,6 +117,9 @@ impl<const L: usize> Forgetting<L> {
         for (i, weights) in weights.iter().enumerate() {
             let n = [&mut begin.z[i..=i], &mut middle.z[i..=i], &mut end.z[i..=i]];
             weights.take_in(k, Row { now: &now.z[i..=i], rate: &rate.z[i..=i], at: &mut at.z[i..=i], n });
+            if i < motion.still {
+                continue;
+            }
             let (from, to) = (i * width + first, (i + 1) * width);
             let n = [&mut begin.s[from..to], &mut middle.s[from..to], &mut end.s[from..to]];
             weights.take_in(k, Row { now: &now.s[from..to], rate: &rate.s[from..to], at: &mut at.s[from..to], n });

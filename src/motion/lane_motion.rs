@@ -13,6 +13,10 @@ pub(super) struct Motion<'a, const L: usize> {
     lookup: Lookup<L>,
     delay: [f64; L],
     delay_slopes: Vec<[f64; L]>,
+    /// Whether parameters move the time at which inputs are looked up.
+    delayed: bool,
+    /// Rows of S before this one stay as they are.
+    pub still: usize,
     /// Columns of S before this one stay as they are.
     pub first: usize,
     /// Which states each rate depends on.
@@ -31,6 +35,8 @@ impl<'a, const L: usize> Motion<'a, L> {
             workspace,
             delay: delay[0],
             delay_slopes: delay[1..].to_vec(),
+            delayed: delay[1..].as_flattened().iter().any(|slope| *slope != 0.0),
+            still: equations.still(),
             first: equations.unread(),
             read_by: equations.read_by(),
         }
@@ -39,6 +45,12 @@ impl<'a, const L: usize> Motion<'a, L> {
     /// Columns of the sensitivities.
     pub fn columns(&self) -> usize {
         self.equations.visible + self.equations.free.len()
+    }
+
+    /// How many entries of S, the first ones, stay as they are; none where S is not asked for.
+    #[inline(always)]
+    pub fn still_entries(&self, s: &[[f64; L]]) -> usize {
+        if s.is_empty() { 0 } else { self.still * self.columns() }
     }
 
     /// The inputs that act at some times.
@@ -74,7 +86,7 @@ impl<'a, const L: usize> Motion<'a, L> {
         self.lookup.find(self.signals, &earlier);
     }
 
-    /// z′ and S′, but for the columns that stay as they are.
+    /// z′ and S′, but for the rows and columns that stay as they are.
     #[inline(always)]
     pub fn rate(&mut self, z: &[[f64; L]], s: &[[f64; L]], t: &[f64; L], rate: &mut Arcs<L>) {
         self.look_up(t);
@@ -85,12 +97,17 @@ impl<'a, const L: usize> Motion<'a, L> {
         let (width, k) = (n + m + p, self.columns());
         let f = self.equations.jacobian_here(&mut self.workspace, z, &self.lookup.value);
         rate.z.copy_from_slice(&f[..n]);
-        for (i, read) in self.read_by.iter().enumerate() {
+        for (i, read) in self.read_by.iter().enumerate().skip(self.still) {
             let row = &f[n + i * width..n + (i + 1) * width];
             let out = &mut rate.s[i * k + self.first..(i + 1) * k];
             out.fill([0.0; L]);
             for j in read {
                 add(out, &row[*j], &s[j * k + self.first..(j + 1) * k]);
+            }
+            let (by_p, out) = (&row[n + m..], &mut out[k - p - self.first..]);
+            if !self.delayed {
+                add(out, &[1.0; L], by_p);
+                continue;
             }
             let mut along_inputs = [0.0; L];
             for (by_input, slope) in row[n..n + m].iter().zip(&self.lookup.slope) {
@@ -98,8 +115,6 @@ impl<'a, const L: usize> Motion<'a, L> {
                     along_inputs[l] += by_input[l] * slope[l];
                 }
             }
-            let by_p = &row[n + m..];
-            let out = &mut out[k - p - self.first..];
             for ((out, by_p), delay_slope) in out.iter_mut().zip(by_p).zip(&self.delay_slopes) {
                 for l in 0..L {
                     out[l] += by_p[l] - along_inputs[l] * delay_slope[l];

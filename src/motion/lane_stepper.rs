@@ -134,6 +134,8 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
         for arcs in [&mut *rate, &mut *total, &mut *at] {
             arcs.make_room(z.len(), s.len());
         }
+        let still = motion.still_entries(s);
+        at.s[..still].copy_from_slice(&s[..still]);
         motion.rate(z, s, from, rate);
         let Steps { equal, forgotten } = steps(motion, z, s, &rate.z, from, to);
         let (mut h, mut most) = ([0.0; L], 0.0);
@@ -155,7 +157,7 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
                 wanted[l] = (i as f64) < equal[l];
             }
             take(z, &total.z, &wanted);
-            take(s, &total.s, &wanted);
+            take(&mut s[still..], &total.s[still..], &wanted);
         }
         if let Some(spans) = forgotten {
             self.isa.dispatch(Forget { stepper: self, z, s, spans });
@@ -247,8 +249,9 @@ fn step<const L: usize>(
     total: &mut Arcs<L>,
     at: &mut Arcs<L>,
 ) {
+    let (still, from, width) = (motion.still_entries(s), motion.first, motion.columns());
     total.z.copy_from_slice(z);
-    total.s.copy_from_slice(s);
+    total.s[still..].copy_from_slice(&s[still..]);
     for (advance, weight, next) in [(0.5, 1.0, 0.5), (0.5, 2.0, 0.5), (1.0, 2.0, 1.0), (0.0, 1.0, 0.0)] {
         let (mut share, mut ahead, mut then) = ([0.0; L], [0.0; L], [0.0; L]);
         for l in 0..L {
@@ -256,15 +259,14 @@ fn step<const L: usize>(
             ahead[l] = advance * h[l];
             then[l] = t[l] + next * h[l];
         }
-        let (from, width) = (motion.first, motion.columns());
         add(&mut total.z, &share, &rate.z);
-        for (total, rate) in total.s.chunks_exact_mut(width).zip(rate.s.chunks_exact(width)) {
+        for (total, rate) in total.s[still..].chunks_exact_mut(width).zip(rate.s[still..].chunks_exact(width)) {
             add(&mut total[from..], &share, &rate[from..]);
         }
         if advance > 0.0 {
             sum(&mut at.z, z, &ahead, &rate.z);
-            let rows = at.s.chunks_exact_mut(width).zip(s.chunks_exact(width)).zip(rate.s.chunks_exact(width));
-            for ((at, s), rate) in rows {
+            let rows = s[still..].chunks_exact(width).zip(rate.s[still..].chunks_exact(width));
+            for (at, (s, rate)) in at.s[still..].chunks_exact_mut(width).zip(rows) {
                 sum(&mut at[from..], &s[from..], &ahead, &rate[from..]);
             }
             motion.rate(&at.z, &at.s, &then, rate);

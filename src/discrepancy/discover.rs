@@ -9,7 +9,7 @@ use super::problem::Problem;
 use super::relatives::{self, relatives};
 use super::remaining::remaining;
 use super::report::*;
-use super::{contested, experiment, implausible, locate, picture, slips, summary, unnamed, verdict};
+use super::{contested, experiment, implausible, picture, regimes, slips, summary, unnamed, verdict};
 use crate::effects::Effect;
 use crate::error::{Error, Result};
 use crate::files::{EffectEntry, ModelFile, Run};
@@ -98,7 +98,7 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
         let terms: Vec<&Chosen> = terms.into_iter().map(|(c, _)| c).collect();
         report.unnamed = without_name(&terms, &data, &choice.after, &model)?;
     }
-    report.disagreement = locate::disagreements(&before);
+    report.disagreement = regimes::disagreements(&before);
     report.remaining = Some(remaining(&choice.after, data.fitted[0].has_heading, &after));
     let judged = Judged::of(&data, &model, &choice, request.seed)?;
     report.gap = judged.gaps(&horizons(request));

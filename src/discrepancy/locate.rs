@@ -5,7 +5,7 @@ use super::course::{Course, Placed};
 use super::noise::Noise;
 use super::problem::{Problem, pose_of};
 use super::record::Record;
-use super::report::{Disagreement, ResidualPicture};
+use super::report::ResidualPicture;
 use super::windows::{self, Linear, Segment};
 use crate::error::Result;
 use crate::model::Model;
@@ -23,16 +23,16 @@ const HARDLY: f64 = 0.1;
 
 /// What one window says.
 #[derive(Clone, Debug)]
-struct Window {
+pub(super) struct Window {
     /// The row at which it begins.
     row: usize,
     middle: f64,
-    span: [f64; 2],
+    pub span: [f64; 2],
     /// Violated rates: along, across, yaw, trailers.
-    rates: Vec<f64>,
+    pub rates: Vec<f64>,
     /// Mean speed, m/s, and yaw rate, rad/s, measured.
-    speed: f64,
-    yaw: f64,
+    pub speed: f64,
+    pub yaw: f64,
 }
 
 /// Violated rates of a run under a model, restarted in every window from smoothed measurements.
@@ -41,10 +41,10 @@ struct Window {
 /// body, across it and in yaw, over the duration of the window.
 #[derive(Clone, Debug, Default)]
 pub struct Violation {
-    run: String,
-    windows: Vec<Window>,
+    pub(super) run: String,
+    pub(super) windows: Vec<Window>,
     /// Standard deviation that noise gives each rate.
-    noise: [f64; 4],
+    pub(super) noise: [f64; 4],
 }
 
 impl Violation {
@@ -121,12 +121,12 @@ impl Violation {
     }
 
     /// Root mean square of something over the windows.
-    fn rms_of(&self, what: impl Fn(&Window) -> f64) -> f64 {
+    pub(super) fn rms_of(&self, what: impl Fn(&Window) -> f64) -> f64 {
         let squares: f64 = self.windows.iter().map(|w| what(w).powi(2)).sum();
         (squares / self.windows.len().max(1) as f64).sqrt()
     }
 
-    fn constraints(&self) -> usize {
+    pub(super) fn constraints(&self) -> usize {
         self.windows.first().map_or(0, |w| w.rates.len().min(4))
     }
 
@@ -210,7 +210,7 @@ impl Violation {
     }
 
     /// Sum of squared violations of each constraint in units of their noise.
-    fn energy(&self, c: usize) -> f64 {
+    pub(super) fn energy(&self, c: usize) -> f64 {
         self.windows.iter().map(|w| (w.rates[c] / self.noise[c]).powi(2)).sum()
     }
 }
@@ -230,93 +230,6 @@ fn window(line: &Linear, span: [f64; 2], from: &[f64], to: &[f64]) -> Window {
         speed: travelled / line.duration,
         yaw: wrapped(to[2] - from[2]) / line.duration,
     }
-}
-
-/// Which windows belong to a regime.
-type Regime = fn(&Window, &Window, &Typical) -> bool;
-
-/// Typical motion of a run.
-struct Typical {
-    speed: f64,
-    yaw: f64,
-    load: f64,
-    curve: f64,
-}
-
-impl Window {
-    /// The lateral acceleration v·ω, m/s², which the tyres carry.
-    fn load(&self) -> f64 {
-        self.speed * self.yaw
-    }
-
-    /// The curvature of the path, 1/m: what a steered wheel asks for. None where the vehicle turns on the spot.
-    fn curve(&self, typical_speed: f64) -> f64 {
-        if self.speed > 0.2 * typical_speed { self.yaw / self.speed } else { 0.0 }
-    }
-}
-
-const REGIMES: [(&str, Regime); 11] = [
-    ("left turns", |w, _, t| w.yaw > 0.5 * t.yaw),
-    ("right turns", |w, _, t| w.yaw < -0.5 * t.yaw),
-    ("turns to both sides", |w, _, t| w.yaw.abs() > 0.5 * t.yaw),
-    ("straight driving", |w, _, t| w.yaw.abs() < 0.3 * t.yaw),
-    ("fast driving", |w, _, t| w.speed > 1.15 * t.speed),
-    ("slow driving", |w, _, t| w.speed < 0.85 * t.speed),
-    ("speeding up", |w, last, t| w.speed - last.speed > 0.08 * t.speed),
-    ("slowing down", |w, last, t| w.speed - last.speed < -0.08 * t.speed),
-    ("high lateral load", |w, _, t| w.load().abs() > 1.3 * t.load),
-    ("tight curves", |w, _, t| w.curve(t.speed).abs() > 1.3 * t.curve),
-    ("entering and leaving curves", |w, last, t| (w.curve(t.speed) - last.curve(t.speed)).abs() > 0.5 * t.curve),
-];
-
-/// The regime in which a constraint is violated most, when one stands out.
-fn regime(v: &Violation, c: usize) -> &'static str {
-    let speed = v.rms_of(|w| w.speed);
-    let typical =
-        Typical { speed, yaw: v.rms_of(|w| w.yaw), load: v.rms_of(Window::load), curve: v.rms_of(|w| w.curve(speed)) };
-    let mean = v.rms_of(|w| w.rates[c]).powi(2);
-    let mut best = ("the whole run", 1.4);
-    for (name, holds) in REGIMES {
-        let inside: Vec<f64> = v
-            .windows
-            .iter()
-            .zip(std::iter::once(&v.windows[0]).chain(&v.windows))
-            .filter(|(w, last)| holds(w, last, &typical))
-            .map(|(w, _)| w.rates[c].powi(2))
-            .collect();
-        let ratio = inside.iter().sum::<f64>() / inside.len().max(1) as f64 / mean;
-        if inside.len() >= 5 && ratio > best.1 {
-            best = (name, ratio);
-        }
-    }
-    best.0
-}
-
-/// Where the model disagrees with the measurements by more than their noise: run by run, constraint by constraint,
-/// from the first to the last window that stands out, with its share of the whole disagreement.
-pub fn disagreements(violations: &[Violation]) -> Vec<Disagreement> {
-    let total: f64 = violations.iter().map(|v| (0..v.constraints()).map(|c| v.energy(c)).sum::<f64>()).sum();
-    let mut found = Vec::new();
-    for v in violations {
-        for (c, (place, _)) in CONSTRAINTS.iter().enumerate().take(v.constraints()) {
-            let energy = v.energy(c);
-            let out: Vec<&Window> = v.windows.iter().filter(|w| w.rates[c].abs() > 3.0 * v.noise[c]).collect();
-            // Noise alone gives one window in 370; a disagreement fills more.
-            if out.len() < 3 || energy < 2.0 * v.windows.len() as f64 {
-                continue;
-            }
-            found.push(Disagreement {
-                run: v.run.clone(),
-                place: (*place).into(),
-                from: out[0].span[0],
-                to: out[out.len() - 1].span[1],
-                regime: regime(v, c).into(),
-                share_of_gap: energy / total,
-            });
-        }
-    }
-    found.sort_by(|a, b| b.share_of_gap.total_cmp(&a.share_of_gap));
-    found
 }
 
 impl Problem {

@@ -52,6 +52,7 @@ pub mod problem;
 mod ranked;
 pub mod rates;
 pub mod record;
+mod regimes;
 pub mod relatives;
 pub mod remaining;
 pub mod report;

@@ -9,10 +9,12 @@
 //!
 //! A delay of the inputs and an offset of their clock are one and the same here, so `input-delay` is never named.
 
+mod aligned;
 mod coarse;
 mod discover;
 mod fine;
 mod motion;
 
-pub use discover::{Aligned, check_aligned, discover_aligned};
+pub use aligned::Aligned;
+pub use discover::{check_aligned, discover_aligned};
 pub use fine::{Fitted, refined};

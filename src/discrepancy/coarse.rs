@@ -84,4 +84,24 @@ mod tests {
         assert_eq!(step_of(&sampled(|t| 0.1 * f64::from((37.0 * t * t) as u32 % 11))), None);
         assert_eq!(step_of(&[]), None);
     }
+
+    /// A row more than so many is a step up.
+    fn staircase(rows: u32, rows_a_step: u32, from: f64) -> Vec<f64> {
+        (0..rows).map(|i| from + f64::from(i / rows_a_step)).collect()
+    }
+
+    #[test]
+    fn a_step_is_told_where_it_is_large_and_usual() {
+        // Twenty changes, and a fiftieth of the rows.
+        assert_eq!([20, 21].map(|rows| step_of(&staircase(rows, 1, 0.0))), [None, Some(1.0)]);
+        assert_eq!([(1000, 49), (1050, 52)].map(|(n, each)| step_of(&staircase(n, each, 0.0))), [Some(1.0), None]);
+        // A fiftieth of the size, root mean square.
+        assert_eq!([20.0, 48.0, 100.0].map(|from| step_of(&staircase(100, 3, from))), [Some(1.0), None, None]);
+        assert_eq!(step_of(&staircase(100, 3, -60.0)), Some(1.0));
+        // In whatever unit.
+        for unit in [1e-6, 1e6] {
+            let column: Vec<f64> = staircase(100, 3, 0.0).iter().map(|u| unit * u).collect();
+            assert!((step_of(&column).unwrap() - unit).abs() < 1e-9 * unit);
+        }
+    }
 }

@@ -242,4 +242,62 @@ mod tests {
         assert!(words.contains("steering 0.20 rad"), "{words}");
         assert!(library(&car).all(|m| !m.sentence(&car).contains("on the spot") && m.needs != Needs::Reverse));
     }
+
+    const PLAN: Manoeuvre = Manoeuvre {
+        needs: Needs::Turns,
+        phases: &[
+            phase(30.0, FAST, LEFT),
+            phase(10.0, SLOW, RIGHT),
+            phase(20.0, swinging(0.6, 0.4, 10.0), steady(0.5)),
+        ],
+    };
+
+    /// At 1 m/s it was turned by 1.2 rad/s, and is asked for no more of both together.
+    #[test]
+    fn what_is_logged_is_what_moves_the_vehicle_as_planned() {
+        let lengths = [("wheel_radius", 0.1), ("track_width", 0.5)];
+        let differential = envelope("differential-drive", &lengths, [7.0, 13.0], [-10.0; 2]);
+        let unicycle = envelope("unicycle", &[("wheel_radius", 0.5)], [2.0, 1.2], [-2.0, 0.0]);
+        let by_wheels: fn([f64; 2]) -> [f64; 2] = |u| [0.05 * (u[0] + u[1]), 0.2 * (u[1] - u[0])];
+        let by_rates: fn([f64; 2]) -> [f64; 2] = |u| [0.5 * u[0], u[1]];
+        // A weight of 1 + cos over a second to either side makes a wave smaller.
+        let rate = TAU / 10.0;
+        let smoothed = rate.sin() / rate / (1.0 - (2.0 * rate / TAU).powi(2));
+        let swings = |t: f64| 0.6 + 0.4 * smoothed * (rate * t).sin();
+        for (envelope, moved) in [(differential, by_wheels), (unicycle, by_rates)] {
+            let at = |t: f64| {
+                let inputs = PLAN.inputs(&envelope, &[5.0, t]);
+                moved([inputs[0][1], inputs[1][1]])
+            };
+            // Between two phases it is halfway; what is right at the border is of the second, an eighth of all.
+            let between = |a: f64, b: f64| (7.0 * a + 9.0 * b) / 16.0;
+            let expected = [
+                (0.0, 1.0, 1.2),
+                (28.9, 1.0, 1.2),
+                (30.0, between(1.0, 0.35), between(1.2, -1.2)),
+                (31.1, 0.35, -1.2),
+                (42.5, swings(2.5), 0.6),
+                (44.2, swings(4.2), 0.6),
+                (58.7, swings(18.7), 0.6),
+            ];
+            for (t, speed, turn) in expected {
+                let [v, w] = at(t);
+                assert!((v - speed).abs() < 2e-3 && (w - turn).abs() < 2e-3, "{t}: {v} for {speed}, {w} for {turn}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_phase_is_told_in_numbers() {
+        let lengths = [("wheel_radius", 0.1), ("track_width", 0.5)];
+        let envelope = envelope("differential-drive", &lengths, [7.0, 13.0], [-10.0; 2]);
+        assert_eq!(
+            PLAN.sentence(&envelope),
+            "drive 30 s at 1.0 m/s, in circles to the left of radius 0.83 m, then 10 s at 0.35 m/s, in circles to the right of \
+             radius 0.29 m, then 20 s at a speed that swings between 0.20 and 1.0 m/s every 10 s, in circles to the left of \
+             radius 1.7 m"
+        );
+        let weaving = phase(60.0, steady(0.8), swinging(0.0, 0.5, 20.0)).words(&envelope);
+        assert_eq!(weaving, "60 s at 0.80 m/s, weaving left and right by up to 0.60 rad/s every 20 s");
+    }
 }

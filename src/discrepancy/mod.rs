@@ -61,6 +61,7 @@ pub mod screen;
 mod selection;
 mod slips;
 pub mod smooth;
+mod soon;
 mod stable;
 pub mod summary;
 pub mod unnamed;

@@ -200,4 +200,24 @@ mod tests {
         assert_eq!(towed.measured(1), [11.0, 21.0, 0.0, 41.0]);
         assert_eq!([2, 1].map(|c| towed.output_of(c)), [3, 1]);
     }
+
+    /// Where no heading is measured the smoothed one is that of the path, and a trailer is taken to follow it.
+    #[test]
+    fn a_missing_heading_is_the_direction_of_travel() {
+        let rows: Vec<f64> = (0..40).map(f64::from).collect();
+        let along = |x: f64, y: f64| {
+            let columns = vec![rows.iter().map(|i| 5.0 + x * i).collect(), rows.iter().map(|i| y * i - 2.0).collect()];
+            let time = rows.iter().map(|i| 0.1 * i).collect();
+            Record { trailers: 1, ..Record::new("run.csv", time, columns, false, &[vec![1.0; 40]], Timing::Sample) }
+        };
+        for (x, y) in [(0.3, 0.4), (-0.3, 0.4), (0.4, -0.3), (-0.1, -0.1)] {
+            for i in [0, 20, 39] {
+                let smoothed = along(x, y).smoothed(i);
+                let heading = y.atan2(x);
+                let expected = [5.0 + x * i as f64, y * i as f64 - 2.0, heading, heading];
+                let near = smoothed.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9);
+                assert!(near && smoothed.len() == 4, "{x} {y} {i}: {smoothed:?}");
+            }
+        }
+    }
 }

@@ -95,4 +95,15 @@ mod tests {
         assert_eq!([of(2, false), of(3, true)], [[false, false], [true, false]]);
         assert_eq!([of(3, false), of(4, true)], [[false, true], [true, true]]);
     }
+
+    #[test]
+    fn what_a_model_has_is_no_candidate_for_it() {
+        let library = crate::effects::all();
+        let bare = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+        let known = Applied::new(crate::effects::named("traverse-creep").unwrap(), None, vec![0.1]);
+        let ids = |m: &Model| candidates(m, library).into_iter().map(|a| a.effect.id).collect::<Vec<_>>();
+        let (all, others) = (ids(&bare), ids(&bare.clone().with_effect(known)));
+        assert!(all.len() > 5 && all.contains(&"traverse-creep".to_string()));
+        assert_eq!(others, all.into_iter().filter(|id| id != "traverse-creep").collect::<Vec<_>>());
+    }
 }

@@ -175,3 +175,24 @@ fn tamed(promise: &Promise) -> Applied {
     }
     applied
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::named;
+    use crate::origin::Origin;
+
+    #[test]
+    fn an_effect_with_states_or_values_of_its_own_is_asked_alone() {
+        let bare = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+        let creep = named("traverse-creep").unwrap();
+        let known = bare.clone().with_effect(Applied::new(creep, None, vec![0.1]));
+        assert!(is_regular(creep, &bare, None) && !is_regular(creep, &known, None));
+        // Of another place it is another effect.
+        assert!(is_regular(creep, &known, Some(1)));
+        assert!(!is_regular(named("relaxation-length").unwrap(), &bare, None));
+        let origin = Origin { path: "own.toml".into(), sha256: String::new(), text: String::new() };
+        let own = Effect { origin: Some(origin.into()), ..creep.clone() };
+        assert!(!is_regular(&own, &bare, None));
+    }
+}

@@ -203,6 +203,7 @@ fn climbed(all: &Piece, measured: &Measured, from: Clock, overlap: f64) -> (f64,
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
 
     #[test]
     fn drifts_are_spread_about_none() {
@@ -223,5 +224,43 @@ mod tests {
     fn variances_are_those_about_the_mean() {
         assert_eq!(variances(&[[1.0, 5.0], [3.0, 5.0], [5.0, 5.0], [7.0, 5.0]]), [5.0, 0.0]);
         assert_eq!(variances(&[]), [0.0; 2]);
+    }
+
+    /// Inputs of a minute and poses of two, at a grid fine enough to be any clock's.
+    fn two_files(driven: impl Fn(f64) -> [f64; 2], measured: impl Fn(f64) -> [f64; 2]) -> (Driven, Measured) {
+        let grid = |first: f64, rows: u32| (0..rows).map(move |i| first + 0.05 * f64::from(i)).collect::<Vec<f64>>();
+        let sampled = |time: &[f64], f: &dyn Fn(f64) -> [f64; 2]| time.iter().map(|t| f(*t)).collect::<Vec<_>>();
+        let (inputs, poses) = (grid(100.0, 1200), grid(0.0, 2400));
+        (Driven::sampled(&inputs, &sampled(&inputs, &driven)), Measured::sampled(0.05, &sampled(&poses, &measured)))
+    }
+
+    fn lively(t: f64) -> [f64; 2] {
+        [1.0 + (0.31 * t + (0.05 * t).sin()).sin(), (0.17 * t + 2.0 * (0.03 * t).cos()).cos()]
+    }
+
+    #[test]
+    fn motion_agrees_at_its_own_offset_and_drift() {
+        let (driven, measured) = two_files(lively, |t| lively((t - 40.0) / 1.01 + 100.0));
+        let all = Piece::between(&driven, 110.0, 150.0).unwrap();
+        let times: Vec<f64> = all.points.iter().map(|p| p.0).collect();
+        assert_eq!((times.len(), times[0], all.at), (201, 110.0, 130.0));
+        assert!((times[200] - 150.0).abs() < 1e-9);
+        // t + offset + drift·(t − 130) with offset = 40 + 1.01·30 − 130.
+        let at = |offset: f64, drift: f64| all.correlation(&measured, offset, drift, 10.0);
+        assert!(at(-59.7, 0.01) > 0.9999, "{}", at(-59.7, 0.01));
+        assert!(at(-59.7, 0.0) < 0.9999 && at(-59.7, -0.01) < at(-59.7, 0.0) && at(-59.2, 0.01) < 0.999);
+        // Seven of forty seconds overlap.
+        assert_eq!(at(-143.0, 0.01), f64::NEG_INFINITY);
+        let found = search(&driven, &measured, [0.0, 119.95], None).unwrap();
+        assert!((found.clock.restated(130.0).offset + 59.7).abs() < 0.1 && found.other.is_none(), "{found:?}");
+    }
+
+    #[test]
+    fn what_goes_on_in_circles_has_another_clock() {
+        let turns = |t: f64| [1.0, (TAU * t / 20.0).cos()];
+        let (driven, measured) = two_files(turns, |t| [1.0, turns(t)[1] + 0.1 * (7.3 * t).sin()]);
+        let found = search(&driven, &measured, [0.0, 119.95], None).unwrap();
+        let apart = (found.clock.offset - found.other.unwrap()).abs() / 20.0;
+        assert!((apart - apart.round()).abs() < 0.02 && apart > 0.9, "{found:?}");
     }
 }

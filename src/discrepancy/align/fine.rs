@@ -214,4 +214,30 @@ mod tests {
         assert!((clock.of(stated.at) - 0.5 * (12.07 + 30.0)).abs() < 1e-12, "{stated:?}");
         assert!((stated.of(17.0) - clock.of(17.0)).abs() < 1e-12 && stated.drift == clock.drift);
     }
+
+    #[test]
+    fn values_are_alone_where_the_other_clock_has_none() {
+        let clock = Clock { offset: 0.0, drift: 0.0, at: 0.0 };
+        let covering = |covers: [f64; 2]| Fitted {
+            clock,
+            offset_std: None,
+            drift_std: None,
+            misfit: 1.0,
+            rows: 600.0,
+            covers,
+            dependence: 1.0,
+        };
+        let own = covering([10.0, 40.0]);
+        let cases = [
+            ([10.0, 40.0], 0.0),
+            ([20.0, 60.0], 200.0),
+            ([0.0, 25.0], 300.0),
+            ([15.0, 30.0], 300.0),
+            ([50.0, 90.0], 600.0),
+        ];
+        for (covers, alone) in cases {
+            assert!((own.alone(&covering(covers)) - alone).abs() < 1e-9, "{covers:?}");
+        }
+        assert_eq!(covering([10.0, 10.0]).alone(&own), 0.0);
+    }
 }

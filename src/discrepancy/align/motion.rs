@@ -123,6 +123,23 @@ fn pose_around(run: &Run, t: f64) -> Option<[f64; 2]> {
 }
 
 #[cfg(test)]
+impl Driven {
+    /// Given the way and the turn a second at some times.
+    pub fn sampled(time: &[f64], rates: &[[f64; 2]]) -> Self {
+        let of = |c: usize| sums(time, &rates.iter().map(|r| r[c]).collect::<Vec<_>>(), Timing::Sample);
+        Self { time: time.to_vec(), way: of(0), turn: of(1) }
+    }
+}
+
+#[cfg(test)]
+impl Measured {
+    /// Given the way and the turn at a grid from zero.
+    pub fn sampled(step: f64, values: &[[f64; 2]]) -> Self {
+        Self { first: 0.0, step, values: values.iter().copied().map(Some).collect() }
+    }
+}
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::effects;

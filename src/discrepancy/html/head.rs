@@ -119,7 +119,7 @@ pub fn next_experiment(report: &Report) -> Option<Element> {
 
 #[cfg(test)]
 mod tests {
-    use super::shrinkage;
+    use super::{Estimate, parameter, shrinkage};
 
     #[test]
     fn only_what_shrinks_is_said_to() {
@@ -128,5 +128,13 @@ mod tests {
         for (before, after) in [(0.104, 0.1), (0.1, 0.2), (0.1, 0.0), (f64::NAN, 0.1)] {
             assert_eq!(shrinkage(before, after), None);
         }
+    }
+
+    #[test]
+    fn a_pure_number_has_no_unit() {
+        let told = |unit: &str| parameter("e_rc", &Estimate { value: 0.05, std: Some(0.001), unit: unit.into() });
+        let (number, length) = (told("1"), told("m"));
+        assert!(number.starts_with("e_rc = 0.05") && !number.ends_with('1'), "{number}");
+        assert_eq!(length, number + " m");
     }
 }

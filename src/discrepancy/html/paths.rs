@@ -112,3 +112,33 @@ fn parting(run: &PathPicture, [x, y]: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
     (apart(&widest) < 0.025 * length && apart(&widest) > 0.0 && near < 0.6 * length)
         .then(|| [widened(x, 0.15), widened(y, 0.15)])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two pieces, in the second of which both models end so far apart.
+    fn parted(by: f64) -> PathPicture {
+        let line = |from: [f64; 2], to: [f64; 2]| vec![from, to];
+        PathPicture {
+            run: "a.csv".into(),
+            held_out: false,
+            measured: vec![],
+            before: vec![line([0.0, 0.0], [50.0, 0.0]), line([50.0, 0.0], [90.0, 10.0])],
+            after: vec![line([0.0, 0.0], [50.0, 0.001]), line([50.0, 0.0], [90.0, 10.0 + by])],
+        }
+    }
+
+    #[test]
+    fn a_close_up_shows_what_is_too_small_on_the_whole() {
+        let whole = [[0.0, 100.0], [0.0, 20.0]];
+        let [x, y] = parting(&parted(1.0), whole).unwrap();
+        // The piece from 50 to 90 and from 0 to 11, widened twice.
+        assert!(x[0] < 45.0 && x[0] > 40.0 && x[1] > 95.0 && x[1] < 100.0, "{x:?}");
+        assert!(y[0] < -1.0 && y[0] > -3.0 && y[1] > 12.0 && y[1] < 14.0, "{y:?}");
+        assert_eq!(parting(&parted(3.0), whole), None);
+        assert_eq!(parting(&parted(1.0), [[0.0, 60.0], [0.0, 20.0]]), None);
+        let same = PathPicture { after: parted(0.0).before, ..parted(0.0) };
+        assert_eq!(parting(&same, whole), None);
+    }
+}

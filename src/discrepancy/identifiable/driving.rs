@@ -45,3 +45,32 @@ pub(super) fn quantile(mut values: Vec<f64>, q: f64) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     values.get(((values.len() as f64 - 1.0).max(0.0) * q).round() as usize).copied()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::soon::tests::{logged, unicycle};
+
+    /// In windows of a second, one of which at most is neither at each border: ten seconds straight on, five at rest, ten to the left, five straight back, ten to the right.
+    #[test]
+    fn shares_are_those_of_the_time_that_was_driven_so() {
+        let part = |t: f64| [10.0, 15.0, 25.0, 30.0].iter().filter(|from| t >= **from).count();
+        let wheel = |t: f64| [1.0, 0.0, 3.0, -1.0, 2.0][part(t)];
+        let turn = |t: f64| [0.0, 0.0, 0.5, 0.0, -0.3][part(t)];
+        let (equations, p) = unicycle(&[]);
+        let time = (0..=640).map(|i| f64::from(i) / 16.0).collect();
+        let record = logged((&equations, &p), time, [&wheel, &turn], &[0.0; 3], 0.0);
+        let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+        let told = driving(&model, &record, RunHealth { rows: 7, ..RunHealth::default() }, 1e-6).unwrap();
+        for (share, expected) in
+            [(told.left, 0.25), (told.right, 0.25), (told.standing, 0.125), (told.backwards, 0.125)]
+        {
+            assert!((share - expected).abs() < 0.035, "{told:?}");
+        }
+        for (speed, expected) in told.speed.unwrap().into_iter().zip([0.5, 1.0, 1.5]) {
+            assert!((speed - expected).abs() < 0.08, "{told:?}");
+        }
+        assert!((told.way_ratio.unwrap() - 1.0).abs() < 1e-3 && (told.turn_ratio.unwrap() - 1.0).abs() < 1e-3);
+        assert_eq!(told.rows, 7);
+    }
+}

@@ -242,4 +242,24 @@ mod tests {
         assert!(ids(&[speed(1.0, 1.1), speed(0.9, 1.0)]).starts_with("one-speedthese runs have one speed, 1.1 m/s"));
         assert_eq!(ids(&[speed(1.0, 1.1), speed(0.5, 0.6)]), "");
     }
+
+    /// Rows a tenth of a second apart from 5 s on, one of which is late, and a hole of two seconds.
+    #[test]
+    fn times_are_told_as_they_are() {
+        let text = "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 1.0\n";
+        let file =
+            crate::files::ModelFile::parse(text, "model.toml", &crate::model::known(crate::effects::all())).unwrap();
+        let mut log = String::from("time,x,y,heading,wheel_rate,yaw_rate\n");
+        let time = (0..40)
+            .map(|i| 5.0 + 0.1 * f64::from(i) + if i > 30 { 1.9 } else { 0.0 } + if i % 8 == 3 { 0.04 } else { 0.0 });
+        time.for_each(|t| log += &format!("{t},0,0,0,1,0\n"));
+        let run = Run::parse("run.csv", &log, &file).unwrap();
+        let record = Record::of_run(&run, file.input_timing, 0);
+        let told = rows(&run, &record, 3);
+        let close = |a: f64, b: f64| (a - b).abs() < 1e-9;
+        assert!(close(told.duration_s, 5.8) && close(told.rate_hz, 10.0) && close(told.longest_gap_s, 2.0), "{told:?}");
+        // Of 39 steps five are 0.14 s and five 0.06 s.
+        assert!(close(told.jitter, 0.4), "{told:?}");
+        assert_eq!((told.rows, told.rows_dropped, told.gaps, told.why_dropped[GROSS]), (40, 3, 1, 3));
+    }
 }

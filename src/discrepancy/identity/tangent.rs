@@ -86,3 +86,15 @@ impl Scalar for Tangent {
         self.value.equals(&other.value) && self.slope.equals(&other.slope)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_are_both_value_and_slope() {
+        let (p, two) = (Tangent::parameter(), Tangent::constant(int(2)));
+        assert!(p.add(&two).equals(&two.add(&p)));
+        assert!(!p.add(&two).equals(&two) && !p.equals(&p.add(&p)) && !two.equals(&two.add(&two)));
+    }
+}

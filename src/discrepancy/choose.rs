@@ -167,3 +167,28 @@ impl Selection<'_> {
         Ok(found)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::evidence::tests::{fit_of, unicycle};
+    use crate::effects::named;
+
+    #[test]
+    fn the_numbers_of_one_effect_are_forgotten() {
+        let known: [(&str, &[f64]); 3] =
+            [("traction-creep", &[0.3]), ("relaxation-length", &[0.1, 0.8]), ("traverse-creep", &[-0.05])];
+        let fit = fit_of(unicycle(&known));
+        let without = |id: &str, mut numbers: Vec<f64>| {
+            let effect = named(id).unwrap();
+            forget(&mut numbers, &fit, &Applied::new(effect, None, vec![1.0; effect.parameters.len()]));
+            numbers
+        };
+        let all = vec![1.0, 2.0, 3.0, 4.0];
+        let left = ["traction-creep", "relaxation-length", "traverse-creep"].map(|id| without(id, all.clone()));
+        assert_eq!(left, [vec![2.0, 3.0, 4.0], vec![1.0, 4.0], vec![1.0, 2.0, 3.0]]);
+        // An effect that is not among them, or came after the numbers did.
+        assert_eq!(without("side-slope", all.clone()), all);
+        assert_eq!(without("traverse-creep", all[..3].to_vec()), all[..3]);
+    }
+}

@@ -73,3 +73,25 @@ pub(super) fn partly(choice: &Choice) -> String {
     let names = listed(choice.chosen.iter().map(|c| c.applied.label()));
     format!("The model misses {names}; what else remains differs between parts of these runs and is not named.")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::evidence::tests::{fit_of, unicycle};
+    use crate::effects::named;
+
+    #[test]
+    fn what_parts_or_rows_contradict_is_contested() {
+        let asked = || vec![Applied::new(named("traverse-creep").unwrap(), None, vec![0.1])];
+        let of = |unshared, unsampled| {
+            let fit = fit_of(unicycle(&[]));
+            let (before, after) = (fit.clone(), fit);
+            let choice =
+                Choice { before, after, chosen: vec![], steps: vec![], candidates: vec![], unshared, unsampled };
+            (is_contested(&choice), warnings(&choice).count())
+        };
+        assert_eq!(of(vec![], vec![]), (false, 0));
+        assert_eq!((of(asked(), vec![]), of(vec![], asked())), ((true, 1), (true, 1)));
+        assert_eq!(of(asked(), asked()), (true, 2));
+    }
+}

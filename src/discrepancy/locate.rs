@@ -297,21 +297,22 @@ mod tests {
         assert_eq!((&pictures[1].before[..], &pictures[1].after[..]), (&[1.0; 3][..], &[0.5; 3][..]));
     }
 
-    /// Four windows early on and eight later; what hardly moves, or is within its noise, slides nowhere.
+    /// Four windows at first and eight later; what hardly moves, or is within its noise, slides nowhere.
     #[test]
     fn the_longest_slide_is_told_from_its_beginning_to_its_end() {
         let mut missed = [0.0; 30];
-        missed[1..5].fill(0.4);
-        missed[20..28].fill(-0.4);
+        missed[0..4].fill(0.8);
+        missed[20..28].fill(-0.8);
         let mut violation = Violation::across("a.csv", &missed);
+        violation.windows.iter_mut().for_each(|w| w.speed = 2.0);
         assert_eq!(violation.slide(0.3), Some(("a.csv", [20.0, 28.0])));
         assert_eq!(violation.slide(0.5), None);
-        violation.noise[1] = 0.079;
+        violation.noise[1] = 0.159;
         assert_eq!(violation.slide(0.3), Some(("a.csv", [20.0, 28.0])));
-        violation.noise[1] = 0.081;
+        violation.noise[1] = 0.161;
         assert_eq!(violation.slide(0.3), None);
         violation.noise[1] = 0.0;
-        violation.windows[20..28].iter_mut().for_each(|w| w.speed = 0.2);
-        assert_eq!(violation.slide(0.3), Some(("a.csv", [1.0, 5.0])));
+        violation.windows[20..28].iter_mut().for_each(|w| w.speed = 0.5);
+        assert_eq!(violation.slide(0.3), Some(("a.csv", [0.0, 4.0])));
     }
 }

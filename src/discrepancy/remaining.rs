@@ -31,3 +31,28 @@ pub fn remaining(fit: &Fit, has_heading: bool, after: &[Violation]) -> Remaining
         constraints: constraints.collect(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::evidence::tests::{fit_of, unicycle};
+
+    /// What noise that wanders makes of a rate is taken off what remains; of white noise nothing is.
+    #[test]
+    fn what_remains_is_judged_beside_its_noise() {
+        let mut missed = Violation::across("a.csv", &[0.2, -0.2, 0.2, 0.2]);
+        missed.noise = [0.0, 0.1, 0.0, 0.0];
+        let p_of = |colour: f64, correlation: f64, unexplained: f64| {
+            let fit = Fit { colour, correlation, unexplained: [0.0, unexplained, 0.0, 0.0], ..fit_of(unicycle(&[])) };
+            let left = remaining(&fit, false, std::slice::from_ref(&missed));
+            let of = left.constraints.iter().find(|c| c.place == "traverse constraint").unwrap();
+            assert!((of.rms - 0.2).abs() < 1e-12 && (of.noise - 0.1).abs() < 1e-12);
+            assert!(left.heading_noise.is_none() && (left.position_noise - 1e-3).abs() < 1e-12);
+            of.p_value
+        };
+        let close = |p: f64, gain: f64| (p - 0.5 * tail(gain, 1)).abs() < 1e-12;
+        assert!(close(p_of(1.0, 1.0, 8.0), 8.0) && close(p_of(1.0, 2.0, 8.0), 4.0));
+        assert!(close(p_of(2.0, 1.0, 8.0), 0.75 * 4.0) && close(p_of(4.0, 2.0, 40.0), 0.75 * 5.0));
+        assert_eq!((p_of(1.0, 1.0, 0.0), p_of(2.0, 1.0, -1.0)), (1.0, 1.0));
+    }
+}

@@ -75,17 +75,13 @@ impl<'a> Rows<'a> {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::effects::{self, Applied};
-    use crate::model::Model;
+    use crate::discrepancy::evidence;
     use crate::motion::Timing;
     use std::f64::consts::TAU;
 
-    /// A unicycle with effects of one place each, all their parameters free.
+    /// A unicycle with effects that are free, and their values.
     pub fn unicycle(known: &[(&str, &[f64])]) -> (Equations, Vec<f64>) {
-        let with = |model: Model, (id, values): &(&str, &[f64])| {
-            model.with_effect(Applied::new(effects::named(id).unwrap(), None, values.to_vec()).freed())
-        };
-        let model = known.iter().fold(Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap(), with);
+        let model = evidence::tests::unicycle(known);
         (model.free_equations().unwrap(), model.free_values())
     }
 

@@ -341,4 +341,32 @@ mod tests {
             near(spans.longest[1], 0.2 * 3.0 / turns);
         }
     }
+
+    /// A delay that is free moves what acts, and S says so as differences of the motion do.
+    #[test]
+    fn a_delay_moves_what_the_inputs_do() {
+        let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+        let model = model.with_effect(Applied::new(effects::named("input-delay").unwrap(), None, vec![0.1]));
+        let equations = model.equations(&["input_delay.delay".into()]).unwrap();
+        let time: Vec<f64> = (0..=40).map(|i| 0.05 * f64::from(i)).collect();
+        let of = |f: fn(f64) -> f64| time.iter().map(|t| f(*t)).collect::<Vec<f64>>();
+        let signals =
+            Signals::new(&time, &[of(|t| 3.0 + 2.0 * (2.0 * t).sin()), of(|t| (3.0 * t).cos())], Timing::Sample);
+        let end = |delay: f64| {
+            let p = [delay];
+            let mut stepper = crate::motion::Stepper::new(&equations, &signals, &p);
+            let mut arc = stepper.start(&[0.0, 0.0, 0.2], None);
+            stepper.advance(&mut arc, 0.2, 1.7);
+            arc
+        };
+        let (here, more, less) = (end(0.1), end(0.1001), end(0.0999));
+        for i in 0..3 {
+            let slope = (more.z[i] - less.z[i]) / 2e-4;
+            assert!(
+                slope.abs() > 0.1 && (here.s[4 * i + 3] - slope).abs() < 5e-3,
+                "{i}: {} {slope}",
+                here.s[4 * i + 3]
+            );
+        }
+    }
 }

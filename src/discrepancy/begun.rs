@@ -158,12 +158,12 @@ mod tests {
     /// The fit follows the slopes of these states by the values, so they must be those of what is found.
     #[test]
     fn states_move_with_the_values_as_their_slopes_say() {
-        for (known, row) in [(&SLIDES[..1], 0), (&SLIDES, 0), (&SLIDES, 8)] {
+        for (known, row, small) in [(&SLIDES[..1], 0, 0.01), (&SLIDES, 0, 0.01), (&SLIDES, 8, 0.05)] {
             let (equations, p) = unicycle(known);
             let record = record(&equations, &p, 2e-4);
             let at = |p: &[f64]| carry::before(&equations, p, &record, row, &record.measured(row));
             let here = at(&p);
-            assert!(row > 0 || (here.z[0] + 0.15).abs() < 4e-3, "{}", here.z[0]);
+            assert!(row > 0 || (here.z[0] + 0.15).abs() < 2e-3, "{}", here.z[0]);
             let (m, k) = (equations.visible, here.s.len() / equations.n());
             for j in 0..p.len() {
                 let moved = |by: f64| {
@@ -173,7 +173,7 @@ mod tests {
                 };
                 for (i, slope) in slope(moved, 1e-3).into_iter().enumerate() {
                     let said = here.s[(m + i) * k + m + j];
-                    assert!((said - slope).abs() < 0.02 * slope.abs().max(0.05), "{row} {i} {j}: {said} for {slope}");
+                    assert!((said - slope).abs() < 0.02 * slope.abs().max(small), "{row} {i} {j}: {said} for {slope}");
                 }
             }
         }

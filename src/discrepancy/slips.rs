@@ -65,7 +65,7 @@ fn beyond_half_a_turn(model: &Model, run: &Run) -> Option<String> {
 
 /// Medians of the turn between neighbouring rows of the inputs, rad, and of the time, s.
 fn between_rows(equations: &Equations, run: &Run) -> (f64, f64) {
-    let time = run.apart.as_ref().map_or(&run.time, |a| &a.time);
+    let time = run.input_time();
     let (mut memory, z) = (equations.workspace(&[]), vec![0.0; equations.n()]);
     let (mut u, mut rates) = (vec![0.0; run.inputs.len()], z.clone());
     let (mut turns, mut between) = (vec![], vec![]);

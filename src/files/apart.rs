@@ -44,6 +44,11 @@ impl Clock {
 }
 
 impl Run {
+    /// The times of the inputs, which are those of the rows where both were logged together, s.
+    pub fn input_time(&self) -> &[f64] {
+        self.apart.as_ref().map_or(&self.time, |a| &a.time)
+    }
+
     /// Reads inputs and poses from two files by the columns of a model file; their clocks are not aligned yet.
     ///
     /// # Errors

@@ -162,7 +162,7 @@ fn settled(first: Fitted, rival: Option<Fitted>) -> (Fitted, Option<f64>) {
 
 /// Files too long to lay upon each other, or to be in seconds.
 fn endless(run: &Run) -> Option<String> {
-    let longest = span(inputs_of(run)).max(span(&run.time));
+    let longest = span(run.input_time()).max(span(&run.time));
     (longest.is_nan() || longest > LONGEST).then(|| {
         format!(
             "The clocks of {} cannot be aligned: it lasts {} s, and at most {} s can be; is its time in seconds?",
@@ -176,7 +176,7 @@ fn endless(run: &Run) -> Option<String> {
 /// Why no clock makes both files one drive.
 fn unlike(run: &Run) -> Obstacle {
     let truth = run.apart.as_ref().map(|a| file_name(&a.truth)).unwrap_or_default();
-    let shortest = span(inputs_of(run)).min(span(&run.time));
+    let shortest = span(run.input_time()).min(span(&run.time));
     if shortest < SHORTEST {
         let why = format!(
             "{} and {truth} are too short to find how their clocks belong together: {} s, and at least {} s are needed.",
@@ -191,11 +191,6 @@ fn unlike(run: &Run) -> Obstacle {
          drive, the columns and the units.",
         run.name
     ))
-}
-
-/// The times of a run's inputs.
-fn inputs_of(run: &Run) -> &[f64] {
-    run.apart.as_ref().map_or(&run.time, |a| &a.time)
 }
 
 fn span(time: &[f64]) -> f64 {

@@ -94,7 +94,7 @@ impl Fitted {
 /// A clock whose offset is stated for the middle of the poses: there it is independent of the drift.
 fn middle(run: &Run, clock: Clock) -> Clock {
     let poses = [run.time[0], run.time[run.time.len() - 1]];
-    let inputs = run.apart.as_ref().map_or(&run.time, |a| &a.time);
+    let inputs = run.input_time();
     let ends = [clock.of(inputs[0]).max(poses[0]), clock.of(inputs[inputs.len() - 1]).min(poses[1])];
     let at = 0.5 * (ends[0] + ends[1]);
     // The time of the inputs where the poses' clock reads so.

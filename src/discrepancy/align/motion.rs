@@ -23,7 +23,7 @@ impl Driven {
     pub fn of(model: &Model, run: &Run, timing: Timing) -> Result<Self> {
         let equations = model.equations(&[])?;
         let mut workspace = equations.workspace(&[]);
-        let time = run.apart.as_ref().map_or_else(|| run.time.clone(), |a| a.time.clone());
+        let time = run.input_time().to_vec();
         let visible = vec![0.0; equations.visible];
         let mut rates = vec![0.0; equations.n()];
         let (mut v, mut w) = (Vec::with_capacity(time.len()), Vec::with_capacity(time.len()));

@@ -137,7 +137,7 @@ fn slopes(
 mod tests {
     use super::*;
     use crate::discrepancy::carry;
-    use crate::discrepancy::soon::tests::{logged, unicycle};
+    use crate::discrepancy::fixtures::{equations, logged};
     use crate::motion::Timing;
 
     /// A vehicle that slides already when its log begins, and nearly forgets within it; its speed lags, if told.
@@ -159,7 +159,7 @@ mod tests {
     #[test]
     fn states_move_with_the_values_as_their_slopes_say() {
         for (known, row, small) in [(&SLIDES[..1], 0, 0.01), (&SLIDES, 0, 0.01), (&SLIDES, 8, 0.05)] {
-            let (equations, p) = unicycle(known);
+            let (equations, p) = equations(known);
             let record = record(&equations, &p, 2e-4);
             let at = |p: &[f64]| carry::before(&equations, p, &record, row, &record.measured(row));
             let here = at(&p);
@@ -188,7 +188,7 @@ mod tests {
 
     impl Start {
         fn new(noise: f64) -> Self {
-            let (equations, p) = unicycle(&SLIDES);
+            let (equations, p) = equations(&SLIDES);
             let record = record(&equations, &p, noise);
             Self { equations, p, record }
         }

@@ -171,17 +171,13 @@ impl Selection<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::discrepancy::evidence::tests::{fit_of, unicycle};
-    use crate::effects::named;
+    use crate::discrepancy::fixtures::{KNOWN, applied, fit_of, unicycle};
 
     #[test]
     fn the_numbers_of_one_effect_are_forgotten() {
-        let known: [(&str, &[f64]); 3] =
-            [("traction-creep", &[0.3]), ("relaxation-length", &[0.1, 0.8]), ("traverse-creep", &[-0.05])];
-        let fit = fit_of(unicycle(&known));
+        let fit = fit_of(unicycle(&KNOWN));
         let without = |id: &str, mut numbers: Vec<f64>| {
-            let effect = named(id).unwrap();
-            forget(&mut numbers, &fit, &Applied::new(effect, None, vec![1.0; effect.parameters.len()]));
+            forget(&mut numbers, &fit, &applied(id));
             numbers
         };
         let all = vec![1.0, 2.0, 3.0, 4.0];

@@ -77,12 +77,11 @@ pub(super) fn partly(choice: &Choice) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::discrepancy::evidence::tests::{fit_of, unicycle};
-    use crate::effects::named;
+    use crate::discrepancy::fixtures::{applied, fit_of, unicycle};
 
     #[test]
     fn what_parts_or_rows_contradict_is_contested() {
-        let asked = || vec![Applied::new(named("traverse-creep").unwrap(), None, vec![0.1])];
+        let asked = || vec![applied("traverse-creep")];
         let of = |unshared, unsampled| {
             let fit = fit_of(unicycle(&[]));
             let (before, after) = (fit.clone(), fit);

@@ -65,54 +65,15 @@ pub(super) fn tail(x: f64, k: usize) -> f64 {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+mod tests {
     use super::*;
-    use crate::discrepancy::chain::Variances;
-    use crate::effects::named;
-    use crate::model::Model;
+    use crate::discrepancy::fixtures::{KNOWN, applied, fit_of, unicycle};
     use nalgebra::DMatrix;
-
-    /// A unicycle with effects that are free.
-    pub fn unicycle(known: &[(&str, &[f64])]) -> Model {
-        let with = |model: Model, (id, values): &(&str, &[f64])| {
-            model.with_effect(Applied::new(named(id).unwrap(), None, values.to_vec()).freed())
-        };
-        known.iter().fold(Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap(), with)
-    }
-
-    /// A fit that came to the values of a model; nothing else is said of it.
-    pub fn fit_of(model: Model) -> Fit {
-        let p = model.free_values();
-        Fit {
-            information: DMatrix::identity(p.len(), p.len()),
-            model,
-            p,
-            covariance: None,
-            between_runs: None,
-            runs: 1,
-            variances: Variances { noise: [1e-6; 3], jump: [1e-6; 4] },
-            deviance: 0.0,
-            starts: vec![],
-            sample_size: 1000.0,
-            unexplained: [0.0; 4],
-            correlation: 1.0,
-            colour: 1.0,
-            begun: 0.0,
-        }
-    }
-
-    const KNOWN: [(&str, &[f64]); 3] =
-        [("traction-creep", &[0.3]), ("relaxation-length", &[0.1, 0.8]), ("traverse-creep", &[-0.05])];
 
     #[test]
     fn an_effect_is_told_by_the_values_that_vanish_with_it() {
         let fit = fit_of(unicycle(&KNOWN));
-        let places = |id: &str| {
-            neutral_at_zero(
-                &fit,
-                &Applied::new(named(id).unwrap(), None, vec![1.0; named(id).unwrap().parameters.len()]),
-            )
-        };
+        let places = |id: &str| neutral_at_zero(&fit, &applied(id));
         assert_eq!(places("relaxation-length"), [(1, 0.1)]);
         assert_eq!((places("traction-creep"), places("traverse-creep")), (vec![(0, 0.3)], vec![(3, -0.05)]));
         assert_eq!(places("side-slope"), []);
@@ -122,7 +83,7 @@ pub(super) mod tests {
     /// in a thousand, of two 405 284.
     #[test]
     fn what_the_runs_scatter_by_is_no_effect() {
-        let effect = Applied::new(named("traverse-creep").unwrap(), None, vec![0.0]);
+        let effect = applied("traverse-creep");
         let repeats = |runs: usize, ratio: f64| {
             let mut between = DMatrix::identity(4, 4);
             between[(3, 3)] = (0.05 / ratio).powi(2);

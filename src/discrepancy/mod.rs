@@ -35,6 +35,8 @@ mod evidence;
 mod exchange;
 pub mod experiment;
 pub mod fit;
+#[cfg(test)]
+mod fixtures;
 pub mod gap;
 pub mod html;
 pub mod identifiable;

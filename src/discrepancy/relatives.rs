@@ -81,6 +81,7 @@ fn candidates(model: &Model, library: &[Effect]) -> Vec<Applied> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::discrepancy::fixtures::{applied, unicycle};
     use crate::motion::Timing;
 
     #[test]
@@ -99,8 +100,7 @@ mod tests {
     #[test]
     fn what_a_model_has_is_no_candidate_for_it() {
         let library = crate::effects::all();
-        let bare = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
-        let known = Applied::new(crate::effects::named("traverse-creep").unwrap(), None, vec![0.1]);
+        let (bare, known) = (unicycle(&[]), applied("traverse-creep"));
         let ids = |m: &Model| candidates(m, library).into_iter().map(|a| a.effect.id).collect::<Vec<_>>();
         let (all, others) = (ids(&bare), ids(&bare.clone().with_effect(known)));
         assert!(all.len() > 5 && all.contains(&"traverse-creep".to_string()));

@@ -35,7 +35,7 @@ pub fn remaining(fit: &Fit, has_heading: bool, after: &[Violation]) -> Remaining
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::discrepancy::evidence::tests::{fit_of, unicycle};
+    use crate::discrepancy::fixtures::{fit_of, unicycle};
 
     /// What noise that wanders makes of a rate is taken off what remains; of white noise nothing is.
     #[test]

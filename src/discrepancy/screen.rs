@@ -179,14 +179,15 @@ fn tamed(promise: &Promise) -> Applied {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::discrepancy::fixtures::{applied, unicycle};
     use crate::effects::named;
     use crate::origin::Origin;
 
     #[test]
     fn an_effect_with_states_or_values_of_its_own_is_asked_alone() {
-        let bare = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+        let bare = unicycle(&[]);
         let creep = named("traverse-creep").unwrap();
-        let known = bare.clone().with_effect(Applied::new(creep, None, vec![0.1]));
+        let known = bare.clone().with_effect(applied("traverse-creep"));
         assert!(is_regular(creep, &bare, None) && !is_regular(creep, &known, None));
         // Of another place it is another effect.
         assert!(is_regular(creep, &known, Some(1)));

@@ -73,41 +73,10 @@ impl<'a> Rows<'a> {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+mod tests {
     use super::*;
-    use crate::discrepancy::evidence;
-    use crate::motion::Timing;
+    use crate::discrepancy::fixtures::{equations, logged};
     use std::f64::consts::TAU;
-
-    /// A unicycle with effects that are free, and their values.
-    pub fn unicycle(known: &[(&str, &[f64])]) -> (Equations, Vec<f64>) {
-        let model = evidence::tests::unicycle(known);
-        (model.free_equations().unwrap(), model.free_values())
-    }
-
-    /// What such a vehicle logs at some times that begins as told.
-    pub fn logged(
-        (equations, p): (&Equations, &[f64]),
-        time: Vec<f64>,
-        inputs: [&dyn Fn(f64) -> f64; 2],
-        begin: &[f64],
-        noise: f64,
-    ) -> Record {
-        let inputs = inputs.map(|f| time.iter().map(|t| f(*t)).collect::<Vec<f64>>());
-        let mut record = Record::new("run", time, vec![vec![]; 3], true, &inputs, Timing::Sample);
-        let signals = record.signals.clone();
-        let mut stepper = Stepper::new(equations, &signals, p);
-        let mut arc = Arc { z: begin.to_vec(), s: vec![] };
-        for i in 0..record.time.len() {
-            let y = stepper.outputs(&arc.z);
-            let noise = |c: usize| noise * ((i * i) as f64 + c as f64).sin();
-            (0..3).for_each(|c| record.columns[c].push(y[c] + noise(c)));
-            if i + 1 < record.time.len() {
-                stepper.advance(&mut arc, record.time[i], record.time[i + 1]);
-            }
-        }
-        record
-    }
 
     /// Rows every sixteenth of a second, of which sums are exact.
     fn sixteenths(rows: u32) -> Vec<f64> {
@@ -122,7 +91,7 @@ pub(super) mod tests {
 
     #[test]
     fn rows_end_at_a_hole_or_seconds_later() {
-        let (equations, p) = unicycle(&SLIDES);
+        let (equations, p) = equations(&SLIDES);
         let record = |hole: f64| {
             let time = sixteenths(100).into_iter().map(|t| if t > 2.0 { t + hole } else { t }).collect();
             logged((&equations, &p), time, [&faster, &|_| 0.3], &[0.0; 4], 1e-4)
@@ -141,7 +110,7 @@ pub(super) mod tests {
 
     #[test]
     fn a_state_is_as_large_as_its_inputs_make_it() {
-        let (equations, p) = unicycle(&SLIDES);
+        let (equations, p) = equations(&SLIDES);
         // The equilibrium is e_tc·r·φ'.
         for (sign, row, largest) in [(1.0, 0, 0.2), (-1.0, 0, 0.2), (1.0, 16, 0.25)] {
             let log = (&equations, &p[..]);
@@ -156,7 +125,7 @@ pub(super) mod tests {
 
     #[test]
     fn what_is_missed_is_told_in_units_of_the_noise() {
-        let (equations, p) = unicycle(&SLIDES);
+        let (equations, p) = equations(&SLIDES);
         let begin = [0.3, -0.2, 3.0, 0.05];
         let mut record = logged((&equations, &p), sixteenths(60), [&faster, &|_| 0.3], &begin, 0.0);
         let missed = |record: &Record, begin: &[f64]| {

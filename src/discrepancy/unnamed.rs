@@ -133,16 +133,14 @@ pub fn reduction(place: &str, before: &[Violation], after: &[Violation]) -> f64 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::discrepancy::evidence::tests::{fit_of, unicycle};
-    use crate::effects::named;
+    use crate::discrepancy::fixtures::{applied, fit_of, unicycle};
 
     #[test]
     fn names_are_counted_without_terms_and_what_is_held() {
         let bare = unicycle(&[]);
         assert_eq!(named_effects(&fit_of(bare.clone())), 0);
         let model = unicycle(&[("traction-creep", &[0.3]), ("traverse-creep", &[0.1])]);
-        let held = Applied::new(named("relaxation-length").unwrap(), None, vec![0.1, 0.8]);
-        assert_eq!(named_effects(&fit_of(model.clone().with_effect(held))), 2);
+        assert_eq!(named_effects(&fit_of(model.clone().with_effect(applied("relaxation-length")))), 2);
         let terms = bare.terms().unwrap();
         let term = Applied::new(&terms[0], None, vec![0.1; terms[0].parameters.len()]).freed();
         assert!(is_term(&term));

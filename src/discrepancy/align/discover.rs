@@ -132,21 +132,16 @@ fn beside(a: &Aligned, request: &Request, model: &Model, progress: &dyn Fn(&str)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::effects;
-    use crate::model::known;
+    use crate::discrepancy::fixtures::unicycle_file;
 
     #[test]
     fn a_delay_of_the_model_is_left_out_and_told() {
-        let parsed = |effects: &str| {
-            let text = format!("vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 1.0\n{effects}");
-            ModelFile::parse(&text, "model.toml", &known(effects::all())).unwrap()
-        };
         let (creep, delay) =
             ("[[effects]]\nid = \"traverse-creep\"\ne_tc = 0.1\n", "[[effects]]\nid = \"input-delay\"\ndelay = 0.1\n");
         let ids = |file: &ModelFile| file.effects.iter().map(|e| e.id.clone()).collect::<Vec<_>>();
-        let (file, says) = without_delay(&parsed(creep));
+        let (file, says) = without_delay(&unicycle_file(creep));
         assert_eq!((ids(&file), says), (vec!["traverse-creep".to_string()], None));
-        let (file, says) = without_delay(&parsed(&[creep, delay].concat()));
+        let (file, says) = without_delay(&unicycle_file(&[creep, delay].concat()));
         assert_eq!(ids(&file), ["traverse-creep"]);
         assert!(says.unwrap().starts_with("the model's input-delay is left out"));
     }

@@ -201,12 +201,12 @@ fn place(model: &Model) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::discrepancy::fixtures::unicycle_file;
 
     /// Poses from 10 s to 30 s and inputs that end when the poses' clock reads 32.27 s.
     #[test]
     fn the_offset_is_stated_for_the_middle_of_what_both_have() {
-        let text = "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 1.0\n";
-        let file = ModelFile::parse(text, "model.toml", &crate::model::known(crate::effects::all())).expect("a model");
+        let file = unicycle_file("");
         let log = "time,x,y,heading,wheel_rate,yaw_rate\n10,0,0,0,1,0\n20,1,0,0,1,0\n30,2,0,0,1,0\n";
         let run = Run::parse("run.csv", log, &file).expect("a run");
         let clock = Clock { offset: 2.0, drift: 0.01, at: 3.0 };

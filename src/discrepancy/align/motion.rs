@@ -142,14 +142,11 @@ impl Measured {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::effects;
-    use crate::files::ModelFile;
-    use crate::model::known;
+    use crate::discrepancy::fixtures::unicycle_file;
 
     /// A circle at a speed, turning at 0.6 rad/s, positions alone.
     fn circle(speed: f64) -> Run {
-        let model = "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 1.0\n";
-        let file = ModelFile::parse(model, "model.toml", &known(effects::all())).unwrap();
+        let file = unicycle_file("");
         let (rate, mut text) = (0.6, String::from("time,x,y,wheel_rate,yaw_rate\n"));
         for t in (0..100).map(|i| 0.05 * f64::from(i)) {
             let (sin, cos) = (rate * t + 2.0_f64).sin_cos();

@@ -49,19 +49,19 @@ pub(super) fn quantile(mut values: Vec<f64>, q: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::discrepancy::soon::tests::{logged, unicycle};
+    use crate::discrepancy::fixtures::{equations, logged, unicycle};
 
-    /// In windows of a second, one of which at most is neither at each border: ten seconds straight on, five at rest, ten to the left, five straight back, ten to the right.
+    /// Ten seconds straight on, five at rest, ten to the left, five straight back, ten to the right; of the windows of a
+    /// second one at each border is neither.
     #[test]
     fn shares_are_those_of_the_time_that_was_driven_so() {
         let part = |t: f64| [10.0, 15.0, 25.0, 30.0].iter().filter(|from| t >= **from).count();
         let wheel = |t: f64| [1.0, 0.0, 3.0, -1.0, 2.0][part(t)];
         let turn = |t: f64| [0.0, 0.0, 0.5, 0.0, -0.3][part(t)];
-        let (equations, p) = unicycle(&[]);
+        let (equations, p) = equations(&[]);
         let time = (0..=640).map(|i| f64::from(i) / 16.0).collect();
         let record = logged((&equations, &p), time, [&wheel, &turn], &[0.0; 3], 0.0);
-        let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
-        let told = driving(&model, &record, RunHealth { rows: 7, ..RunHealth::default() }, 1e-6).unwrap();
+        let told = driving(&unicycle(&[]), &record, RunHealth { rows: 7, ..RunHealth::default() }, 1e-6).unwrap();
         for (share, expected) in
             [(told.left, 0.25), (told.right, 0.25), (told.standing, 0.125), (told.backwards, 0.125)]
         {

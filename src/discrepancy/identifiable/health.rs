@@ -163,6 +163,7 @@ fn findings(runs: &[RunHealth], records: &[Record]) -> Vec<Finding> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::discrepancy::fixtures::unicycle_file;
 
     /// A run with nothing to say about.
     fn usual() -> RunHealth {
@@ -243,12 +244,10 @@ mod tests {
         assert_eq!(ids(&[speed(1.0, 1.1), speed(0.5, 0.6)]), "");
     }
 
-    /// Rows a tenth of a second apart from 5 s on, one of which is late, and a hole of two seconds.
+    /// Rows a tenth of a second apart from 5 s on, some of which are late, and a hole of two seconds.
     #[test]
     fn times_are_told_as_they_are() {
-        let text = "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 1.0\n";
-        let file =
-            crate::files::ModelFile::parse(text, "model.toml", &crate::model::known(crate::effects::all())).unwrap();
+        let file = unicycle_file("");
         let mut log = String::from("time,x,y,heading,wheel_rate,yaw_rate\n");
         let time = (0..40)
             .map(|i| 5.0 + 0.1 * f64::from(i) + if i > 30 { 1.9 } else { 0.0 } + if i % 8 == 3 { 0.04 } else { 0.0 });

@@ -1,0 +1,85 @@
+//! What tests of this layer begin with: a unicycle with effects, what it logs, a fit of it.
+
+use super::chain::Variances;
+use super::fit::Fit;
+use super::record::Record;
+use crate::effects::{Applied, all, named};
+use crate::files::ModelFile;
+use crate::model::{Equations, Model, known};
+use crate::motion::{Arc, Stepper, Timing};
+use nalgebra::DMatrix;
+
+/// Effects that are free: of one value, of two, and of one again.
+pub const KNOWN: [(&str, &[f64]); 3] =
+    [("traction-creep", &[0.3]), ("relaxation-length", &[0.1, 0.8]), ("traverse-creep", &[-0.05])];
+
+/// The file of a unicycle, and what else it says.
+pub fn unicycle_file(more: &str) -> ModelFile {
+    let text = format!("vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 1.0\n{more}");
+    ModelFile::parse(&text, "model.toml", &known(all())).unwrap()
+}
+
+/// An effect of the library at one place, whatever its values.
+pub fn applied(id: &str) -> Applied {
+    let effect = named(id).unwrap();
+    Applied::new(effect, None, vec![1.0; effect.parameters.len()])
+}
+
+/// A unicycle with effects that are free.
+pub fn unicycle(known: &[(&str, &[f64])]) -> Model {
+    let with = |model: Model, (id, values): &(&str, &[f64])| {
+        model.with_effect(Applied::new(named(id).unwrap(), None, values.to_vec()).freed())
+    };
+    known.iter().fold(Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap(), with)
+}
+
+/// A fit that came to the values of a model; nothing else is said of it.
+pub fn fit_of(model: Model) -> Fit {
+    let p = model.free_values();
+    Fit {
+        information: DMatrix::identity(p.len(), p.len()),
+        model,
+        p,
+        covariance: None,
+        between_runs: None,
+        runs: 1,
+        variances: Variances { noise: [1e-6; 3], jump: [1e-6; 4] },
+        deviance: 0.0,
+        starts: vec![],
+        sample_size: 1000.0,
+        unexplained: [0.0; 4],
+        correlation: 1.0,
+        colour: 1.0,
+        begun: 0.0,
+    }
+}
+
+/// The equations of such a unicycle, and the values of its effects.
+pub fn equations(known: &[(&str, &[f64])]) -> (Equations, Vec<f64>) {
+    let model = unicycle(known);
+    (model.free_equations().unwrap(), model.free_values())
+}
+
+/// What such a vehicle logs at some times that begins as told.
+pub fn logged(
+    (equations, p): (&Equations, &[f64]),
+    time: Vec<f64>,
+    inputs: [&dyn Fn(f64) -> f64; 2],
+    begin: &[f64],
+    noise: f64,
+) -> Record {
+    let inputs = inputs.map(|f| time.iter().map(|t| f(*t)).collect::<Vec<f64>>());
+    let mut record = Record::new("run", time, vec![vec![]; 3], true, &inputs, Timing::Sample);
+    let signals = record.signals.clone();
+    let mut stepper = Stepper::new(equations, &signals, p);
+    let mut arc = Arc { z: begin.to_vec(), s: vec![] };
+    for i in 0..record.time.len() {
+        let y = stepper.outputs(&arc.z);
+        let noise = |c: usize| noise * ((i * i) as f64 + c as f64).sin();
+        (0..3).for_each(|c| record.columns[c].push(y[c] + noise(c)));
+        if i + 1 < record.time.len() {
+            stepper.advance(&mut arc, record.time[i], record.time[i + 1]);
+        }
+    }
+    record
+}

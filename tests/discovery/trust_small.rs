@@ -11,16 +11,19 @@ use suite::trial;
 /// Which suite; the benchmark's own is another one.
 const SUITE: u64 = 7;
 
-/// The first n short logs that are wanted; the whole benchmark has the long ones. Drawing a case takes as long as to
-/// answer it, so no more are drawn than are asked for.
+/// Whether a case has few rows; the whole benchmark has the long ones.
+fn is_short(case: &Case) -> bool {
+    case.scenario.duration * case.scenario.rate < 2500.0
+}
+
+/// The first n short logs that are wanted. What their data can tell takes as long to know as the answer, so it is not
+/// asked of logs that are drawn long, and no more are drawn than are needed.
 fn outcomes(kind: Kind, wanted: impl Fn(&Case) -> bool + Sync, n: usize) -> Vec<(Case, Judgement)> {
+    let mut seeds = (0..).map(|i| seed(SUITE, kind, i)).filter(|seed| is_short(&Case::sketched(*seed)));
     let mut cases: Vec<Case> = vec![];
-    let mut drawn = 0;
     while cases.len() < n {
-        let next = drawn + (n - cases.len()) as u64;
-        let more = (drawn..next).into_par_iter().map(|i| Case::drawn(seed(SUITE, kind, i)));
-        cases.par_extend(more.filter(|c| c.scenario.duration * c.scenario.rate < 2500.0 && wanted(c)));
-        drawn = next;
+        let next: Vec<u64> = seeds.by_ref().take(n - cases.len()).collect();
+        cases.par_extend(next.into_par_iter().map(Case::drawn).filter(|c| is_short(c) && wanted(c)));
     }
     cases.into_par_iter().map(|case| (judge(&case, &trial::run(&case)), case)).map(|(j, c)| (c, j)).collect()
 }

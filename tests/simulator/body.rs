@@ -1,11 +1,11 @@
 //! The body of the vehicle: wheels on the ground and Newton's law for what slips.
 
-use super::contact::{Contact, Plane, Twist, arrow, left_of, motion};
+use super::contact::{Contact, Facing, Plane, Twist, arrow, left_of, motion};
+use super::lately::Lately;
 use super::laws::Laws;
 use super::profile::Profile;
 use super::trailer::{self, Trailer};
 use super::vehicle::{Parameters, Tractor};
-use std::cell::Cell;
 
 /// Where the parts of the state vector stand: pose, velocity through the carpet of the
 /// kinematic slips, relaxed slip, then one absolute heading for each trailer.
@@ -46,44 +46,20 @@ pub struct Body {
     pub trailers: Vec<Trailer>,
     /// The driver.
     pub profile: Profile,
-    /// What was asked of the wheels at the last times: an implicit scheme asks for the same three again and again.
-    pub asked: Asked,
-}
-
-/// Times, and the speed and turn asked at each; no time is the same as what was never asked.
-#[derive(Debug)]
-pub struct Asked {
-    known: Cell<[(f64, (f64, f64)); 4]>,
-    oldest: Cell<usize>,
-}
-
-impl Default for Asked {
-    fn default() -> Self {
-        Asked { known: Cell::new([(f64::NAN, (0.0, 0.0)); 4]), oldest: Cell::new(0) }
-    }
-}
-
-impl Asked {
-    fn at(&self, t: f64, ask: impl FnOnce() -> (f64, f64)) -> (f64, f64) {
-        let mut known = self.known.get();
-        if let Some((_, value)) = known.iter().find(|(at, _)| *at == t) {
-            return *value;
-        }
-        let value = ask();
-        known[self.oldest.get()] = (t, value);
-        self.known.set(known);
-        self.oldest.set((self.oldest.get() + 1) % known.len());
-        value
-    }
+    /// The speed and turn that were asked of the wheels at the last times.
+    pub asked: Lately<(f64, f64)>,
+    /// How fast the speed that is asked changed at the last times, m/s².
+    pub speeding: Lately<f64>,
 }
 
 impl Body {
     /// The state at time `t` (s) with pose `(x, y, heading)`, slips at the values the wheels ask for.
     pub fn at_rest_in(&self, t: f64, pose: [f64; 3], trailer_headings: &[f64]) -> Vec<f64> {
         let [x, y, heading] = pose;
-        let speed = self.rolling(t, heading, 0.0).velocity.dot(&arrow(heading));
+        let facing = Facing::new(heading);
+        let speed = self.rolling(t, &facing, 0.0).velocity.dot(&facing.forward);
         let relaxed = self.laws.relaxation.map_or(0.0, |(_, e_tc)| e_tc * speed);
-        let velocity = self.rolling(t, heading, relaxed).velocity;
+        let velocity = self.rolling(t, &facing, relaxed).velocity;
         let mut state = vec![x, y, heading, velocity.x, velocity.y, relaxed];
         state.extend(trailer_headings);
         state
@@ -101,24 +77,25 @@ impl Body {
 
     /// The motion over the ground at time `t` (s).
     pub fn pace(&self, t: f64, state: &[f64]) -> Pace {
-        self.instant(t, state).pace
+        self.instant(t, state, &Facing::new(state[HEADING])).pace
     }
 
     /// The time derivative of the state at time `t` (s).
     pub fn rates(&self, t: f64, state: &[f64]) -> Vec<f64> {
-        let now = self.instant(t, state);
+        let facing = Facing::new(state[HEADING]);
+        let Facing { forward, side, .. } = facing;
+        let now = self.instant(t, state, &facing);
         let Pace { v_l, v_t, yaw } = now.pace;
-        let forward = arrow(state[HEADING]);
-        let over_ground = forward * v_l + left_of(forward) * v_t;
+        let over_ground = forward * v_l + side * v_t;
         let along = self.push(t, &now);
         let relaxing = self.relaxing(state[RELAXED], v_l);
         let across = self.side_push(&now, state[RELAXED], along + yaw * now.wheels_v_t, relaxing);
-        let force = forward * along + left_of(forward) * across;
+        let force = forward * along + side * across;
         let ground = Plane::new(self.laws.drift.0, self.laws.drift.1);
         let travel = over_ground + ground;
         let mut rates = vec![travel.x, travel.y, yaw, force.x, force.y, relaxing];
         let headings = &state[TRAILERS..];
-        let axle = (state[HEADING], over_ground, yaw);
+        let axle = (facing, over_ground, yaw);
         rates.extend(trailer::turning(&self.trailers, axle, headings));
         rates
     }
@@ -146,15 +123,14 @@ impl Body {
         self.laws.relaxation.map_or(0.0, |(length, e_tc)| (e_tc * v_l - relaxed) * v_l.abs() / length)
     }
 
-    fn instant(&self, t: f64, state: &[f64]) -> Instant {
-        let heading = state[HEADING];
-        let forward = arrow(heading);
-        let ideal = self.rolling(t, heading, state[RELAXED]);
+    fn instant(&self, t: f64, state: &[f64], facing: &Facing) -> Instant {
+        let forward = facing.forward;
+        let ideal = self.rolling(t, facing, state[RELAXED]);
         let asked = ideal.velocity.dot(&forward);
         let wheels = match self.laws.traction {
             Some(_) => {
                 let v_l = velocity(state).dot(&forward);
-                self.rolling_at(v_l, ideal.yaw, t, heading, state[RELAXED])
+                self.rolling_at(v_l, ideal.yaw, t, facing, state[RELAXED])
             }
             None => ideal,
         };
@@ -163,36 +139,34 @@ impl Body {
             Some(_) => velocity(state),
             None => wheels.velocity,
         };
-        let wheels_v_t = held.dot(&left_of(forward));
+        let wheels_v_t = held.dot(&facing.side);
         let yaw = wheels.yaw / (1.0 + self.laws.understeer * v_l * v_l);
-        let v_t = wheels_v_t + self.laws.slip(v_l, yaw, heading);
+        let v_t = wheels_v_t + self.laws.slip(v_l, yaw, facing.heading);
         Instant { pace: Pace { v_l, v_t, yaw }, wheels_v_t, asked }
     }
 
     /// The motion in which every wheel obeys its contact.
-    fn rolling(&self, t: f64, heading: f64, relaxed: f64) -> Twist {
-        let (drive, turn) = self.wheels(t, heading);
-        motion([drive, self.rear_track(heading, relaxed), turn])
+    fn rolling(&self, t: f64, facing: &Facing, relaxed: f64) -> Twist {
+        let (drive, turn) = self.wheels(t, facing);
+        motion([drive, self.rear_track(facing, relaxed), turn])
     }
 
     /// The same with the forward speed given and the drive free to spin.
-    fn rolling_at(&self, v_l: f64, ideal_yaw: f64, t: f64, heading: f64, relaxed: f64) -> Twist {
-        let turn = if self.tractor.is_steered() { self.wheels(t, heading).1 } else { Contact::turning(ideal_yaw) };
-        let drive = Contact::new(Plane::zeros(), arrow(heading), v_l);
-        motion([drive, self.rear_track(heading, relaxed), turn])
+    fn rolling_at(&self, v_l: f64, ideal_yaw: f64, t: f64, facing: &Facing, relaxed: f64) -> Twist {
+        let turn = if self.tractor.is_steered() { self.wheels(t, facing).1 } else { Contact::turning(ideal_yaw) };
+        let drive = Contact::new(Plane::zeros(), facing.forward, v_l);
+        motion([drive, self.rear_track(facing, relaxed), turn])
     }
 
     /// The rear axle moves across its heading only by creep.
-    fn rear_track(&self, heading: f64, relaxed: f64) -> Contact {
-        let forward = arrow(heading);
-        let across = left_of(forward) - forward * self.laws.e_tc.0;
+    fn rear_track(&self, facing: &Facing, relaxed: f64) -> Contact {
+        let across = facing.side - facing.forward * self.laws.e_tc.0;
         Contact::new(Plane::zeros(), across, relaxed)
     }
 
     /// The driving contact and the one that turns the body.
-    fn wheels(&self, t: f64, heading: f64) -> (Contact, Contact) {
-        let forward = arrow(heading);
-        let side = left_of(forward);
+    fn wheels(&self, t: f64, facing: &Facing) -> (Contact, Contact) {
+        let Facing { forward, side, .. } = *facing;
         let (speed, turn) = self.asked_of_wheels(t);
         let centre = Plane::zeros();
         let ground = self.axle_speed(speed);
@@ -208,9 +182,9 @@ impl Body {
                 (Contact::new(reach, forward, left), Contact::new(-reach, forward, right))
             }
             Tractor::Car | Tractor::FourWheelCar => {
-                (Contact::new(centre, forward, ground), self.front(heading, turn, None))
+                (Contact::new(centre, forward, ground), self.front(facing, turn, None))
             }
-            Tractor::Tricycle => (self.front(heading, turn, Some(ground)), self.front(heading, turn, None)),
+            Tractor::Tricycle => (self.front(facing, turn, Some(ground)), self.front(facing, turn, None)),
         }
     }
 
@@ -222,9 +196,9 @@ impl Body {
     }
 
     /// The steered wheel: it rolls at a speed (m/s) along its own heading, or holds its track across it.
-    fn front(&self, heading: f64, logged: f64, rolls: Option<f64>) -> Contact {
-        let at = arrow(heading) * (self.nominal.wheelbase * self.laws.wheelbase);
-        let along = arrow(heading + self.laws.steered(logged));
+    fn front(&self, facing: &Facing, logged: f64, rolls: Option<f64>) -> Contact {
+        let at = facing.forward * (self.nominal.wheelbase * self.laws.wheelbase);
+        let along = arrow(facing.heading + self.laws.steered(logged));
         match rolls {
             Some(speed) => Contact::new(at, along, speed),
             None => Contact::new(at, left_of(along) - along * self.laws.e_tc.1, 0.0),
@@ -244,9 +218,12 @@ impl Body {
             // Then the velocity state is not read: its drift does no harm.
             return 0.0;
         }
-        let h = 1e-3;
-        let asked = |steps: f64| self.rolling(t + steps * h, 0.0, 0.0).velocity.x;
-        (8.0 * (asked(1.0) - asked(-1.0)) - (asked(2.0) - asked(-2.0))) / (12.0 * h)
+        self.speeding.at(t, || {
+            let h = 1e-3;
+            let ahead = Facing::new(0.0);
+            let asked = |steps: f64| self.rolling(t + steps * h, &ahead, 0.0).velocity.x;
+            (8.0 * (asked(1.0) - asked(-1.0)) - (asked(2.0) - asked(-2.0))) / (12.0 * h)
+        })
     }
 }
 

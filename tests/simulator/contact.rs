@@ -1,6 +1,6 @@
 //! Rolling contacts in world coordinates, and the one motion of the body that obeys three of them.
 
-use nalgebra::{Matrix3, Vector2, Vector3};
+use nalgebra::{Vector2, Vector3};
 
 /// A vector in the plane of the ground, world axes.
 pub type Plane = Vector2<f64>;
@@ -13,6 +13,25 @@ pub fn arrow(angle: f64) -> Plane {
 /// `v` turned a quarter to the left.
 pub fn left_of(v: Plane) -> Plane {
     Plane::new(-v.y, v.x)
+}
+
+/// A heading with the axes it gives a body, which much asks for at every instant.
+#[derive(Debug, Clone, Copy)]
+pub struct Facing {
+    /// The heading, rad.
+    pub heading: f64,
+    /// The unit vector along it.
+    pub forward: Plane,
+    /// The unit vector to its left.
+    pub side: Plane,
+}
+
+impl Facing {
+    /// The axes of a body with a heading (rad).
+    pub fn new(heading: f64) -> Self {
+        let forward = arrow(heading);
+        Facing { heading, forward, side: left_of(forward) }
+    }
 }
 
 /// Velocity of the reference point (m/s, world axes) and yaw rate (rad/s).
@@ -48,11 +67,13 @@ impl Contact {
     }
 }
 
-/// The motion that obeys all three contacts.
+/// The motion that obeys all three contacts, by Cramer's rule.
 pub fn motion(contacts: [Contact; 3]) -> Twist {
-    let rows = contacts.map(|contact| contact.row().transpose());
-    let speeds = Vector3::from(contacts.map(|contact| contact.speed));
-    let solved =
-        Matrix3::from_rows(&rows).lu().solve(&speeds).expect("the contacts of every vehicle here determine its motion");
+    let [a, b, c] = contacts.each_ref().map(Contact::row);
+    let [at_a, at_b, at_c] = contacts.map(|contact| contact.speed);
+    let (bc, ca, ab) = (b.cross(&c), c.cross(&a), a.cross(&b));
+    let determinant = a.dot(&bc);
+    assert!(determinant != 0.0, "the contacts of every vehicle here determine its motion");
+    let solved = (bc * at_a + ca * at_b + ab * at_c) / determinant;
     Twist { velocity: solved.xy(), yaw: solved.z }
 }

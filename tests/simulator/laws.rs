@@ -2,6 +2,12 @@
 
 use super::hidden::Hidden;
 
+/// The longest integration step, s: what a driver does takes seconds.
+const STEP: f64 = 0.02;
+
+/// The same where a slip settles within a length that takes a tenth of a second.
+const SHORT_STEP: f64 = 0.005;
+
 /// Every hidden law as numbers, neutral where nothing is hidden.
 #[derive(Debug, Clone)]
 pub struct Laws {
@@ -133,9 +139,12 @@ impl Laws {
         (one(self.radius.0 * left, self.e_rc.0), one(self.radius.1 * right, self.e_rc.1))
     }
 
-    /// Whether a slip has a time or a length in which it settles.
-    pub fn settles(&self) -> bool {
-        self.traction.is_some() || self.cornering.is_some() || self.relaxation.is_some()
+    /// The longest integration step, s, for what slips: an eighth of the time in which it settles, so that the scheme
+    /// converges; a length is one of a tenth of a second and less.
+    pub fn longest_step(&self) -> f64 {
+        let in_time = [self.traction, self.cornering].into_iter().flatten().map(|time| time / 8.0);
+        let in_length = self.relaxation.map(|_| SHORT_STEP);
+        in_time.chain(in_length).fold(STEP, f64::min)
     }
 
     /// The true steering angle (rad) for the logged one.
@@ -147,7 +156,8 @@ impl Laws {
     /// The lateral slip (m/s) that leaves the yaw rate alone, by speed, yaw rate and heading.
     pub fn slip(&self, v_l: f64, yaw: f64, heading: f64) -> f64 {
         let (rate, direction) = self.slope;
-        rate * (direction - heading).sin()
+        let downhill = if rate == 0.0 { 0.0 } else { rate * (direction - heading).sin() };
+        downhill
             - self.per_load * v_l * v_l * yaw
             - self.per_yaw_square * yaw * yaw.abs()
             - self.per_left_turn * v_l * yaw.max(0.0)

@@ -19,6 +19,7 @@ mod body;
 mod contact;
 mod gauss;
 mod hidden;
+mod lately;
 mod laws;
 mod log;
 mod model;

@@ -1,9 +1,10 @@
 //! A scenario: a vehicle, what it hides, how it is driven and how it is logged.
 
-use super::body::{Asked, Body, HEADING, TRAILERS};
-use super::contact::{arrow, left_of};
+use super::body::{Body, HEADING, TRAILERS};
+use super::contact::Facing;
 use super::gauss::advance;
 use super::hidden::Hidden;
+use super::lately::Lately;
 use super::laws::Laws;
 use super::log::{Log, Truth};
 use super::profile::Profile;
@@ -12,12 +13,6 @@ use super::trailer::Trailer;
 use super::vehicle::{Channel, Parameters, Vehicle, channels};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-
-/// The longest integration step, s: what a driver does takes seconds.
-const STEP: f64 = 0.02;
-
-/// The same where a hidden slip settles in tenths of a second, s; with longer ones the scheme would not converge.
-const SHORT_STEP: f64 = 0.005;
 
 /// What a row of the log holds in its input columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -161,7 +156,8 @@ impl Scenario {
             laws,
             trailers,
             profile: self.profile.clone(),
-            asked: Asked::default(),
+            asked: Lately::default(),
+            speeding: Lately::default(),
         }
     }
 
@@ -193,7 +189,7 @@ impl Scenario {
                 behind
             })
             .collect();
-        let step = if body.laws.settles() { SHORT_STEP } else { STEP };
+        let step = body.laws.longest_step();
         let began = body.at_rest_in(-self.lead_in, self.start, &headings);
         let arrived = advance(&rates, began, -self.lead_in, 0.0, step);
         let mut state = body.moved_to(&arrived, self.start);
@@ -219,10 +215,10 @@ impl Scenario {
 
     /// The time and pose columns of one row.
     fn measured(&self, body: &Body, truth: &Truth, random: &mut ChaCha8Rng) -> Vec<f64> {
-        let forward = arrow(truth.heading);
+        let Facing { forward, side, .. } = Facing::new(truth.heading);
         let (a, b) = body.laws.lever;
         let [known_a, known_b] = self.mounting.lever_arm;
-        let arm = forward * (a + known_a) + left_of(forward) * (b + known_b);
+        let arm = forward * (a + known_a) + side * (b + known_b);
         let mut position = [truth.x + arm.x, truth.y + arm.y];
         let offset = body.laws.misalignment + self.mounting.heading_offset;
         let mut headings = vec![truth.heading + offset];

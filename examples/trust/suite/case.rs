@@ -98,7 +98,21 @@ impl Case {
         case
     }
 
+    /// The case as it is drawn first, without what its data can tell.
+    pub fn sketched(seed: u64) -> Self {
+        Self::sketch(seed, 0).0
+    }
+
     fn attempt(seed: u64, attempt: u64) -> Self {
+        let (mut case, targets) = Self::sketch(seed, attempt);
+        if !case.scenario.hidden.is_empty() {
+            case.powers = powers(&case.scenario, targets);
+        }
+        case
+    }
+
+    /// A case whose powers are not known, and what its vehicle might hide.
+    fn sketch(seed: u64, attempt: u64) -> (Self, &'static [Target]) {
         let (kind, index, targets) = Self::topic(seed);
         let make = MAKES[index];
         let mut random = stream(seed, 100 + attempt);
@@ -117,8 +131,7 @@ impl Case {
         };
         logging::draw(&mut scenario, kind == Kind::Timed, &mut random);
         let tells_noise = random.random_bool(0.2);
-        let powers = if scenario.hidden.is_empty() { vec![] } else { powers(&scenario, &TARGETS[index]) };
-        Case { seed, kind, make, drive, scenario, tells_noise, powers }
+        (Case { seed, kind, make, drive, scenario, tells_noise, powers: vec![] }, &TARGETS[index])
     }
 
     /// Whether the data show all that is hidden and tell it from everything else of the library.

@@ -91,7 +91,9 @@ fn fitted(rows: &Rows, carried: &[f64], pose: &[f64], spread: &[f64]) -> Option<
     let mut last: Option<(Cholesky<f64, nalgebra::Dyn>, DMatrix<f64>)> = None;
     for _ in 0..ROUNDS {
         let here = rows.missed(rows.p, &begin)?;
-        let jacobian = slopes(&begin, |i| free(i).min(1.0), &here, |begin| rows.missed(rows.p, begin))?;
+        let jacobian = slopes(&begin, |i| free(i).min(1.0), &here, |tries| {
+            rows.all_missed(&tries.iter().map(|begin| (rows.p, &begin[..])).collect::<Vec<_>>())
+        })?;
         let mut information = jacobian.tr_mul(&jacobian);
         (0..begin.len()).for_each(|i| information[(i, i)] += prior[i]);
         let away = DVector::from_fn(begin.len(), |i, _| prior[i] * (begin[i] - before[i]));
@@ -110,7 +112,9 @@ fn fitted(rows: &Rows, carried: &[f64], pose: &[f64], spread: &[f64]) -> Option<
     let share = DMatrix::from_fn(h, h, |i, j| covariance[(m + i, m + j)] * prior[m + j]);
     // Where the sum is least its slope is zero whatever the values: they move the states by −(JᵀJ + P)⁻¹·Jᵀ·∂r/∂p.
     let here = rows.missed(rows.p, &begin)?;
-    let by_values = slopes(rows.p, |j| rows.p[j].abs().max(SMALL), &here, |p| rows.missed(p, &begin))?;
+    let by_values = slopes(rows.p, |j| rows.p[j].abs().max(SMALL), &here, |tries| {
+        rows.all_missed(&tries.iter().map(|p| (&p[..], &begin[..])).collect::<Vec<_>>())
+    })?;
     let moved = -factors.solve(&jacobian.tr_mul(&by_values));
     let by_values = moved.rows(m, h).into_owned();
     begin.iter().all(|z| z.is_finite()).then(|| Shown { z: begin.split_off(m), share, by_values })
@@ -121,14 +125,14 @@ fn slopes(
     at: &[f64],
     size: impl Fn(usize) -> f64,
     here: &DVector<f64>,
-    missed: impl Fn(&[f64]) -> Option<DVector<f64>>,
+    missed: impl Fn(&[Vec<f64>]) -> Option<Vec<DVector<f64>>>,
 ) -> Option<DMatrix<f64>> {
+    let step = |i: usize| TRIED * size(i);
+    let beside = |i: usize| at.iter().enumerate().map(|(j, x)| if i == j { x + step(i) } else { *x }).collect();
+    let tries: Vec<Vec<f64>> = (0..at.len()).map(beside).collect();
     let mut slopes = DMatrix::zeros(here.len(), at.len());
-    for i in 0..at.len() {
-        let step = TRIED * size(i);
-        let mut beside = at.to_vec();
-        beside[i] += step;
-        slopes.set_column(i, &((missed(&beside)? - here) / step));
+    for (i, missed) in missed(&tries)?.into_iter().enumerate() {
+        slopes.set_column(i, &((missed - here) / step(i)));
     }
     Some(slopes)
 }

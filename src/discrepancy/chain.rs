@@ -83,8 +83,8 @@ impl<'v> Chain<'v> {
         let size = window.gram[0].nrows();
         let m = size - 1 - self.parameters;
         let mut form = self.form.take().unwrap_or_else(|| weak(size, m));
-        for (gram, noise) in window.gram.iter().zip(self.v.noise) {
-            form.zip_apply(gram, |f, g| *f += g / noise);
+        for (channel, noise) in self.v.noise.iter().enumerate().filter(|(channel, _)| window.count[*channel] > 0) {
+            form.zip_apply(&window.gram[channel], |f, g| *f += g / noise);
         }
         if let Some(back) = &window.back {
             form = carried(&form, back, m);
@@ -160,8 +160,8 @@ fn carried(form: &DMatrix<f64>, back: &DMatrix<f64>, m: usize) -> DMatrix<f64> {
 
 /// Rounding makes a form lopsided, and a chain that runs against a contracting motion makes that grow.
 fn symmetric(mut form: DMatrix<f64>) -> DMatrix<f64> {
-    for i in 0..form.nrows() {
-        for j in 0..i {
+    for j in 0..form.nrows() {
+        for i in j + 1..form.nrows() {
             let mean = 0.5 * (form[(i, j)] + form[(j, i)]);
             form[(i, j)] = mean;
             form[(j, i)] = mean;

@@ -10,9 +10,12 @@ use super::smooth;
 use super::windows::MARGIN;
 use crate::error::Result;
 use crate::model::{Equations, Model};
-use crate::motion::{Arc, Stepper};
+use crate::motion::{Arc, LaneStepper, Stepper};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
+
+/// How many windows are followed side by side.
+const LANES: usize = 8;
 
 /// Sum of squared errors over windows.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -103,6 +106,29 @@ impl<'a> Predictor<'a> {
         found
     }
 
+    /// What the sensor would measure at the first and at the last row of some windows, each restarted at its first.
+    fn ends(&self, windows: &[(usize, usize)]) -> Vec<[Vec<f64>; 2]> {
+        windows.chunks(LANES).flat_map(|some| self.side_by_side(some)).collect()
+    }
+
+    /// As [`Predictor::ends`], of so many windows as there are lanes, or fewer: the last one fills the rest.
+    fn side_by_side(&self, windows: &[(usize, usize)]) -> Vec<[Vec<f64>; 2]> {
+        let of: [(usize, usize); LANES] = std::array::from_fn(|l| windows[l.min(windows.len() - 1)]);
+        let starts = of.map(|(from, _)| self.start(from));
+        let mut z: Vec<[f64; LANES]> = (0..self.equations.n()).map(|i| starts.each_ref().map(|z| z[i])).collect();
+        let mut stepper = LaneStepper::new(&self.equations, &self.record.signals, [&[]; LANES]);
+        let visible = self.equations.visible;
+        let measured = |y: &[[f64; LANES]], l: usize| y[..visible].iter().map(|y| y[l]).collect::<Vec<f64>>();
+        let y = stepper.outputs(&z);
+        let first: Vec<Vec<f64>> = (0..windows.len()).map(|l| measured(y, l)).collect();
+        for r in 0..of.iter().map(|(from, to)| to - from).max().unwrap_or(0) {
+            let at = |r: usize| of.map(|(from, to)| self.record.time[(from + r).min(to)]);
+            stepper.advance(&mut z, &mut [], &at(r), &at(r + 1));
+        }
+        let y = stepper.outputs(&z);
+        first.into_iter().enumerate().map(|(l, first)| [first, measured(y, l)]).collect()
+    }
+
     /// The rows at which the non-overlapping windows of a horizon begin and end.
     pub fn windows(&self, horizon: f64) -> Vec<(usize, usize)> {
         let time = &self.record.time;
@@ -124,12 +150,11 @@ impl<'a> Predictor<'a> {
     /// Errors after a horizon over non-overlapping windows.
     pub fn errors(&self, horizon: f64) -> Errors {
         let mut errors = Errors::default();
-        for (from, to) in self.windows(horizon) {
-            if let Some(end) = self.outputs(from, to).pop() {
-                let c = &self.record.columns;
-                let heading = self.record.has_heading.then(|| end[2] - c[2][to]);
-                errors.add([end[0] - c[0][to], end[1] - c[1][to]], heading);
-            }
+        let windows = self.windows(horizon);
+        for ((_, to), [_, end]) in windows.iter().zip(self.ends(&windows)) {
+            let measured = |c: usize| self.record.columns[c][*to];
+            let heading = self.record.has_heading.then(|| end[2] - measured(2));
+            errors.add([0, 1].map(|c| end[c] - measured(c)), heading);
         }
         errors
     }
@@ -155,17 +180,18 @@ impl<'a> Predictor<'a> {
 
     /// The windows of a horizon with what noise acts on.
     fn restarts(&self, horizon: f64) -> Vec<Restart> {
-        let restart = |(from, to): (usize, usize)| {
+        let windows = self.windows(horizon);
+        let restart = |(&(from, to), [first, last]): (&(usize, usize), [Vec<f64>; 2])| {
             let smoothing = self.record.smoothing(from);
             Restart {
                 to,
                 clean: self.record.columns.iter().map(|c| smooth::value(c, &smoothing)).collect(),
                 smoothing,
-                displacement: displacement(&self.outputs(from, to)),
+                displacement: [last[0] - first[0], last[1] - first[1]],
                 course: (!self.record.has_heading).then(|| heading_at(&self.equations, self.record, from)),
             }
         };
-        self.windows(horizon).into_iter().map(restart).collect()
+        windows.iter().zip(self.ends(&windows)).map(restart).collect()
     }
 }
 
@@ -192,13 +218,6 @@ impl Restart {
         let end = |c: usize| noisy[c][self.to] - record.columns[c][self.to];
         let error = [0, 1].map(|c| shift(c) + turned[c] - end(c));
         errors.add(error, record.has_heading.then(|| turn - end(2)));
-    }
-}
-
-fn displacement(path: &[Vec<f64>]) -> [f64; 2] {
-    match (path.first(), path.last()) {
-        (Some(a), Some(b)) => [b[0] - a[0], b[1] - a[1]],
-        _ => [0.0; 2],
     }
 }
 

@@ -4,13 +4,16 @@ use super::angle::wrapped;
 use super::record::{Channel, Record};
 use super::smooth;
 use crate::model::Equations;
-use crate::motion::{Arc, Stepper, initial_hidden};
+use crate::motion::{LaneStepper, Stepper, initial_hidden};
 use nalgebra::DVector;
 
 /// What is looked at of the poses, s.
 const SOON: f64 = 3.0;
 /// With fewer rows nothing is said.
 const FEWEST: usize = 8;
+
+/// How many beginnings are tried side by side.
+const LANES: usize = 8;
 
 /// Rows soon after one, as what a model gives there is compared with them.
 pub(super) struct Rows<'a> {
@@ -55,20 +58,39 @@ impl<'a> Rows<'a> {
     /// What a model with such values that begins with a pose and hidden states misses of each row and column, in units
     /// of the noise.
     pub fn missed(&self, p: &[f64], begin: &[f64]) -> Option<DVector<f64>> {
-        let mut stepper = Stepper::new(self.equations, &self.record.signals, p);
-        let mut arc = Arc { z: begin.to_vec(), s: vec![] };
-        let channels = self.record.channels();
-        let mut found = Vec::with_capacity((self.last - self.first) * channels.len());
+        self.side_by_side([p], [begin]).pop()?
+    }
+
+    /// As [`Rows::missed`], of as many values and beginnings as there are.
+    pub fn all_missed(&self, tries: &[(&[f64], &[f64])]) -> Option<Vec<DVector<f64>>> {
+        let mut found = Vec::with_capacity(tries.len());
+        for some in tries.chunks(LANES) {
+            let at = |l: usize| some[l.min(some.len() - 1)];
+            let side_by_side =
+                self.side_by_side::<LANES>(std::array::from_fn(|l| at(l).0), std::array::from_fn(|l| at(l).1));
+            found.extend(side_by_side.into_iter().take(some.len()));
+        }
+        found.into_iter().collect()
+    }
+
+    fn side_by_side<const L: usize>(&self, p: [&[f64]; L], begin: [&[f64]; L]) -> Vec<Option<DVector<f64>>> {
+        let mut stepper = LaneStepper::new(self.equations, &self.record.signals, p);
+        let mut z: Vec<[f64; L]> = (0..self.equations.n()).map(|i| begin.map(|begin| begin[i])).collect();
+        let (time, channels) = (&self.record.time, self.record.channels());
+        let mut found = [(); L].map(|()| Vec::with_capacity((self.last - self.first) * channels.len()));
         for i in self.first..self.last {
-            stepper.advance(&mut arc, self.record.time[i], self.record.time[i + 1]);
-            let y = stepper.outputs(&arc.z);
+            stepper.advance(&mut z, &mut [], &[time[i]; L], &[time[i + 1]; L]);
+            let y = stepper.outputs(&z);
             for (c, channel) in channels.iter().enumerate() {
-                let off = y[self.record.output_of(c)] - self.record.columns[c][i + 1];
-                let off = if *channel == Channel::Position { off } else { wrapped(off) };
-                found.push(off / self.noise[c]);
+                for (found, y) in found.iter_mut().zip(y[self.record.output_of(c)]) {
+                    let off = y - self.record.columns[c][i + 1];
+                    let off = if *channel == Channel::Position { off } else { wrapped(off) };
+                    found.push(off / self.noise[c]);
+                }
             }
         }
-        found.iter().all(|x| x.is_finite()).then(|| DVector::from_vec(found))
+        let defined = |missed: Vec<f64>| missed.iter().all(|x| x.is_finite()).then(|| DVector::from_vec(missed));
+        found.into_iter().map(defined).collect()
     }
 }
 

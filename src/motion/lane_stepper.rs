@@ -80,7 +80,8 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
 
     /// Advances arcs from some times to others; where both are the same an arc stays as it is.
     pub fn advance(&mut self, z: &mut [[f64; L]], s: &mut [[f64; L]], from: &[f64; L], to: &[f64; L]) {
-        let isa = if s.is_empty() { Isa::default() } else { self.isa };
+        // One state alone fills no vector.
+        let isa = if L == 1 && s.is_empty() { Isa::default() } else { self.isa };
         isa.dispatch(Advance { stepper: self, z, s, from, to });
     }
 
@@ -162,6 +163,11 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
         if let Some(spans) = forgotten {
             self.isa.dispatch(Forget { stepper: self, z, s, spans });
         }
+    }
+
+    /// As [`LaneStepper::outputs_here`], a kernel of its own.
+    pub fn outputs(&mut self, z: &[[f64; L]]) -> &[[f64; L]] {
+        self.outputs_here(z)
     }
 
     /// What the sensor measures at some states, and the rows of its derivatives with respect to (visible z, p).

@@ -91,9 +91,12 @@ fn fitted(rows: &Rows, carried: &[f64], pose: &[f64], spread: &[f64]) -> Option<
     let mut last: Option<(Cholesky<f64, nalgebra::Dyn>, DMatrix<f64>)> = None;
     for _ in 0..ROUNDS {
         let here = rows.missed(rows.p, &begin)?;
-        let jacobian = slopes(&begin, |i| free(i).min(1.0), &here, |tries| {
-            rows.all_missed(&tries.iter().map(|begin| (rows.p, &begin[..])).collect::<Vec<_>>())
-        })?;
+        let jacobian = slopes(
+            &begin,
+            |i| free(i).min(1.0),
+            &here,
+            |tries| rows.all_missed(&tries.iter().map(|begin| (rows.p, &begin[..])).collect::<Vec<_>>()),
+        )?;
         let mut information = jacobian.tr_mul(&jacobian);
         (0..begin.len()).for_each(|i| information[(i, i)] += prior[i]);
         let away = DVector::from_fn(begin.len(), |i, _| prior[i] * (begin[i] - before[i]));
@@ -112,9 +115,12 @@ fn fitted(rows: &Rows, carried: &[f64], pose: &[f64], spread: &[f64]) -> Option<
     let share = DMatrix::from_fn(h, h, |i, j| covariance[(m + i, m + j)] * prior[m + j]);
     // Where the sum is least its slope is zero whatever the values: they move the states by −(JᵀJ + P)⁻¹·Jᵀ·∂r/∂p.
     let here = rows.missed(rows.p, &begin)?;
-    let by_values = slopes(rows.p, |j| rows.p[j].abs().max(SMALL), &here, |tries| {
-        rows.all_missed(&tries.iter().map(|p| (&p[..], &begin[..])).collect::<Vec<_>>())
-    })?;
+    let by_values = slopes(
+        rows.p,
+        |j| rows.p[j].abs().max(SMALL),
+        &here,
+        |tries| rows.all_missed(&tries.iter().map(|p| (&p[..], &begin[..])).collect::<Vec<_>>()),
+    )?;
     let moved = -factors.solve(&jacobian.tr_mul(&by_values));
     let by_values = moved.rows(m, h).into_owned();
     begin.iter().all(|z| z.is_finite()).then(|| Shown { z: begin.split_off(m), share, by_values })

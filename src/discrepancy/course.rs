@@ -234,7 +234,21 @@ impl Placed {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::discrepancy::fixtures::{equations, logged};
     use std::f64::consts::TAU;
+
+    /// Points twenty times their noise from their mean tell a heading.
+    #[test]
+    fn a_path_longer_than_its_noise_is_told() {
+        let (equations, p) = equations(&[]);
+        let time = (0..200).map(|i| 0.1 * f64::from(i)).collect();
+        let record = logged((&equations, &p), time, [&|_| 2.0, &|_| 0.3], &[0.0; 3], 1e-3);
+        let noise = record.position_noise();
+        assert!(noise > 1e-4 && noise < 1e-2, "{noise}");
+        for (reach, is_told) in [(20.1, true), (19.9, false), (0.0, false), (1e3, true)] {
+            assert_eq!(Course { reach: reach * noise, ..Course::default() }.is_told(&record), is_told, "{reach}");
+        }
+    }
 
     /// Full turns apart is no disagreement; more than half a radian is, and the neighbour's heading, turned, stands.
     #[test]

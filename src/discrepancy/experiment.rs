@@ -266,6 +266,71 @@ impl<'a> Thought<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::discrepancy::fixtures::{KNOWN, applied, fit_of, logged, unicycle};
+
+    /// A value with a sign goes to a fifth or to five times itself at most, another as far as the step leads.
+    #[test]
+    fn a_positive_value_stays_positive() {
+        let known = Known::of(&fit_of(unicycle(&KNOWN)));
+        assert_eq!(known.p.as_slice(), [0.3, 0.1, 0.8, -0.05]);
+        for (step, goes) in [
+            (0.05, [0.05, 0.05, 0.05, 0.05]),
+            (-0.05, [-0.05, -0.05, -0.05, -0.05]),
+            (2.0, [1.2, 2.0, 2.0, 2.0]),
+            (10.0, [1.2, 10.0, 3.2, 10.0]),
+            (-0.5, [-0.24, -0.5, -0.5, -0.5]),
+            (-10.0, [-0.24, -10.0, -0.64, -10.0]),
+        ] {
+            let held = known.held(&known.p, &DVector::from_element(4, step));
+            held.iter().zip(goes).for_each(|(a, b)| assert!((a - b).abs() < 1e-12, "{step}: {held}"));
+        }
+    }
+
+    #[test]
+    fn a_worth_is_near_the_most_on_either_side_of_nothing() {
+        for (worth, most, is_near) in
+            [(9.01, 10.0, true), (8.99, 10.0, false), (-10.99, -10.0, true), (-11.01, -10.0, false), (0.0, 0.0, true)]
+        {
+            assert_eq!(nearly(worth, most), is_near, "{worth} {most}");
+        }
+    }
+
+    /// Of a creep that is known to be 1 % less than it is, with an information I, and that a manoeuvre would show to be what
+    /// it is with an information G, there remain G·I/(G + I) times the square of the difference.
+    #[test]
+    fn what_is_known_and_what_a_manoeuvre_shows_share_the_misfit() {
+        let known = |e: f64, information: f64| {
+            let model = unicycle(&[("traverse-creep", &[e])]);
+            Known { information: DMatrix::from_element(1, 1, information), ..Known::of(&fit_of(model)) }
+        };
+        let fixed = |e: f64| {
+            let creep = Applied { values: vec![e], ..applied("traverse-creep") };
+            Known::of(&fit_of(unicycle(&[]).with_effect(creep)))
+        };
+        let truth = known(-0.05, 1.0);
+        let equations = truth.model.free_equations().unwrap();
+        let time = (0..600).map(|i| 0.05 * f64::from(i)).collect();
+        let inputs: [&dyn Fn(f64) -> f64; 2] = [&|t| 2.0 + (0.7 * t).sin(), &|t| 0.6 * (0.4 * t).cos()];
+        let records = [logged((&equations, &[-0.05]), time, inputs, &[0.0; 3], 1e-3)];
+        let thought = Thought {
+            envelope: Envelope::of(&truth.model, &records).unwrap(),
+            like: &records[0],
+            variances: Variances { noise: [1e-6; 3], jump: [1e-9; 4] },
+            sample_size: 1000.0,
+        };
+        let m = library(&thought.envelope).next().unwrap();
+        let of = |other: &Known| thought.misfit(m, &truth, other).unwrap();
+        // A model without the creep as a free value is charged a parameter less.
+        let whole = of(&fixed(-0.04)) + 1000.0_f64.ln();
+        assert!(whole > 30.0 && (of(&fixed(-0.05)) + 1000.0_f64.ln()).abs() < 1e-3, "{whole}");
+        // What has the truth for its own lacks nothing, and is charged the same.
+        assert!(of(&known(-0.05, 1.0)).abs() < 1e-3);
+        let g = whole / 1e-4;
+        for (information, share) in [(1e-6 * g, 0.0), (g / 3.0, 0.25), (g, 0.5), (3.0 * g, 0.75), (1e6 * g, 1.0)] {
+            let left = of(&known(-0.04, information)) / whole;
+            assert!((left - share).abs() < 0.01, "{information}: {left}");
+        }
+    }
 
     /// What is worth the evidence in one minute is driven once, what needs a few as often as that; below there is none.
     #[test]

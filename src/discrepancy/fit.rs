@@ -311,7 +311,28 @@ fn moved(starts: &Starts, by: &[Vec<DVector<f64>>], share: f64) -> Starts {
 
 #[cfg(test)]
 mod tests {
+    use super::super::whiteness::Blocks;
     use super::*;
+
+    /// Two windows, the second one with three trailers and no jump behind it.
+    #[test]
+    fn a_misfit_counts_noise_and_jumps_in_their_variances() {
+        let window = |squares: [f64; 3], duration: f64, mismatch: &[f64]| Linear {
+            gram: squares.map(|square| DMatrix::from_element(1, 1, square)),
+            count: [1; 3],
+            blocks: [Blocks::default(); 3],
+            back: None,
+            axes: DMatrix::zeros(0, 0),
+            duration,
+            mismatch: mismatch.to_vec(),
+        };
+        let v = Variances { noise: [2.0, 4.0, 8.0], jump: [1.0, 2.0, 4.0, 8.0] };
+        let first = window([2.0, 8.0, 24.0], 0.5, &[1.0, 2.0, 4.0, 8.0, 16.0]);
+        // 1 + 2 + 3, and 2 + 4 + 8 + 16 + 64.
+        assert_eq!(misfit(&[vec![first.clone()]], &v), 6.0 + 94.0);
+        let second = window([20.0, 0.0, 0.0], 3.0, &[]);
+        assert_eq!(misfit(&[vec![first.clone(), second.clone()], vec![second]], &v), 100.0 + 20.0);
+    }
 
     #[test]
     fn what_jumps_counts_once_a_window() {

@@ -241,3 +241,30 @@ fn hidden_along(equations: &Equations, record: &Record) -> Vec<Vec<f64>> {
     }
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::fixtures::{KNOWN, equations, logged, unicycle};
+
+    /// Windows side by side, more than there are lanes and of different lengths, end where each ends alone.
+    #[test]
+    fn windows_side_by_side_end_as_alone() {
+        let (equations, p) = equations(&KNOWN);
+        // Of the first half every fifth row is missing.
+        let time = (0..600).filter(|i| *i > 300 || i % 5 != 3).map(|i| 0.05 * f64::from(i)).collect();
+        let inputs: [&dyn Fn(f64) -> f64; 2] = [&|t| 2.0 + (0.7 * t).sin(), &|t| 0.6 * (0.4 * t).cos()];
+        let record = logged((&equations, &p), time, inputs, &vec![0.0; equations.n()], 1e-3);
+        let predictor = Predictor::new(&unicycle(&KNOWN), &record).unwrap();
+        for horizon in [0.33, 2.0, 12.0] {
+            let windows = predictor.windows(horizon);
+            let mut lengths: Vec<usize> = windows.iter().map(|(from, to)| to - from).collect();
+            lengths.dedup();
+            assert!(windows.len() > 1 && (lengths.len() > 1 || horizon > 1.0), "{lengths:?}");
+            for ((from, to), [first, last]) in windows.iter().zip(predictor.ends(&windows)) {
+                let alone = predictor.outputs(*from, *to);
+                assert_eq!((&alone[0], &alone[to - from]), (&first, &last));
+            }
+        }
+    }
+}

@@ -145,6 +145,23 @@ mod tests {
         assert!((Rows::of(&equations, &p, &record, 0).unwrap().sizes()[0] - 0.2).abs() < 1e-9);
     }
 
+    /// More tries than there are lanes, of values and of beginnings.
+    #[test]
+    fn tries_side_by_side_are_those_alone() {
+        let (equations, p) = equations(&SLIDES);
+        let begin = [0.3, -0.2, 3.0, 0.05];
+        let record = logged((&equations, &p), sixteenths(60), [&faster, &|_| 0.3], &begin, 1e-3);
+        let rows = Rows::of(&equations, &p, &record, 4).unwrap();
+        let at = |i: u32, values: &[f64]| values.iter().map(|v| v + 0.01 * f64::from(i)).collect::<Vec<f64>>();
+        let tries: Vec<[Vec<f64>; 2]> = (0..11).map(|i| [at(i, &p), at(11 - i, &begin)]).collect();
+        let together = rows.all_missed(&tries.iter().map(|[p, z]| (&p[..], &z[..])).collect::<Vec<_>>()).unwrap();
+        let alone: Vec<_> = tries.iter().map(|[p, begin]| rows.missed(p, begin).unwrap()).collect();
+        assert_eq!(together, alone);
+        assert!(alone.windows(2).all(|w| w[0] != w[1]));
+        // What is undefined for one is so for all.
+        assert!(rows.all_missed(&[(&p, &begin), (&[f64::NAN; 2], &begin)]).is_none());
+    }
+
     #[test]
     fn what_is_missed_is_told_in_units_of_the_noise() {
         let (equations, p) = equations(&SLIDES);

@@ -157,3 +157,60 @@ fn least_shared(fit: &Fit, scatter: &Scatter) -> Option<Applied> {
     let unshared = ranked.filter(|(_, shows, _)| *shows < 1.0);
     unshared.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))).map(|(_, _, e)| e.clone())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::fixtures::{KNOWN, equations, fit_of, logged, unicycle};
+
+    /// By Student's distribution of two and of four degrees of freedom: 4.3027 and 2.7764 for one value, 6.2053 and 3.4954
+    /// for the half of it that each of two has.
+    #[test]
+    fn what_stands_out_does_so_by_student() {
+        let fit = fit_of(unicycle(&KNOWN));
+        let [_, relaxing, creep] = &fit.model.effects[..] else { panic!() };
+        for (parts, one) in [(3, 4.302_653), (5, 2.776_445)] {
+            let scatter = Scatter { std: vec![1.0, 0.02, 0.1, 0.01], parts };
+            let shows = scatter.shows(&fit, creep);
+            assert!((shows - 5.0 / one).abs() < 1e-4, "{parts}: {shows}");
+            // A length is not neutral at zero; the creep that it builds up is.
+            let shows = scatter.shows(&fit, relaxing);
+            assert!((shows - 5.0 / one).abs() < 1e-4, "{parts}: {shows}");
+        }
+    }
+
+    /// The one that stands out least of those that do not.
+    #[test]
+    fn what_is_least_shared_goes_first() {
+        let fit = fit_of(unicycle(&[("traction-creep", &[0.3]), ("traverse-creep", &[-0.05])]));
+        let gone =
+            |std: [f64; 2]| least_shared(&fit, &Scatter { std: std.to_vec(), parts: 3 }).map(|e| e.effect.id.clone());
+        assert_eq!(gone([0.3 / 4.31, 0.05 / 4.31]), None);
+        assert_eq!(gone([0.3 / 4.29, 0.05 / 4.31]).as_deref(), Some("traction-creep"));
+        assert_eq!(gone([0.3 / 4.31, 0.05 / 4.29]).as_deref(), Some("traverse-creep"));
+        assert_eq!(gone([0.3, 0.05 / 2.0]).as_deref(), Some("traction-creep"));
+        assert_eq!(gone([0.3 / 2.0, 0.05]).as_deref(), Some("traverse-creep"));
+    }
+
+    /// Of fewer than three runs the thirds, of more the runs, of many every fifth.
+    #[test]
+    fn parts_are_without_a_piece_each() {
+        let (equations, p) = equations(&[]);
+        let run = || {
+            let time = (0..300).map(|i| 0.1 * f64::from(i)).collect();
+            logged((&equations, &p), time, [&|_| 2.0, &|_| 0.3], &[0.0; 3], 1e-3)
+        };
+        let kept = |runs: usize| {
+            let problem = Problem::new(vec![run(); runs], None, None);
+            parts(&problem).iter().map(|part| part.records.len()).collect::<Vec<_>>()
+        };
+        assert_eq!(kept(1), [2; 3]);
+        assert_eq!(kept(2), [4; 3]);
+        assert_eq!(kept(3), [2; 3]);
+        assert_eq!(kept(5), [4; 5]);
+        assert_eq!(kept(7), [5, 5, 6, 6, 6]);
+        let problem = Problem::new(vec![run()], None, None);
+        let rows = |part: &Problem| part.records.iter().map(|r| r.rows.len()).collect::<Vec<_>>();
+        assert_eq!(parts(&problem).iter().map(rows).collect::<Vec<_>>(), [[100, 100]; 3]);
+    }
+}

@@ -50,8 +50,8 @@ fn every_stated_status_is_earned_and_every_sabotage_noticed() {
 
 #[test]
 fn the_ledger_is_the_same_for_any_number_of_threads() {
-    // Every third claim: the others are told apart in the same way.
-    let some: Vec<Claim> = claims::all().into_iter().filter(|c| !c.id.starts_with("growth")).step_by(3).collect();
+    // Every fifth claim: the others are told apart in the same way.
+    let some: Vec<Claim> = claims::all().into_iter().filter(|c| !c.id.starts_with("growth")).step_by(5).collect();
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| ledger::text(&verify(&some, &Options { cases: 12, seed: 7 }, &|_| ())))
@@ -61,7 +61,7 @@ fn the_ledger_is_the_same_for_any_number_of_threads() {
 
 #[test]
 fn a_seed_changes_the_cases_and_not_the_ledger() {
-    let one: Vec<Claim> = claims::all().into_iter().filter(|c| c.id == "realisation").collect();
+    let one: Vec<Claim> = claims::all().into_iter().filter(|c| c.id == "energy-rule").collect();
     let of = |seed| verify(&one, &Options { cases: 12, seed }, &|_| ());
     assert!(of(1).all_earned() && of(2).all_earned());
     // A check that tells the seed it was given shows that the seed arrives.

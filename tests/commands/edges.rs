@@ -62,7 +62,6 @@ fn numbers_at_the_edge_are_used_or_refused() {
         ("a wheel rate of 1e-300", log(0.1, 1e-300, 0.1, 0.1)),
         ("subnormal inputs", log(0.1, 5e-324, 5e-324, 5e-324)),
         ("a yaw rate of 1e300", log(0.1, 1.0, 1e300, 0.1)),
-        ("a yaw rate of 1e9", log(0.1, 1.0, 1e9, 0.1)),
         ("positions of 1e300", log(0.1, 1.0, 0.1, 1e300)),
         ("positions of 1e-300", log(0.1, 1.0, 0.1, 1e-300)),
     ];
@@ -84,6 +83,8 @@ fn a_motion_that_cannot_be_followed_ends() {
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.code() == Some(1) && message.contains("1004000 steps were not enough"), "{message}");
     assert!(!dir.path().join("path.csv").exists());
+    let found = creepage(dir.path(), &["discover", "run.csv", "--model", "model.toml", "--out", "report"]);
+    assert_eq!(found.status.code(), Some(0), "{found:?}");
 }
 
 /// A train of a thousand trailers is driven; writing out its matrix would take hours, and is refused.

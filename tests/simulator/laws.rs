@@ -2,10 +2,7 @@
 
 use super::hidden::Hidden;
 
-/// The longest integration step, s: what a driver does takes seconds.
-const STEP: f64 = 0.02;
-
-/// The same where a slip settles within a length that takes a tenth of a second.
+/// The longest integration step, s, where a slip settles within a length that takes a tenth of a second.
 const SHORT_STEP: f64 = 0.005;
 
 /// Every hidden law as numbers, neutral where nothing is hidden.
@@ -139,12 +136,12 @@ impl Laws {
         (one(self.radius.0 * left, self.e_rc.0), one(self.radius.1 * right, self.e_rc.1))
     }
 
-    /// The longest integration step, s, for what slips: an eighth of the time in which it settles, so that the scheme
-    /// converges; a length is one of a tenth of a second and less.
-    pub fn longest_step(&self) -> f64 {
+    /// The longest integration step, s, where a usual one is enough for what the driver does: an eighth of the time in
+    /// which a slip settles, so that the scheme converges; a length is one of a tenth of a second and less.
+    pub fn longest_step(&self, usual: f64) -> f64 {
         let in_time = [self.traction, self.cornering].into_iter().flatten().map(|time| time / 8.0);
         let in_length = self.relaxation.map(|_| SHORT_STEP);
-        in_time.chain(in_length).fold(STEP, f64::min)
+        in_time.chain(in_length).fold(usual, f64::min)
     }
 
     /// The true steering angle (rad) for the logged one.

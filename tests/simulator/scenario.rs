@@ -62,6 +62,8 @@ pub struct Scenario {
     pub wrap_heading: bool,
     /// How long before t = 0 the drive began, s; slips settle and trailers swing in meanwhile.
     pub lead_in: f64,
+    /// The longest integration step, s: what a driver does takes seconds.
+    pub step: f64,
     /// Articulation of each trailer when the drive began: heading ahead minus its own, rad.
     pub articulation: Vec<f64>,
     /// Of jitter, lost rows and noise; the profile is already drawn.
@@ -93,6 +95,7 @@ impl Scenario {
             jitter: 0.0,
             wrap_heading: false,
             lead_in: 20.0,
+            step: 0.02,
             articulation: vec![0.0; vehicle.trailers()],
             vehicle,
             seed,
@@ -189,7 +192,7 @@ impl Scenario {
                 behind
             })
             .collect();
-        let step = body.laws.longest_step();
+        let step = body.laws.longest_step(self.step);
         let began = body.at_rest_in(-self.lead_in, self.start, &headings);
         let arrived = advance(&rates, began, -self.lead_in, 0.0, step);
         let mut state = body.moved_to(&arrived, self.start);

@@ -200,3 +200,39 @@ fn span(time: &[f64]) -> f64 {
 fn file_name(path: &std::path::Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A clock whose fit misses so much a value, of so many values that begin at a time and last 100 s.
+    fn clock(offset: f64, misfit: f64, rows: f64, from: f64, dependence: f64) -> Fitted {
+        let clock = Clock { offset, drift: 0.0, at: 0.0 };
+        let covers = [from, from + 100.0];
+        Fitted { clock, offset_std: None, drift_std: None, misfit, rows, covers, dependence }
+    }
+
+    /// Beyond doubt are 40, and five deviations of what the values make that only one of both has.
+    #[test]
+    fn a_rival_is_told_by_its_deviance_and_what_both_have() {
+        // Rows of the rival, how much later it begins, how many rows are alike; the misfits a value that do and do not tell.
+        for (rows, later, dependence, told, open) in [
+            (1000.0, 0.0, 1.0, 0.0401, 0.0399),
+            (1000.0, 0.0, 4.0, 0.1604, 0.1596),
+            (1000.0, 20.0, 1.0, 0.1815, 0.1813),
+            (1500.0, 20.0, 1.0, 0.1982, 0.1980),
+            (1500.0, 20.0, 4.0, 0.4765, 0.4760),
+        ] {
+            for (more, is_told) in [(told, true), (open, false)] {
+                let good = clock(1.0, 1.0, 1000.0, 0.0, dependence);
+                let bad = clock(7.0, 1.0 + more, rows, later, dependence);
+                for (first, rival) in [(good, bad), (bad, good)] {
+                    let (best, other) = settled(first, Some(rival));
+                    assert_eq!((best.clock.offset, other), (1.0, (!is_told).then_some(7.0)), "{rows} {later} {more}");
+                }
+            }
+        }
+        let (alone, other) = settled(clock(3.0, 9.0, 10.0, 0.0, 1.0), None);
+        assert_eq!((alone.clock.offset, other), (3.0, None));
+    }
+}

@@ -1,7 +1,7 @@
 //! The integrator alone.
 
 use super::near;
-use crate::simulator::advance;
+use crate::simulator::{Scenario, Tractor, Vehicle, advance};
 
 #[test]
 fn gauss_is_of_order_six_on_a_problem_with_explicit_time() {
@@ -22,4 +22,19 @@ fn gauss_undoes_itself_backwards() {
     let back = advance(&rates, there, 5.0, 0.0, 0.25);
     near(back[0], 1.0, 1e-13);
     near(back[1], 0.2, 1e-13);
+}
+
+/// What a coarse step is used for needs no more.
+#[test]
+fn a_coarse_step_is_off_by_less_than_a_ten_millionth() {
+    let train = |tractor| Vehicle::NTrailer { tractor, lengths: vec![1.2, 0.9], hitch_offsets: vec![0.2, 0.0] };
+    for seed in 0..4 {
+        for tractor in [Tractor::Unicycle, Tractor::DifferentialDrive, Tractor::Car] {
+            let fine = Scenario { lead_in: 6.0, ..Scenario::new(train(tractor), seed) };
+            let coarse = Scenario { step: 0.05, ..fine.clone() };
+            for (a, b) in fine.run().rows.iter().flatten().zip(coarse.run().rows.iter().flatten()) {
+                near(*a, *b, 1e-7);
+            }
+        }
+    }
 }

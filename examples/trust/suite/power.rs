@@ -17,7 +17,7 @@ pub const VISIBLE: f64 = 200.0;
 pub const APART: f64 = 40.0;
 /// Rows per second that are enough for smooth motion, Hz; each counts for several of the log.
 const THINNED: f64 = 4.0;
-/// Steps of the integration that are short enough for how a log changes, s: of order six, they are off by less than 10⁻⁷.
+/// Steps of the integration that are short enough for how a log changes, s: of order six, they are off by less than 10⁻¹⁰.
 const COARSE: f64 = 0.05;
 /// Share of a run that is fitted.
 const FITTED: f64 = 0.75;

@@ -28,7 +28,7 @@ fn refused(folder: &Path, line: &str) -> String {
 #[test]
 fn quiet_holds_back_words_and_no_json() {
     let folder = tempfile::tempdir().unwrap();
-    // Ten seconds are enough to say something of.
+    // Twenty seconds are enough to say something of.
     let log = std::fs::read_to_string(format!("{RUNS}/cornering/eights.csv")).unwrap();
     let first: Vec<&str> = log.lines().take(500).collect();
     std::fs::write(folder.path().join("eights.csv"), first.join("\n")).unwrap();

@@ -106,14 +106,8 @@ impl Along<'_> {
         windows: [usize; L],
         starts: [&Arc; L],
     ) -> [Arc; L] {
-        let time = &self.record.time;
         let mut arcs = started(carried.visible, stepper.columns(), |l| &self.starts[windows[l]], |l| starts[l]);
-        let rows = windows.map(|k| self.windows[k].clone());
-        for r in 0..rows.iter().map(Range::len).max().unwrap_or(0) {
-            let from = rows.each_ref().map(|rows| time[(rows.start + r).min(rows.end)]);
-            let to = rows.each_ref().map(|rows| time[(rows.start + r + 1).min(rows.end)]);
-            stepper.advance(&mut arcs.z, &mut arcs.s, &from, &to);
-        }
+        stepper.through(&mut arcs, &self.record.time, &windows.map(|k| self.windows[k].clone()));
         std::array::from_fn(|l| arcs.one(l).hidden(carried.visible))
     }
 

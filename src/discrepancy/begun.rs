@@ -95,7 +95,7 @@ fn fitted(rows: &Rows, carried: &[f64], pose: &[f64], spread: &[f64]) -> Option<
             &begin,
             |i| free(i).min(1.0),
             &here,
-            |tries| rows.all_missed(&tries.iter().map(|begin| (rows.p, &begin[..])).collect::<Vec<_>>()),
+            |tries| rows.all_missed(tries.iter().map(|begin| (rows.p, &begin[..]))),
         )?;
         let mut information = jacobian.tr_mul(&jacobian);
         (0..begin.len()).for_each(|i| information[(i, i)] += prior[i]);
@@ -119,7 +119,7 @@ fn fitted(rows: &Rows, carried: &[f64], pose: &[f64], spread: &[f64]) -> Option<
         rows.p,
         |j| rows.p[j].abs().max(SMALL),
         &here,
-        |tries| rows.all_missed(&tries.iter().map(|p| (&p[..], &begin[..])).collect::<Vec<_>>()),
+        |tries| rows.all_missed(tries.iter().map(|p| (&p[..], &begin[..]))),
     )?;
     let moved = -factors.solve(&jacobian.tr_mul(&by_values));
     let by_values = moved.rows(m, h).into_owned();
@@ -147,7 +147,7 @@ fn slopes(
 mod tests {
     use super::*;
     use crate::discrepancy::carry;
-    use crate::discrepancy::fixtures::{equations, logged};
+    use crate::discrepancy::fixtures::{WEAVING, equations, logged};
     use crate::motion::Timing;
 
     /// A vehicle that slides already when its log begins, and nearly forgets within it; its speed lags, if told.
@@ -156,8 +156,7 @@ mod tests {
     fn record(equations: &Equations, p: &[f64], noise: f64) -> Record {
         let time = (0..80).map(|i| 0.05 * f64::from(i)).collect();
         let begin = [0.0, 0.0, 0.2, -0.15, 0.6];
-        let inputs: [&dyn Fn(f64) -> f64; 2] = [&|t| 2.0 + (0.7 * t).sin(), &|t| 0.6 * (0.4 * t).cos()];
-        logged((equations, p), time, inputs, &begin[..equations.n()], noise)
+        logged((equations, p), time, WEAVING, &begin[..equations.n()], noise)
     }
 
     /// What a number does to the hidden states that `at` finds.

@@ -266,7 +266,7 @@ impl<'a> Thought<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::discrepancy::fixtures::{KNOWN, applied, fit_of, logged, unicycle};
+    use crate::discrepancy::fixtures::{KNOWN, WEAVING, applied, fit_of, logged, unicycle};
 
     /// A value with a sign goes to a fifth or to five times itself at most, another as far as the step leads.
     #[test]
@@ -295,7 +295,7 @@ mod tests {
         }
     }
 
-    /// Of a creep that is known to be 1 % less than it is, with an information I, and that a manoeuvre would show to be what
+    /// Of a creep that is known to be a hundredth less than it is, with an information I, and that a manoeuvre would show to be what
     /// it is with an information G, there remain G·I/(G + I) times the square of the difference.
     #[test]
     fn what_is_known_and_what_a_manoeuvre_shows_share_the_misfit() {
@@ -310,8 +310,7 @@ mod tests {
         let truth = known(-0.05, 1.0);
         let equations = truth.model.free_equations().unwrap();
         let time = (0..600).map(|i| 0.05 * f64::from(i)).collect();
-        let inputs: [&dyn Fn(f64) -> f64; 2] = [&|t| 2.0 + (0.7 * t).sin(), &|t| 0.6 * (0.4 * t).cos()];
-        let records = [logged((&equations, &[-0.05]), time, inputs, &[0.0; 3], 1e-3)];
+        let records = [logged((&equations, &[-0.05]), time, WEAVING, &[0.0; 3], 1e-3)];
         let thought = Thought {
             envelope: Envelope::of(&truth.model, &records).unwrap(),
             like: &records[0],

@@ -311,10 +311,10 @@ fn moved(starts: &Starts, by: &[Vec<DVector<f64>>], share: f64) -> Starts {
 
 #[cfg(test)]
 mod tests {
-    use super::super::whiteness::Blocks;
     use super::*;
+    use crate::discrepancy::whiteness::Blocks;
 
-    /// Two windows, the second one with three trailers and no jump behind it.
+    /// A window with two trailers, and others without a jump behind them.
     #[test]
     fn a_misfit_counts_noise_and_jumps_in_their_variances() {
         let window = |squares: [f64; 3], duration: f64, mismatch: &[f64]| Linear {

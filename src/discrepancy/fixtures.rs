@@ -13,6 +13,9 @@ use nalgebra::DMatrix;
 pub const KNOWN: [(&str, &[f64]); 3] =
     [("traction-creep", &[0.3]), ("relaxation-length", &[0.1, 0.8]), ("traverse-creep", &[-0.05])];
 
+/// The rates, of the wheel and of the yaw, of a drive that weaves, faster and slower.
+pub const WEAVING: [&dyn Fn(f64) -> f64; 2] = [&|t| 2.0 + (0.7 * t).sin(), &|t| 0.6 * (0.4 * t).cos()];
+
 /// The file of a unicycle, and what else it says.
 pub fn unicycle_file(more: &str) -> ModelFile {
     let text = format!("vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 1.0\n{more}");

@@ -10,9 +10,10 @@ use super::smooth;
 use super::windows::MARGIN;
 use crate::error::Result;
 use crate::model::{Equations, Model};
-use crate::motion::{Arc, LaneStepper, Stepper};
+use crate::motion::{Arc, Arcs, LaneStepper, Stepper};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
+use std::ops::Range;
 
 /// How many windows are followed side by side.
 const LANES: usize = 8;
@@ -113,19 +114,16 @@ impl<'a> Predictor<'a> {
 
     /// As [`Predictor::ends`], of so many windows as there are lanes, or fewer: the last one fills the rest.
     fn side_by_side(&self, windows: &[(usize, usize)]) -> Vec<[Vec<f64>; 2]> {
-        let of: [(usize, usize); LANES] = std::array::from_fn(|l| windows[l.min(windows.len() - 1)]);
-        let starts = of.map(|(from, _)| self.start(from));
-        let mut z: Vec<[f64; LANES]> = (0..self.equations.n()).map(|i| starts.each_ref().map(|z| z[i])).collect();
+        let rows: [Range<usize>; LANES] = std::array::from_fn(|l| windows[l.min(windows.len() - 1)]).map(|(i, k)| i..k);
+        let starts = rows.each_ref().map(|rows| self.start(rows.start));
+        let mut arcs = Arcs::of(starts.each_ref().map(|z| &z[..]));
         let mut stepper = LaneStepper::new(&self.equations, &self.record.signals, [&[]; LANES]);
         let visible = self.equations.visible;
         let measured = |y: &[[f64; LANES]], l: usize| y[..visible].iter().map(|y| y[l]).collect::<Vec<f64>>();
-        let y = stepper.outputs(&z);
+        let y = stepper.outputs_here(&arcs.z);
         let first: Vec<Vec<f64>> = (0..windows.len()).map(|l| measured(y, l)).collect();
-        for r in 0..of.iter().map(|(from, to)| to - from).max().unwrap_or(0) {
-            let at = |r: usize| of.map(|(from, to)| self.record.time[(from + r).min(to)]);
-            stepper.advance(&mut z, &mut [], &at(r), &at(r + 1));
-        }
-        let y = stepper.outputs(&z);
+        stepper.through(&mut arcs, &self.record.time, &rows);
+        let y = stepper.outputs_here(&arcs.z);
         first.into_iter().enumerate().map(|(l, first)| [first, measured(y, l)]).collect()
     }
 
@@ -245,7 +243,7 @@ fn hidden_along(equations: &Equations, record: &Record) -> Vec<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::discrepancy::fixtures::{KNOWN, equations, logged, unicycle};
+    use crate::discrepancy::fixtures::{KNOWN, WEAVING, equations, logged, unicycle};
 
     /// Windows side by side, more than there are lanes and of different lengths, end where each ends alone.
     #[test]
@@ -253,8 +251,7 @@ mod tests {
         let (equations, p) = equations(&KNOWN);
         // Of the first half every fifth row is missing.
         let time = (0..600).filter(|i| *i > 300 || i % 5 != 3).map(|i| 0.05 * f64::from(i)).collect();
-        let inputs: [&dyn Fn(f64) -> f64; 2] = [&|t| 2.0 + (0.7 * t).sin(), &|t| 0.6 * (0.4 * t).cos()];
-        let record = logged((&equations, &p), time, inputs, &vec![0.0; equations.n()], 1e-3);
+        let record = logged((&equations, &p), time, WEAVING, &vec![0.0; equations.n()], 1e-3);
         let predictor = Predictor::new(&unicycle(&KNOWN), &record).unwrap();
         for horizon in [0.33, 2.0, 12.0] {
             let windows = predictor.windows(horizon);

@@ -4,7 +4,7 @@ use super::angle::wrapped;
 use super::record::{Channel, Record};
 use super::smooth;
 use crate::model::Equations;
-use crate::motion::{LaneStepper, Stepper, initial_hidden};
+use crate::motion::{Arcs, LaneStepper, Stepper, initial_hidden};
 use nalgebra::DVector;
 
 /// What is looked at of the poses, s.
@@ -62,7 +62,8 @@ impl<'a> Rows<'a> {
     }
 
     /// As [`Rows::missed`], of as many values and beginnings as there are.
-    pub fn all_missed(&self, tries: &[(&[f64], &[f64])]) -> Option<Vec<DVector<f64>>> {
+    pub fn all_missed<'t>(&self, tries: impl Iterator<Item = (&'t [f64], &'t [f64])>) -> Option<Vec<DVector<f64>>> {
+        let tries: Vec<(&[f64], &[f64])> = tries.collect();
         let mut found = Vec::with_capacity(tries.len());
         for some in tries.chunks(LANES) {
             let at = |l: usize| some[l.min(some.len() - 1)];
@@ -75,12 +76,12 @@ impl<'a> Rows<'a> {
 
     fn side_by_side<const L: usize>(&self, p: [&[f64]; L], begin: [&[f64]; L]) -> Vec<Option<DVector<f64>>> {
         let mut stepper = LaneStepper::new(self.equations, &self.record.signals, p);
-        let mut z: Vec<[f64; L]> = (0..self.equations.n()).map(|i| begin.map(|begin| begin[i])).collect();
+        let Arcs { mut z, mut s } = Arcs::of(begin);
         let (time, channels) = (&self.record.time, self.record.channels());
         let mut found = [(); L].map(|()| Vec::with_capacity((self.last - self.first) * channels.len()));
         for i in self.first..self.last {
-            stepper.advance(&mut z, &mut [], &[time[i]; L], &[time[i + 1]; L]);
-            let y = stepper.outputs(&z);
+            stepper.advance(&mut z, &mut s, &[time[i]; L], &[time[i + 1]; L]);
+            let y = stepper.outputs_here(&z);
             for (c, channel) in channels.iter().enumerate() {
                 for (found, y) in found.iter_mut().zip(y[self.record.output_of(c)]) {
                     let off = y - self.record.columns[c][i + 1];
@@ -154,12 +155,12 @@ mod tests {
         let rows = Rows::of(&equations, &p, &record, 4).unwrap();
         let at = |i: u32, values: &[f64]| values.iter().map(|v| v + 0.01 * f64::from(i)).collect::<Vec<f64>>();
         let tries: Vec<[Vec<f64>; 2]> = (0..11).map(|i| [at(i, &p), at(11 - i, &begin)]).collect();
-        let together = rows.all_missed(&tries.iter().map(|[p, z]| (&p[..], &z[..])).collect::<Vec<_>>()).unwrap();
+        let together = rows.all_missed(tries.iter().map(|[p, z]| (&p[..], &z[..]))).unwrap();
         let alone: Vec<_> = tries.iter().map(|[p, begin]| rows.missed(p, begin).unwrap()).collect();
         assert_eq!(together, alone);
         assert!(alone.windows(2).all(|w| w[0] != w[1]));
         // What is undefined for one is so for all.
-        assert!(rows.all_missed(&[(&p, &begin), (&[f64::NAN; 2], &begin)]).is_none());
+        assert!(rows.all_missed([&p[..], &[f64::NAN; 2]].map(|p| (p, &begin[..])).into_iter()).is_none());
     }
 
     #[test]

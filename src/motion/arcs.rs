@@ -18,6 +18,12 @@ impl<const L: usize> Arcs<L> {
         self.s.resize(s, [0.0; L]);
     }
 
+    /// Arcs that begin at some states, their sensitivities not wanted.
+    pub fn of(starts: [&[f64]; L]) -> Self {
+        let n = starts.iter().map(|z| z.len()).min().unwrap_or(0);
+        Self { z: (0..n).map(|i| starts.map(|z| z[i])).collect(), s: vec![] }
+    }
+
     /// One of the arcs.
     pub fn one(&self, l: usize) -> Arc {
         let lane = |values: &[[f64; L]]| values.iter().map(|v| v[l]).collect();

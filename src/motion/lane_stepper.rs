@@ -6,6 +6,7 @@ use super::forgetting::{Forgetting, Spans};
 use super::lane_motion::Motion;
 use crate::formula::{Isa, Kernel};
 use crate::model::Equations;
+use std::ops::Range;
 
 /// Largest angle the vehicle may turn within one step, rad.
 const TURN_PER_STEP: f64 = 0.1;
@@ -83,6 +84,14 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
         // One state alone fills no vector.
         let isa = if L == 1 && s.is_empty() { Isa::default() } else { self.isa };
         isa.dispatch(Advance { stepper: self, z, s, from, to });
+    }
+
+    /// Advances arcs through rows of a log, each from its first row to the one behind its last.
+    pub fn through(&mut self, arcs: &mut Arcs<L>, time: &[f64], rows: &[Range<usize>; L]) {
+        for r in 0..rows.iter().map(Range::len).max().unwrap_or(0) {
+            let at = |r: usize| rows.each_ref().map(|rows| time[(rows.start + r).min(rows.end)]);
+            self.advance(&mut arcs.z, &mut arcs.s, &at(r), &at(r + 1));
+        }
     }
 
     /// As [`LaneStepper::advance`], inlined into a kernel of the caller.
@@ -163,11 +172,6 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
         if let Some(spans) = forgotten {
             self.isa.dispatch(Forget { stepper: self, z, s, spans });
         }
-    }
-
-    /// As [`LaneStepper::outputs_here`], a kernel of its own.
-    pub fn outputs(&mut self, z: &[[f64; L]]) -> &[[f64; L]] {
-        self.outputs_here(z)
     }
 
     /// What the sensor measures at some states, and the rows of its derivatives with respect to (visible z, p).

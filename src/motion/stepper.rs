@@ -81,6 +81,6 @@ impl<'a> Stepper<'a> {
 
     /// What the sensor measures at a state, and the rows of its derivatives with respect to (visible z, p).
     pub fn outputs(&mut self, z: &[f64]) -> &[f64] {
-        self.lanes.outputs(z.as_chunks().0).as_flattened()
+        self.lanes.outputs_here(z.as_chunks().0).as_flattened()
     }
 }

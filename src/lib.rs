@@ -44,17 +44,22 @@ pub mod describe;
 pub mod discrepancy;
 pub mod dynamics;
 pub mod effects;
+pub mod energy_rule;
+pub mod equivalence;
 pub mod error;
+pub mod extensions;
 pub mod figures;
 pub mod files;
 pub mod formula;
-pub mod library;
+pub mod number_format;
+pub mod provenance;
+pub mod scaffold;
+
 pub mod mechanism;
 pub mod model;
 pub mod motion;
-pub mod origin;
 pub mod picture;
-pub mod starter;
+
 pub mod sweep;
 pub mod theory;
 pub mod vehicles;

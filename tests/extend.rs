@@ -12,7 +12,7 @@ mod vehicle;
 
 use creepage::claims::{self, Domain, Options, Status, ledger, verify};
 use creepage::describe::{self, Description, vehicle_effects_text};
-use creepage::discrepancy::discover::{Request, discover};
+use creepage::discrepancy::pipeline::{Request, discover};
 use creepage::discrepancy::report::{Report, Verdict};
 use creepage::effects::{self, Applied, Effect};
 use creepage::files::{ModelFile, Run};

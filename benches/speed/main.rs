@@ -14,7 +14,7 @@ mod harness;
 mod jacobian;
 mod rates;
 mod serve;
-#[path = "../../src/motion/tableau.rs"]
+#[path = "../../src/motion/integrators/tableau.rs"]
 #[allow(dead_code)]
 #[allow(unused_imports)]
 mod tableau;

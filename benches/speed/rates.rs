@@ -1,7 +1,7 @@
 //! Both creeps of a wheel from 1000 samples of its motion: by the library, and by hand.
 
 use super::wheel;
-use creepage::discrepancy::rates::{RateFit, RateSamples};
+use creepage::discrepancy::estimation::rate_regression::{RateFit, RateSamples};
 
 pub const SAMPLES: usize = 1000;
 const R: f64 = 0.5;

@@ -1,6 +1,7 @@
 //! The two checks most evidence uses: proof by normal form, and exact values at generated points.
 
-use super::point::{self, Domain, Point, simplest, written};
+use super::exact_point;
+use super::exact_point::{Domain, Point, simplest, written};
 use super::sampling::Fault;
 use super::{Counterexample, Equation, Machine, Outcome, Sampling, Statement};
 use crate::formula::{Exact, Expr, Normal, Scalar, Symbol};
@@ -56,7 +57,7 @@ pub fn counterexample(machine: &Machine, equation: &Equation) -> Option<Countere
     let (others, more) = machine.rests_on(&equation.right);
     formulas.extend(others);
     free.extend(more);
-    let uses = point::domains(&formulas);
+    let uses = exact_point::domains(&formulas);
     let names: BTreeMap<Symbol, Domain> =
         free.iter().map(|s| (s.clone(), uses.get(s).copied().unwrap_or(Domain::Any))).collect();
     simplest(&names, |point| differs(machine, equation, point))
@@ -85,7 +86,7 @@ fn sides(machine: &Machine, equation: &Equation, point: &Point) -> (Option<Exact
 /// A point at which the left side is undefined lies outside the hypotheses and is not counted; a right side that is
 /// undefined where the left one is not is false.
 pub fn at_points(machine: &Machine, statement: &Statement, names: &[(&str, Domain)], sampling: &Sampling) -> Outcome {
-    sampling.cases(point::points(names), Point::shown, |point| {
+    sampling.cases(exact_point::points(names), Point::shown, |point| {
         statement.equations().iter().try_for_each(|equation| match sides(machine, equation, point) {
             (Some(l), Some(r)) if l.equals(&r) => Ok(()),
             (Some(l), Some(r)) => Err(Fault::False(said(equation, &l, &r))),

@@ -17,29 +17,29 @@
 
 mod checks;
 mod claim;
-mod driven;
-mod forced;
+pub(crate) mod derived_formulas;
+pub(crate) mod exact_point;
 pub mod generated;
+pub(crate) mod generated_forced;
 pub mod ledger;
-mod machine;
 mod mutants;
 mod outcome;
 mod paper;
-mod point;
-mod pushed;
 mod sampling;
+pub(crate) mod simulated;
 mod statement;
 mod status;
 mod user;
 mod verify;
+pub(crate) mod with_forces;
 
 pub use checks::{at_points, counterexample, near, prove, proving, value_said};
 pub use claim::{Check, Claim, Evidence, Gives, Relation};
-pub use machine::Machine;
+pub use derived_formulas::Machine;
+pub use exact_point::{Domain, Point, domains, points, simplest, value, written};
 pub use mutants::{Mutant, mutants};
 pub use outcome::{Counterexample, Outcome};
 pub use paper::all;
-pub use point::{Domain, Point, domains, points, simplest, value, written};
 pub use sampling::{Fault, Sampling, Verdict};
 pub use statement::{Equation, Statement};
 pub use status::Status;

@@ -64,7 +64,7 @@ impl Statement {
     }
 
     /// The same with one right side replaced.
-    pub(super) fn with(&self, index: usize, right: Expr) -> Self {
+    pub(crate) fn with(&self, index: usize, right: Expr) -> Self {
         let mut changed = self.clone();
         changed.equations[index].right = right;
         changed.changed = Some(index);
@@ -72,7 +72,7 @@ impl Statement {
     }
 
     /// The same, of which one only wants to know whether it is true.
-    pub(super) fn in_brief(mut self) -> Self {
+    pub(crate) fn in_brief(mut self) -> Self {
         self.brief = true;
         self
     }
@@ -86,7 +86,7 @@ impl Statement {
     }
 
     /// Whether one only wants to know if it is true.
-    pub(super) fn is_brief(&self) -> bool {
+    pub(crate) fn is_brief(&self) -> bool {
         self.brief
     }
 }

@@ -4,7 +4,7 @@ use super::own::OwnVehicles;
 use super::print;
 use clap::Args;
 use creepage::files::{ModelFile, read_header, write_whole};
-use creepage::starter::{Starter, Wanted};
+use creepage::scaffold::{Starter, Wanted};
 use creepage::{Error, Result, effects, model};
 use std::path::{Path, PathBuf};
 

@@ -5,7 +5,7 @@ use creepage::dynamics;
 use creepage::effects::{self, Effect};
 use creepage::files::ModelFile;
 use creepage::vehicles::{self, Vehicle};
-use creepage::{Result, library};
+use creepage::{Result, extensions};
 use std::path::{Path, PathBuf};
 
 /// The user's own vehicles, beside those of the catalogue.
@@ -35,7 +35,7 @@ impl OwnVehicles {
     /// The catalogue with the user's own vehicles.
     pub fn all(&self) -> Result<Vec<Vehicle>> {
         match &self.vehicles {
-            Some(path) => library::vehicles_with_own(path),
+            Some(path) => extensions::vehicles_with_own(path),
             None => Ok(vehicles::all().to_vec()),
         }
     }
@@ -51,7 +51,7 @@ impl Own {
 
     /// A model file and the library of effects; the vehicles that the model names join the catalogue.
     pub fn read(&self, path: &Path) -> Result<(ModelFile, Vec<Effect>)> {
-        let vehicles = library::vehicles_of(path, self.vehicles.file())?;
+        let vehicles = extensions::vehicles_of(path, self.vehicles.file())?;
         let library = self.library(&vehicles)?;
         let file = ModelFile::read(path, &dynamics::known_on(&vehicles, &library))?;
         Ok((file, library))
@@ -59,7 +59,7 @@ impl Own {
 
     fn library(&self, vehicles: &[Vehicle]) -> Result<Vec<Effect>> {
         match &self.effects {
-            Some(path) => library::with_own_on(path, vehicles),
+            Some(path) => extensions::with_own_on(path, vehicles),
             None => Ok(effects::all().to_vec()),
         }
     }

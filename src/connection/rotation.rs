@@ -1,7 +1,8 @@
 //! The connection of an orientation in space.
 
 use super::path::{Compiled, Path};
-use super::space::{self, Matrix, Vector};
+use super::space;
+use super::space::{Matrix, Vector};
 use crate::error::Result;
 use crate::formula::{Expr, Symbol};
 use crate::motion::Integrator;

@@ -2,9 +2,9 @@
 
 use super::page::Page;
 use super::vehicles::{sample_train, tractors};
-use crate::discrepancy::identity::{Change, Measured, Relation, relation};
-use crate::discrepancy::picture::equation;
+use crate::discrepancy::rendering::figure_data::equation;
 use crate::effects::{Applied, Effect};
+use crate::equivalence::{Change, Measured, Relation, relation};
 use crate::error::{Error, Result};
 use crate::files::advice;
 use crate::model::{Model, WITH_TRAILERS};

@@ -8,7 +8,8 @@ use crate::error::Result;
 use crate::formula::latex_symbol;
 use crate::mechanism::Constraint;
 use crate::model::{Model, Trailer, WITH_TRAILERS};
-use crate::vehicles::{self, Vehicle};
+use crate::vehicles;
+use crate::vehicles::Vehicle;
 use serde_json::{Value, json};
 
 /// What the entry of vehicles with trailers says.

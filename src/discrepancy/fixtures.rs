@@ -1,8 +1,8 @@
 //! What tests of this layer begin with: a unicycle with effects, what it logs, a fit of it.
 
-use super::chain::Variances;
-use super::fit::Fit;
-use super::record::Record;
+use super::estimation::elimination::Variances;
+use super::estimation::fit::Fit;
+use super::record::record::Record;
 use crate::effects::{Applied, all, named};
 use crate::files::ModelFile;
 use crate::model::{Equations, Model, known};

@@ -6,9 +6,11 @@ use super::{Dynamics, Masses, Start, TrailerMass, laws, simulate_dynamics};
 use crate::effects::Effect;
 use crate::error::{Error, Result};
 use crate::files::{DynamicsEntry, Initial, Known, KnownDynamics, KnownLaw, ModelFile};
-use crate::model::{self, Model, mechanism};
+use crate::model;
+use crate::model::{Model, mechanism};
 use crate::motion::{Drive, Integrator, Method, Table};
-use crate::vehicles::{self, Vehicle};
+use crate::vehicles;
+use crate::vehicles::Vehicle;
 
 /// What a model file may name, `[dynamics]` included: the vehicles of the catalogue and the effects of a library.
 ///

@@ -1,7 +1,7 @@
 //! What an effect is made of.
 
 use crate::formula::{Expr, Symbol};
-use crate::origin::Origin;
+use crate::provenance::Origin;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -4,9 +4,9 @@ use super::{Data, Drawing, Figure, Options, fixed, page, plane};
 use crate::error::Result;
 use crate::model::{Equations, Workspace};
 use crate::motion::assembled;
+use crate::number_format::decimals;
 use crate::picture::axis::Axis;
 use crate::picture::maths::maths;
-use crate::picture::number::decimals;
 use crate::picture::plot::{Marker, Panel, Size};
 use crate::picture::svg::Element;
 

@@ -3,7 +3,7 @@
 use super::{Data, Drawing, Figure, Options, page};
 use crate::error::Result;
 use crate::motion::{assembled, driven};
-use crate::picture::number::decimals;
+use crate::number_format::decimals;
 use crate::picture::sketch::{Sketch, polar};
 use crate::picture::svg::Element;
 use std::f64::consts::FRAC_PI_2;

@@ -3,8 +3,8 @@
 use super::{Data, Drawing, Figure, Options, fixed, page};
 use crate::error::Result;
 use crate::motion::{assembled, driven};
+use crate::number_format::decimals;
 use crate::picture::maths::maths;
-use crate::picture::number::decimals;
 use crate::picture::sketch::{Sketch, polar};
 use crate::picture::svg::Element;
 use std::f64::consts::{FRAC_PI_2, TAU};

@@ -1,10 +1,11 @@
 //! Fig. 7: the simulation of the single wheel, four cases.
 
-use super::readings::{self, CASES};
+use super::readings;
+use super::readings::CASES;
 use super::{Data, Drawing, Figure, Options, fixed, key, page, plane};
 use crate::error::Result;
 use crate::motion::{EndPoint, FIG7_DURATION, Reading, fig7_case, fig7_path};
-use crate::picture::number::plain;
+use crate::number_format::plain;
 use crate::picture::plot::{Marker, Size};
 use crate::picture::svg::Element;
 

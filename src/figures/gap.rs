@@ -1,14 +1,14 @@
 //! The gap between model and measurement, before and after the missing effect is named.
 
 use super::{Data, Drawing, Figure, Options, page, scientific};
-use crate::discrepancy::discover::{Discovery, Request, discover};
-use crate::discrepancy::html::gap_panel;
+use crate::discrepancy::pipeline::{Discovery, Request, discover};
+use crate::discrepancy::rendering::html::gap_panel;
 use crate::effects;
 use crate::error::Result;
 use crate::files::{ModelFile, Run};
 use crate::model::known;
+use crate::number_format::with_error;
 use crate::picture::maths::maths;
-use crate::picture::number::with_error;
 use crate::picture::plot::Size;
 
 /// The figure.

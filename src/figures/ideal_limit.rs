@@ -4,9 +4,9 @@ use super::{Data, Drawing, Figure, Options, fixed, key, page, plane, scientific}
 use crate::error::Result;
 use crate::model::Trailer;
 use crate::motion::{Creep, assembled, driven};
+use crate::number_format::decimals;
 use crate::picture::axis::Axis;
 use crate::picture::maths::maths;
-use crate::picture::number::decimals;
 use crate::picture::plot::{Marker, Size};
 use crate::picture::svg::Element;
 

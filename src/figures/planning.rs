@@ -3,8 +3,8 @@
 use super::{Data, Drawing, Figure, Options, fixed, key, page, plane};
 use crate::error::Result;
 use crate::motion::{assembled, driven};
+use crate::number_format::decimals;
 use crate::picture::maths::maths;
-use crate::picture::number::decimals;
 use crate::picture::plot::{Marker, Size};
 use crate::picture::svg::line;
 

@@ -4,9 +4,9 @@ use super::{Data, Drawing, Figure, Options, Rig, fixed, key, page, plane};
 use crate::error::Result;
 use crate::model::Model;
 use crate::motion::{assembled, driven};
+use crate::number_format::decimals;
 use crate::picture::axis::Axis;
 use crate::picture::maths::maths;
-use crate::picture::number::decimals;
 use crate::picture::plot::{Marker, Size};
 use crate::picture::svg::Element;
 

@@ -194,4 +194,4 @@ impl Slot {
 }
 
 /// The coefficient of creep in the formulas of a type.
-pub(super) const COEFFICIENT: &str = "e";
+pub(crate) const COEFFICIENT: &str = "e";

@@ -1,7 +1,7 @@
 //! A generic form with its slots filled in.
 
 use super::constraint_type::COEFFICIENT;
-use super::vanish::vanishes;
+use super::zero_test::vanishes;
 use super::{ConstraintType, Part, Row};
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
@@ -34,7 +34,7 @@ impl Form {
     }
 
     /// A form whose row is known, shorter than the form multiplied out.
-    pub(super) fn with_row(
+    pub(crate) fn with_row(
         kind: &Arc<ConstraintType>,
         given: &[(Symbol, Part)],
         creep: &Symbol,
@@ -85,7 +85,7 @@ impl Form {
     }
 
     /// With rates replaced by linear forms in other rates.
-    pub(super) fn with_rates(&self, by: &impl Fn(&Symbol) -> Option<Row>) -> Self {
+    pub(crate) fn with_rates(&self, by: &impl Fn(&Symbol) -> Option<Row>) -> Self {
         let part = |part: &Part| match part {
             Part::Rates(row) => Part::Rates(row.with_rates(by)),
             Part::Factor(_) => part.clone(),
@@ -95,7 +95,7 @@ impl Form {
     }
 
     /// With names replaced; rates keep theirs.
-    pub(super) fn substitute(&self, by: &impl Fn(&Symbol) -> Option<Expr>) -> Self {
+    pub(crate) fn substitute(&self, by: &impl Fn(&Symbol) -> Option<Expr>) -> Self {
         let slots = self.slots.iter().map(|(name, part)| (name.clone(), part.substitute(by))).collect();
         Self { kind: self.kind.clone(), slots, row: self.row.substitute(by) }
     }

@@ -1,10 +1,10 @@
 //! Holonomic integrals: functions of the coordinates that the constraints keep constant, found and proved.
 
-use super::ansatz::{Combination, Sample, Term, monomials, unchanged};
-use super::frame::coefficients;
-use super::linear::Echelon;
-use super::proof::{follows, needed_rows, written};
-use super::samples::Samples;
+use super::distribution_basis::coefficients;
+use super::exact_linear_algebra::Echelon;
+use super::integral_ansatz::{Combination, Sample, Term, monomials, unchanged};
+use super::integral_proof::{follows, needed_rows, written};
+use super::random_points::Samples;
 use super::{Mechanism, Point, Row};
 use crate::formula::{Expr, Fun, Symbol};
 

@@ -9,33 +9,33 @@
 //! Type T is kept as a pair (s, p) with s·q̇₁ − p·q̇₃ = 0 and σ = p/s, so that no configuration is singular.
 //! A type is data, a [`ConstraintType`]; those of the catalogue are [`constraint_types`].
 
-mod ansatz;
 mod constraint;
 mod constraint_type;
 mod contact;
 mod definitions;
-mod field;
+pub(crate) mod distribution_basis;
+pub(crate) mod exact_linear_algebra;
 mod form;
-mod frame;
-mod growth;
+pub(crate) mod growth_vector;
 mod heading;
+pub(crate) mod integral_ansatz;
+pub(crate) mod integral_proof;
 mod integrals;
-mod linear;
+pub(crate) mod mechanism;
 mod momentum;
 mod nonholonomy;
-mod part;
-mod passive;
+pub(crate) mod passive_coefficients;
 mod point;
-mod proof;
+pub(crate) mod random_points;
 mod realisation;
 mod regime;
 mod row;
-mod sample;
-mod samples;
+pub(crate) mod slot_value;
 pub mod solve;
-mod system;
-mod vanish;
+pub(crate) mod unit_test_point;
+pub(crate) mod vector_field;
 mod velocity;
+pub(crate) mod zero_test;
 
 pub use constraint::Constraint;
 pub(crate) use constraint_type::rank;
@@ -43,17 +43,17 @@ pub use constraint_type::{ConstraintType, Printed, Regimes, Slot, constraint_typ
 pub use contact::{Direction, Rolling, sigma_closed_form};
 pub use definitions::Definitions;
 pub use form::Form;
-pub use growth::Growth;
+pub use growth_vector::Growth;
 pub use heading::Heading;
 pub use integrals::Integral;
+pub use mechanism::Mechanism;
 pub use momentum::Momentum;
 pub use nonholonomy::Nonholonomy;
-pub use part::Part;
 pub use point::Point;
 pub use realisation::Realisation;
 pub(crate) use realisation::counted;
 pub use regime::{Landmark, Limits, RotationMotion, RotationRegime, Side, TraverseMotion, TraverseRegime, Way};
 pub use row::Row;
-pub use sample::Sample;
-pub use system::Mechanism;
+pub use slot_value::Part;
+pub use unit_test_point::Sample;
 pub use velocity::Velocity;

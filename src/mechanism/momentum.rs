@@ -1,6 +1,6 @@
 //! Momentum maps: what a symmetry of the kinetic energy conserves.
 
-use super::vanish::vanishes;
+use super::zero_test::vanishes;
 use super::{Constraint, ConstraintType, Part, Row};
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Node, Symbol};

@@ -36,12 +36,12 @@ impl Point {
     }
 
     /// A row of coefficients in the order of the rates, `None` where one of them has no exact value here.
-    pub(super) fn row(&self, row: &Row, rates: &[Symbol]) -> Option<Vec<BigRational>> {
+    pub(crate) fn row(&self, row: &Row, rates: &[Symbol]) -> Option<Vec<BigRational>> {
         rates.iter().map(|r| self.number(&row.coefficient(r))).collect()
     }
 
     /// The rational value of a formula.
-    pub(super) fn number(&self, e: &Expr) -> Option<BigRational> {
+    pub(crate) fn number(&self, e: &Expr) -> Option<BigRational> {
         e.eval(&|s| self.value(s))?.as_rational().cloned()
     }
 
@@ -49,13 +49,13 @@ impl Point {
     ///
     /// # Errors
     /// When a coefficient has no exact value here.
-    pub(super) fn matrix(&self, rows: &[Row], rates: &[Symbol]) -> Result<Vec<Vec<BigRational>>> {
+    pub(crate) fn matrix(&self, rows: &[Row], rates: &[Symbol]) -> Result<Vec<Vec<BigRational>>> {
         rows.iter().map(|r| self.row(r, rates).ok_or_else(|| not_exact(r))).collect()
     }
 }
 
 /// What to say of a row that cannot be evaluated.
-pub(super) fn not_exact(row: &Row) -> Error {
+pub(crate) fn not_exact(row: &Row) -> Error {
     let what = format!("the constraint {row} = 0 has no exact value at this point");
     Error::input(what).help("give every symbol a value at which its sines, cosines and roots are rational")
 }

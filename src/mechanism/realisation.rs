@@ -1,6 +1,6 @@
 //! Which coefficients of creep make a motion what it is, given what is measured: the signature RᵏTᵐ by ranks.
 
-use super::linear::{Echelon, dot};
+use super::exact_linear_algebra::{Echelon, dot};
 use super::{Mechanism, Point, Row, rank};
 use crate::error::{Error, Result};
 use crate::formula::{BigRational, Expr, Symbol};
@@ -136,7 +136,7 @@ impl Mechanism {
     }
 
     /// The part of each row that its coefficient multiplies; a row is linear in it.
-    pub(super) fn slopes(&self) -> Vec<Row> {
+    pub(crate) fn slopes(&self) -> Vec<Row> {
         let slope = |c: &super::Constraint| {
             let at = |e: i64| c.row().substitute(&|s| (*s == c.creep).then(|| Expr::int(e)));
             at(1).plus(&Expr::int(-1), &at(0))

@@ -30,7 +30,7 @@ impl Row {
     }
 
     /// A row whose coefficients stay as they are written, for print; sums of it are multiplied out again.
-    pub(super) fn as_written(terms: Vec<(Symbol, Expr)>) -> Row {
+    pub(crate) fn as_written(terms: Vec<(Symbol, Expr)>) -> Row {
         Row { terms }
     }
 
@@ -82,7 +82,7 @@ impl Row {
     }
 
     /// The row with rates replaced by linear forms in other rates.
-    pub(super) fn with_rates(&self, by: &impl Fn(&Symbol) -> Option<Row>) -> Row {
+    pub(crate) fn with_rates(&self, by: &impl Fn(&Symbol) -> Option<Row>) -> Row {
         let mut row = Row::default();
         for (rate, c) in &self.terms {
             match by(rate) {

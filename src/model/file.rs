@@ -6,7 +6,8 @@ use crate::error::{Error, Result};
 use crate::files::{
     EffectEntry, Known, KnownDynamics, KnownEffect, KnownInput, KnownParameter, KnownVehicle, ModelFile,
 };
-use crate::vehicles::{self, Vehicle};
+use crate::vehicles;
+use crate::vehicles::Vehicle;
 
 /// The id of a vehicle with trailers; its tractor is a vehicle of the catalogue.
 pub const WITH_TRAILERS: &str = "n-trailer";

@@ -1,37 +1,25 @@
 //! Motion: inputs as signals, trajectories and their exact sensitivities.
 
-mod arcs;
-mod conservative;
-mod dop853;
-mod drive;
-mod driven;
-mod energy;
+pub(crate) mod catalogue_model;
 mod ensemble;
-mod exponential;
-mod forgetting;
-mod initial;
-mod integrator;
-mod lane_motion;
-mod lane_stepper;
-mod lookup;
-mod signal;
+pub mod inputs;
+pub mod integrators;
+pub mod sensitivity;
 mod simulate;
-mod spline;
-mod stepper;
-mod stiff;
-mod tableau;
 mod trajectory;
 
-pub(crate) use arcs::Arcs;
-pub use conservative::{EndPoint, FIG7_DURATION, Instant, Reading, fig7_case, fig7_path, fig7_stepwise};
-pub use drive::{Drive, Formulas};
-pub use driven::{Creep, assembled, driven};
-pub use energy::{Instantaneous, fig7_instants};
+pub use crate::energy_rule::instants::{Instantaneous, fig7_instants};
+pub use crate::energy_rule::readings::{
+    EndPoint, FIG7_DURATION, Instant, Reading, fig7_case, fig7_path, fig7_stepwise,
+};
+pub use catalogue_model::{Creep, assembled, driven};
 pub use ensemble::{Case, Ensemble, EnsembleInputs, Plan, Varied};
-pub use initial::{initial_hidden, visible_state};
-pub use integrator::{Integrator, Method};
-pub(crate) use lane_stepper::LaneStepper;
-pub use signal::{Signals, Timing};
+pub use inputs::drive::{Drive, Formulas};
+pub use inputs::signals::{Signals, Timing};
+pub use integrators::integrator::{Integrator, Method};
+pub use sensitivity::equilibrium::{initial_hidden, visible_state};
+pub(crate) use sensitivity::lane_stepper::LaneStepper;
+pub use sensitivity::single_stepper::{Arc, Stepper};
+pub(crate) use sensitivity::states::Arcs;
 pub use simulate::{Table, simulate_model};
-pub use stepper::{Arc, Stepper};
 pub use trajectory::{integrate, simulate, with_sensitivities};

@@ -1,6 +1,6 @@
 //! Trajectories of a model and their exact sensitivities.
 
-use super::stiff::{Differences, Retimed, Slopes};
+use super::integrators::radau::{Differences, Retimed, Slopes};
 use super::{Drive, Integrator};
 use crate::error::{Error, Result};
 use crate::model::Equations;
@@ -44,7 +44,7 @@ pub fn simulate(
 }
 
 /// As [`simulate`], of states that are seen one after another, each with its time, and not kept.
-pub(super) fn simulate_by(
+pub(crate) fn simulate_by(
     equations: &Equations,
     p: &[f64],
     inputs: &impl Drive,

@@ -1,7 +1,7 @@
 //! Axes: from values with a unit to pixels, with round ticks.
 
-use super::number::{decimals, power_of_ten, significant, ten_to};
 use super::ticks;
+use crate::number_format::{decimals, power_of_ten, significant, ten_to};
 
 /// How values map to lengths.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -114,7 +114,7 @@ impl Axis {
     /// The power of ten taken out of every label.
     fn exponent(&self) -> i32 {
         let largest = self.range.iter().map(|v| (v - self.origin()).abs()).fold(0.0, f64::max);
-        let exponent = super::number::decade(largest);
+        let exponent = crate::number_format::decade(largest);
         if self.scale != Scale::Linear || (-2..5).contains(&exponent) { 0 } else { exponent.div_euclid(3) * 3 }
     }
 
@@ -142,7 +142,7 @@ fn round_label(value: f64) -> String {
     let large = value.abs() >= 1e5 || (value != 0.0 && value.abs() < 1e-3);
     if large {
         let sign = if value < 0.0 { "−" } else { "" };
-        let exponent = super::number::decade(value.abs());
+        let exponent = crate::number_format::decade(value.abs());
         let mantissa = (value.abs() / ten_to(exponent)).round();
         let factor = if mantissa == 1.0 { String::new() } else { format!("{mantissa}·") };
         return format!("{sign}{factor}{}", power_of_ten(exponent));

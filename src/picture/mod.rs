@@ -18,7 +18,6 @@ pub mod axis;
 pub mod bars;
 pub mod decimate;
 pub mod maths;
-pub mod number;
 pub mod plot;
 pub mod sketch;
 pub mod svg;

@@ -1,6 +1,6 @@
 //! Round numbers for axes: steps of 1, 2 and 5 times a power of ten.
 
-use super::number::{decade, ten_to};
+use crate::number_format::{decade, ten_to};
 
 /// The smallest step of 1, 2 or 5 times a power of ten that is no smaller than a length.
 ///

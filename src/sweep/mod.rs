@@ -15,11 +15,12 @@ pub use shard::Shard;
 pub use table::Format;
 
 use crate::dynamics;
-use crate::effects::{self, Effect};
+use crate::effects;
+use crate::effects::Effect;
 use crate::error::{Error, Result};
+use crate::extensions;
 use crate::files::{Initial, Inputs, ModelFile, Spot, SweepFile};
 use crate::formula::{Expr, Symbol};
-use crate::library;
 use crate::model::Model;
 use crate::motion::{Ensemble, EnsembleInputs, Plan, Signals, Varied};
 use cases::Cases;
@@ -53,9 +54,9 @@ impl Sweep {
     /// With file, line and column, where one of the files is not as it should be, or they do not fit together.
     pub fn read(path: impl AsRef<Path>) -> Result<Self> {
         let file = SweepFile::read(path)?;
-        let vehicles = library::vehicles_of(&file.model, file.vehicles.as_deref())?;
+        let vehicles = extensions::vehicles_of(&file.model, file.vehicles.as_deref())?;
         let library = match &file.effects {
-            Some(own) => library::with_own_on(own, &vehicles)?,
+            Some(own) => extensions::with_own_on(own, &vehicles)?,
             None => effects::all().to_vec(),
         };
         let model_file = ModelFile::read(&file.model, &dynamics::known_on(&vehicles, &library))?;

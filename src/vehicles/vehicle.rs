@@ -2,7 +2,7 @@
 
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::Constraint;
-use crate::origin::Origin;
+use crate::provenance::Origin;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::Arc;

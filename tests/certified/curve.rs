@@ -1,6 +1,6 @@
 //! Curves y = f(x; b), written in the language of formulas and fitted by the steps of the program.
 
-use creepage::discrepancy::damped::damped_step;
+use creepage::discrepancy::estimation::levenberg_marquardt::damped_step;
 use creepage::formula::{Expr, Graph, Program, Symbol};
 use nalgebra::{DMatrix, DVector};
 

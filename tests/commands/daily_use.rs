@@ -2,14 +2,14 @@
 
 use crate::program::creepage;
 use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
-use creepage::discrepancy::fit::Effort;
-use creepage::discrepancy::identifiable::{Check, Checked, Seen, Standing, check};
-use creepage::discrepancy::problem::Problem;
-use creepage::discrepancy::record::Record;
+use creepage::discrepancy::estimation::fit::Effort;
+use creepage::discrepancy::estimation::problem::Problem;
+use creepage::discrepancy::identifiability::{Check, Checked, Seen, Standing, check};
+use creepage::discrepancy::record::record::Record;
 use creepage::effects::Applied;
 use creepage::files::{ModelFile, Run};
 use creepage::model::{self, Model};
-use creepage::starter::{Starter, Wanted};
+use creepage::scaffold::{Starter, Wanted};
 use creepage::{effects, vehicles};
 
 fn text(bytes: &[u8]) -> String {
@@ -243,7 +243,7 @@ fn announced_deviations_are_those_of_fits() {
 /// An effect as large as the smallest that is said to be seen is named, one of a tenth of it is not.
 #[test]
 fn what_is_said_to_be_seen_is_seen() {
-    use creepage::discrepancy::choose::choose;
+    use creepage::discrepancy::selection::select::choose;
     let (file, first) = driven(&drive(5));
     let announced = checked(&file, std::slice::from_ref(&first));
     let smallest =

@@ -2,10 +2,10 @@
 
 use crate::read_back::read_back;
 use crate::simulator::{Noise, Scenario, Tractor};
-use creepage::discrepancy::bootstrap::{ChanceGains, is_regular};
-use creepage::discrepancy::fit::Effort;
-use creepage::discrepancy::problem::Problem;
-use creepage::discrepancy::record::Record;
+use creepage::discrepancy::estimation::fit::Effort;
+use creepage::discrepancy::estimation::problem::Problem;
+use creepage::discrepancy::evidence::parametric_bootstrap::{ChanceGains, is_regular};
+use creepage::discrepancy::record::record::Record;
 use creepage::effects::{self, Applied};
 use creepage::model::Model;
 

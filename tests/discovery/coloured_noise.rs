@@ -3,8 +3,8 @@
 
 use crate::read_back::read_back;
 use crate::simulator::{Hidden, Noise, Scenario, Tractor};
-use creepage::discrepancy::discover::{Request, discover};
-use creepage::discrepancy::identifiable::{Checked, check};
+use creepage::discrepancy::identifiability::{Checked, check};
+use creepage::discrepancy::pipeline::{Request, discover};
 use creepage::discrepancy::report::{Report, Verdict};
 use creepage::effects;
 use rand::{Rng, SeedableRng};

@@ -1,7 +1,7 @@
 //! Runs in which more is amiss than the library can say: what all of their parts share is named, and nothing else.
 
 use crate::read_back::read_back;
-use creepage::discrepancy::discover::{Request, discover};
+use creepage::discrepancy::pipeline::{Request, discover};
 use creepage::discrepancy::report::{Report, Verdict};
 use creepage::effects::{self, Effect};
 use creepage::files::Run;

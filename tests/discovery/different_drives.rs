@@ -2,10 +2,10 @@
 //! foretold it; what is asked of all of them is not.
 
 use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
-use creepage::discrepancy::discover::{Request, discover};
-use creepage::discrepancy::fit::Effort;
-use creepage::discrepancy::problem::Problem;
-use creepage::discrepancy::record::Record;
+use creepage::discrepancy::estimation::fit::Effort;
+use creepage::discrepancy::estimation::problem::Problem;
+use creepage::discrepancy::pipeline::{Request, discover};
+use creepage::discrepancy::record::record::Record;
 use creepage::discrepancy::report::{Named, Report, Verdict};
 use creepage::effects::{self, Applied};
 use creepage::files::{ModelFile, Run};

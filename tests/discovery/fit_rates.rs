@@ -1,6 +1,6 @@
 //! Free effects fitted to samples of rates: the values are found, as exactly as the samples have them.
 
-use creepage::discrepancy::rates::{RateFit, RateSamples};
+use creepage::discrepancy::estimation::rate_regression::{RateFit, RateSamples};
 use creepage::effects::{self, Applied};
 use creepage::model::Model;
 

@@ -2,13 +2,13 @@
 
 use crate::read_back::read_back;
 use crate::simulator::{Hidden, Noise, Scenario, Tractor};
-use creepage::discrepancy::carry;
-use creepage::discrepancy::chain::{Variances, eliminate};
-use creepage::discrepancy::fit::Effort;
-use creepage::discrepancy::problem::{Problem, pose_of};
-use creepage::discrepancy::record::{Channel, Record};
-use creepage::discrepancy::variances;
-use creepage::discrepancy::windows::{Linear, Starts, linearise};
+use creepage::discrepancy::estimation::elimination::{Variances, eliminate};
+use creepage::discrepancy::estimation::fit::Effort;
+use creepage::discrepancy::estimation::problem::{Problem, pose_of};
+use creepage::discrepancy::estimation::variance_components;
+use creepage::discrepancy::initial_state::hidden_states;
+use creepage::discrepancy::record::record::{Channel, Record};
+use creepage::discrepancy::shooting::windows::{Linear, Starts, linearise};
 use creepage::effects::{self, Applied};
 use creepage::formula::{Expr, Symbol};
 use creepage::model::{Equations, Model};
@@ -71,7 +71,7 @@ impl Case {
         // From rest at the log's first row to the first window, without sensitivities.
         let first = segment.windows[0].start;
         let pose = &self.starts[0][0];
-        let mut hidden = carry::at_rest(&self.equations, p, &mut stepper, record.time[0], pose).z;
+        let mut hidden = hidden_states::at_rest(&self.equations, p, &mut stepper, record.time[0], pose).z;
         for i in 0..first {
             let mut arc = Arc { z: [pose.clone(), hidden].concat(), s: vec![] };
             stepper.advance(&mut arc, record.time[i], record.time[i + 1]);
@@ -224,7 +224,7 @@ fn as_dense(case: &Case) {
         let values = linear[0].iter().map(|w| w.count).fold([0; 2], |n, c| [n[0] + c[0], n[1] + c[1]]);
         let of_noise = values[0] as f64 * noise[0].ln() + values[1] as f64 * noise[1].ln();
         let deviance = expected.cost - gain + expected.log_determinant + of_noise;
-        near("deviance", variances::deviance(&linear, &v, &e), deviance, deviance.abs());
+        near("deviance", variance_components::deviance(&linear, &v, &e), deviance, deviance.abs());
     }
 }
 

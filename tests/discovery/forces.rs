@@ -2,7 +2,7 @@
 
 use crate::forced::{Body, Forced};
 use crate::read_back::read_back;
-use creepage::discrepancy::discover::{Request, discover};
+use creepage::discrepancy::pipeline::{Request, discover};
 use creepage::discrepancy::report::Report;
 use creepage::effects;
 

@@ -3,8 +3,8 @@
 
 use crate::read_back::read_back;
 use crate::simulator::{Hidden, Log, Noise, Scenario, Tractor};
-use creepage::discrepancy::outliers::without_gross_errors;
-use creepage::discrepancy::record::Record;
+use creepage::discrepancy::preprocessing::outliers::without_gross_errors;
+use creepage::discrepancy::record::record::Record;
 use creepage::effects;
 use creepage::model::Model;
 

@@ -1,7 +1,7 @@
 //! Laws of `discover`: what must not change its answer, and what it must say of data that cannot answer.
 
 use crate::simulator::{Hidden, Log, Noise, Profile, Scenario, Tractor};
-use creepage::discrepancy::discover::{Discovery, Request, discover};
+use creepage::discrepancy::pipeline::{Discovery, Request, discover};
 use creepage::discrepancy::report::{Named, Verdict};
 use creepage::files::{ModelFile, Run};
 use creepage::{effects, model};

@@ -2,7 +2,7 @@
 
 use crate::read_back::read_back;
 use crate::simulator::{Hidden, Noise, Scenario, Tractor};
-use creepage::discrepancy::discover::{Discovery, Request, discover};
+use creepage::discrepancy::pipeline::{Discovery, Request, discover};
 use creepage::discrepancy::report::{Report, Verdict};
 use creepage::effects;
 use std::cell::RefCell;

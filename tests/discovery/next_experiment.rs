@@ -2,10 +2,10 @@
 
 use crate::read_back::read_back;
 use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
-use creepage::discrepancy::discover::{Request, discover};
-use creepage::discrepancy::envelope::Envelope;
-use creepage::discrepancy::manoeuvre::{LENGTH, library};
-use creepage::discrepancy::record::Record;
+use creepage::discrepancy::experiment::envelope::Envelope;
+use creepage::discrepancy::experiment::manoeuvre::{LENGTH, library};
+use creepage::discrepancy::pipeline::{Request, discover};
+use creepage::discrepancy::record::record::Record;
 use creepage::discrepancy::report::{NextExperiment, Report};
 use creepage::effects::{self, Applied};
 use creepage::files::{ModelFile, Run};
@@ -98,7 +98,7 @@ impl Setting {
     fn advised(&self, advice: &NextExperiment, seed: u64) -> Option<Run> {
         let record = Record::of_run(&self.first, self.file.input_timing, 0).split(0.75).0;
         let envelope = Envelope::of(&self.truth, &[record])?;
-        let named = |m: &&creepage::discrepancy::manoeuvre::Manoeuvre| {
+        let named = |m: &&creepage::discrepancy::experiment::manoeuvre::Manoeuvre| {
             advice.manoeuvre.split("; ").next() == Some(m.sentence(&envelope).as_str())
         };
         let manoeuvre = library(&envelope).find(named)?;

@@ -2,7 +2,7 @@
 //! of the integration may make up a disagreement.
 
 use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
-use creepage::discrepancy::discover::{Request, discover};
+use creepage::discrepancy::pipeline::{Request, discover};
 use creepage::discrepancy::report::{Report, Verdict};
 use creepage::effects;
 use creepage::files::{ModelFile, Run};

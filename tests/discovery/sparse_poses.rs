@@ -1,8 +1,8 @@
 //! Poses that come more seldom than inputs: what is done to a vehicle between two of them happens all the same.
 
 use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Timing, Tractor};
-use creepage::discrepancy::align::discover_aligned;
-use creepage::discrepancy::discover::{Request, discover};
+use creepage::discrepancy::clock_alignment::discover_aligned;
+use creepage::discrepancy::pipeline::{Request, discover};
 use creepage::discrepancy::report::{Report, Verdict};
 use creepage::effects;
 use creepage::files::{ModelFile, Run};

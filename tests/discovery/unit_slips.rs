@@ -2,10 +2,10 @@
 //! like.
 
 use crate::simulator::{Hidden, Log, Noise, Profile, Scenario, Signal, Tractor};
-use creepage::discrepancy::align::{check_aligned, discover_aligned};
-use creepage::discrepancy::discover::{Request, discover};
-use creepage::discrepancy::html::html;
-use creepage::discrepancy::identifiable::{Checked, Standing, check};
+use creepage::discrepancy::clock_alignment::{check_aligned, discover_aligned};
+use creepage::discrepancy::identifiability::{Checked, Standing, check};
+use creepage::discrepancy::pipeline::{Request, discover};
+use creepage::discrepancy::rendering::html::html;
 use creepage::discrepancy::report::{Report, Verdict};
 use creepage::effects;
 use creepage::files::{ModelFile, Run};

@@ -2,7 +2,7 @@
 
 use crate::read_back::read_back;
 use crate::simulator::{self, Hidden, Log, Noise, Scenario, Tractor};
-use creepage::discrepancy::discover::{Discovery, Request, discover};
+use creepage::discrepancy::pipeline::{Discovery, Request, discover};
 use creepage::discrepancy::report::Verdict;
 use creepage::files::ModelFile;
 use creepage::formula::Unit;

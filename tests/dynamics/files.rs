@@ -241,7 +241,7 @@ fn a_model_without_forces_is_simulated_as_before() {
 /// Of a section that is a part of the vehicle no masses are known, and the trailers behind it hang on them.
 #[test]
 fn no_forces_are_known_for_a_vehicle_of_sections() {
-    let vehicles = creepage::library::vehicles_with_own("examples/bus/bus.toml").unwrap();
+    let vehicles = creepage::extensions::vehicles_with_own("examples/bus/bus.toml").unwrap();
     let known = creepage::dynamics::known_on(&vehicles, &[]);
     let lengths = "wheel_radius = 0.478\nwheelbase = 5.9\njoint_offset = 1.65\nrear_length = 5.1\n";
     let forces = "[dynamics]\nmass = 1.0\ninertia = 1.0\n";

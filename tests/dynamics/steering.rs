@@ -1,8 +1,8 @@
 //! Steering that forces do not move: several angles, given as they are or by their rates, and what cannot be given so.
 
 use creepage::dynamics::{Dynamics, Masses, Start, simulate_dynamics};
+use creepage::extensions::vehicles_with_own;
 use creepage::formula::Expr;
-use creepage::library::vehicles_with_own;
 use creepage::model::Model;
 use creepage::motion::{Formulas, Integrator, Method, Table};
 use creepage::vehicles::Vehicle;

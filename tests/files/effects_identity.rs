@@ -1,8 +1,8 @@
 //! Effects that are the same under another name are proved to be, and near misses are not.
 
 use creepage::describe::every_effect_page;
-use creepage::discrepancy::identity::{Measured, Relation, TURN, relation};
 use creepage::effects::{self, Applied, Effect};
+use creepage::equivalence::{Measured, Relation, TURN, relation};
 use creepage::formula::{Expr, Symbol, identical};
 use creepage::model::{Model, Trailer};
 use creepage::vehicles;

@@ -8,7 +8,7 @@ use crate::simulator::{Hidden, Noise, Scenario, Tractor};
 use crate::slips;
 use creepage::describe::{self, Description};
 use creepage::effects::{Applied, Effect};
-use creepage::library::with_own;
+use creepage::extensions::with_own;
 use creepage::model::Model;
 use creepage::motion::{Integrator, Signals, Table, Timing, simulate_model};
 use proptest::prelude::*;

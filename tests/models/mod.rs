@@ -42,7 +42,7 @@ pub fn still() -> Vec<Model> {
     of_catalogue(|id| STILL.contains(&id))
 }
 
-static LIBRARY: LazyLock<Vec<Effect>> = LazyLock::new(|| creepage::library::with_own(OWN_EFFECTS).unwrap());
+static LIBRARY: LazyLock<Vec<Effect>> = LazyLock::new(|| creepage::extensions::with_own(OWN_EFFECTS).unwrap());
 
 /// The example of a user's own effects: the laws of effects hold for them, too.
 pub const OWN_EFFECTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/effects/my_effects.toml");

@@ -8,7 +8,7 @@ use creepage::claims::{Outcome, Status};
 use creepage::figures::{fixed, readings};
 use creepage::formula::Expr;
 use creepage::motion::{FIG7_DURATION, Reading, fig7_case};
-use creepage::picture::number::with_error;
+use creepage::number_format::with_error;
 use creepage::{effects, vehicles};
 use std::fmt::Write;
 

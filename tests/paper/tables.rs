@@ -3,14 +3,15 @@
 use super::cornering;
 use super::ledger::said;
 use super::markup::{formula, head, rows, string};
-use creepage::discrepancy::discover::Discovery;
-use creepage::discrepancy::identity::{Measured, Relation, relation};
+use creepage::discrepancy::pipeline::Discovery;
 use creepage::effects::{self, Applied};
+use creepage::equivalence::{Measured, Relation, relation};
 use creepage::figures::readings;
 use creepage::formula::Expr;
 use creepage::model::Model;
 use creepage::motion::{Reading, fig7_case};
-use creepage::picture::number::{self, decimals};
+use creepage::number_format;
+use creepage::number_format::decimals;
 use std::sync::LazyLock;
 
 pub fn file() -> String {
@@ -51,7 +52,7 @@ fn number(x: f64, places: usize) -> String {
 fn ends() -> String {
     let row = |(name, e_rc, e_tc): &(&str, f64, f64)| {
         let [plain, kept] = [Reading::NonConservative, Reading::A].map(|r| fig7_case(*e_rc, *e_tc, r).unwrap());
-        let coefficient = |e: f64| string(&number::plain(e));
+        let coefficient = |e: f64| string(&number_format::plain(e));
         let mut cells = vec![string(&format!("({name})")), coefficient(*e_rc), coefficient(*e_tc)];
         cells.extend([plain.x, plain.y, kept.x, kept.y, kept.phi].map(|v| number(v, 4)));
         cells

@@ -2,9 +2,9 @@
 
 use crate::reviewed::reviewed;
 use crate::synthetic::{bare, path_picture, pictures, report, residual};
-use creepage::discrepancy::html::{gap_svg, html};
+use creepage::discrepancy::rendering::html::{gap_svg, html};
+use creepage::discrepancy::rendering::summary::summary_text;
 use creepage::discrepancy::report::*;
-use creepage::discrepancy::summary::summary_text;
 
 const VERDICTS: [Verdict; 5] = [
     Verdict::UnusableData,
@@ -121,7 +121,7 @@ fn the_drawing_says_in_its_title_what_shrank() {
     let [page, svg] = check(&report(), &pictures());
     let (title, _) = svg.split_once("</title>").unwrap();
     let gap = report().gap[1].held_out.unwrap();
-    let mm = |v: f64| creepage::picture::number::significant(1000.0 * v, 2);
+    let mm = |v: f64| creepage::number_format::significant(1000.0 * v, 2);
     let shrank = format!(
         "Held-out position error after 5 s: {} → {} mm",
         mm(gap.position_rms_before),

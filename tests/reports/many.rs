@@ -4,11 +4,11 @@
 use crate::reviewed::reviewed;
 use crate::rounded::rounded;
 use crate::simulator::{Hidden, Mounting, Noise, Profile, Scenario, Signal, Timing, Tractor, Vehicle};
-use creepage::discrepancy::discover::{Discovery, Request, discover};
-use creepage::discrepancy::html::html;
-use creepage::discrepancy::identifiable::{Checked, check, check_text};
+use creepage::discrepancy::identifiability::{Checked, check, check_text};
+use creepage::discrepancy::pipeline::{Discovery, Request, discover};
+use creepage::discrepancy::rendering::html::html;
+use creepage::discrepancy::rendering::summary::summary_text;
 use creepage::discrepancy::report::Pictures;
-use creepage::discrepancy::summary::summary_text;
 use creepage::effects;
 use creepage::files::{ModelFile, Run};
 use creepage::model;

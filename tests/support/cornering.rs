@@ -1,6 +1,6 @@
 //! The example `cornering` through the whole workflow: what `creepage discover` does.
 
-use creepage::discrepancy::discover::{Discovery, Request, discover};
+use creepage::discrepancy::pipeline::{Discovery, Request, discover};
 use creepage::effects;
 use creepage::files::{ModelFile, Run};
 use creepage::model::known;

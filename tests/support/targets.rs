@@ -12,15 +12,15 @@ use creepage::claims::{self, ledger};
 use creepage::describe::{
     Description, effects_json, effects_text, json, latex, text, vehicle_effects_text, vehicles_json, vehicles_text,
 };
-use creepage::discrepancy::discover::{Request, discover};
-use creepage::discrepancy::html::{gap_svg, html};
+use creepage::discrepancy::pipeline::{Request, discover};
+use creepage::discrepancy::rendering::html::{gap_svg, html};
 use creepage::dynamics::{self, Dynamics, simulate_file};
 use creepage::files::{EffectsFile, Initial, Inputs, Known, ModelFile, Run, read_claims};
 use creepage::formula::Expr;
 use creepage::model::Model;
 use creepage::motion::{Integrator, Signals, Table, simulate_model};
 use creepage::sweep::{Shard, Sweep};
-use creepage::{Error, Result, effects, library, vehicles};
+use creepage::{Error, Result, effects, extensions, vehicles};
 use std::path::{Path, PathBuf};
 use std::sync::{LazyLock, OnceLock};
 
@@ -252,20 +252,20 @@ fn swept(dir: &Path) -> Result<()> {
 }
 
 fn own_vehicles(dir: &Path) -> Result<()> {
-    let mut own = library::vehicles_with_own(dir.join("mine.toml"))?;
+    let mut own = extensions::vehicles_with_own(dir.join("mine.toml"))?;
     own.retain(|v| v.origin.is_some());
     assert!(!vehicles_text(&own)?.is_empty() && vehicles_json(&own)?.is_object());
     Ok(())
 }
 
 fn own_model(dir: &Path) -> Result<()> {
-    let all = library::vehicles_with_own(dir.join("mine.toml"))?;
+    let all = extensions::vehicles_with_own(dir.join("mine.toml"))?;
     described(&ModelFile::read(dir.join("model.toml"), &dynamics::known_on(&all, effects::all()))?)
 }
 
 /// The effects of a vehicle, and which of them are one.
 fn relatives(dir: &Path) -> Result<()> {
-    let mut own = library::vehicles_with_own(dir.join("mine.toml"))?;
+    let mut own = extensions::vehicles_with_own(dir.join("mine.toml"))?;
     own.retain(|v| v.origin.is_some());
     let tell = |id: &str| vehicle_effects_text(id, &own, effects::all());
     assert!(!tell(&own[0].id)?.is_empty());
@@ -295,7 +295,7 @@ fn verify(dir: &Path) -> Result<()> {
 }
 
 fn list_effects(dir: &Path) -> Result<()> {
-    let library = library::with_own(dir.join("effects.toml"))?;
+    let library = extensions::with_own(dir.join("effects.toml"))?;
     assert!(
         !effects_text(creepage::vehicles::all(), &library)?.is_empty()
             && effects_json(creepage::vehicles::all(), &library)?.is_object()

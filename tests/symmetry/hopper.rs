@@ -147,7 +147,7 @@ size = 0.1
     assert!(effects::all().iter().all(|e| !e.changes.contains_key("e_sc")));
     let dir = tempfile::tempdir().unwrap();
     std::fs::write(dir.path().join("own.toml"), OWN).unwrap();
-    let library = creepage::library::with_own(dir.path().join("own.toml")).unwrap();
+    let library = creepage::extensions::with_own(dir.path().join("own.toml")).unwrap();
     let body = [1.0, 0.4, 0.6];
     let parameters: Vec<_> = ["body_inertia", "leg_mass", "leg_offset"].into_iter().zip(body).collect();
     let own = library.iter().find(|e| e.id == "kept-spin").unwrap();

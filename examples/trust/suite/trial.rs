@@ -1,7 +1,7 @@
 //! A case put before `discover`, by way of real files.
 
 use super::case::Case;
-use creepage::discrepancy::discover::{Request, discover};
+use creepage::discrepancy::pipeline::{Request, discover};
 use creepage::discrepancy::report::Report;
 use creepage::files::{ModelFile, Run};
 use creepage::{Result, effects, model};

@@ -8,9 +8,9 @@ use crate::vehicles::{Definition, Input, Vehicle, Wheel};
 use std::collections::BTreeMap;
 
 /// How far the contact of a castor is behind its axis.
-pub(super) const TRAIL: (i64, i64) = (1, 4);
+pub(crate) const TRAIL: (i64, i64) = (1, 4);
 
-pub(super) fn symbol(stem: &str, i: usize) -> Symbol {
+pub(crate) fn symbol(stem: &str, i: usize) -> Symbol {
     Symbol::new(&format!("{stem}_{i}"))
 }
 
@@ -25,7 +25,7 @@ fn defined(formula: &str) -> Definition {
 
 impl Placed {
     /// The angle from the body's heading to the wheel's; none for a wheel along the body.
-    pub(super) fn angle(&self) -> Option<Symbol> {
+    pub(crate) fn angle(&self) -> Option<Symbol> {
         match &self.facing {
             Facing::Fixed(heading) => heading.as_rational().is_none().then(|| symbol("mount", self.k)),
             Facing::Steered => Some("delta".into()),

@@ -24,7 +24,7 @@ pub use moving::{Contact, Moving};
 pub use stand::{Facing, Placed};
 pub use strategy::{any_drive, loose_vehicles, moving, vehicles};
 
-use super::point::written;
+use super::exact_point::written;
 use crate::formula::Exact;
 
 /// How a generated vehicle is driven.

@@ -3,7 +3,7 @@
 use super::describe::{TRAIL, symbol};
 use super::plane::{Pair, dot, is_nonzero, left_of, plus, times, toward};
 use super::{Facing, Generated, Placed};
-use crate::claims::point::written;
+use crate::claims::exact_point::written;
 use crate::formula::{Exact, Scalar, Symbol};
 use crate::mechanism::Point;
 use std::collections::BTreeMap;
@@ -36,7 +36,7 @@ pub struct Moving {
 
 impl Moving {
     /// A vehicle with a twist and rates for steering, wheels, castors and trailers.
-    pub(super) fn new(vehicle: Generated, twist: [Exact; 3], rates: Vec<Exact>) -> Self {
+    pub(crate) fn new(vehicle: Generated, twist: [Exact; 3], rates: Vec<Exact>) -> Self {
         let wheels = vehicle.wheels().unwrap_or_default();
         let turning = wheels.iter().flat_map(|w| [symbol("theta", w.k), symbol("gamma", w.k)]);
         let trailers = (1..=vehicle.trailers()).map(|i| symbol("phi", i));

@@ -2,7 +2,7 @@
 
 use super::plane::{Pair, is_nonzero, left_of, plus, times, toward};
 use super::{Drive, Generated, Own, Stand};
-use crate::claims::point::written;
+use crate::claims::exact_point::written;
 use crate::formula::{Exact, Fun, Scalar};
 use std::fmt;
 
@@ -67,7 +67,7 @@ impl Generated {
     }
 
     /// Yaw per length; `None` where a steered wheel stands across.
-    pub(super) fn turning(&self) -> Option<Exact> {
+    pub(crate) fn turning(&self) -> Option<Exact> {
         if !self.is_steered() {
             return Some(self.curvature.clone());
         }
@@ -77,16 +77,16 @@ impl Generated {
         Some(sin.div(&self.size.mul(&cos))).filter(Scalar::is_defined)
     }
 
-    pub(super) fn is_steered(&self) -> bool {
+    pub(crate) fn is_steered(&self) -> bool {
         matches!(self.drive, Drive::Car | Drive::Tricycle)
     }
 
-    pub(super) fn steering(&self) -> Exact {
+    pub(crate) fn steering(&self) -> Exact {
         self.angles.get(1).cloned().unwrap_or_else(|| Exact::ratio(0, 1))
     }
 
     /// Different wheels, different radii: one that another has already is made half as large again until it differs.
-    pub(super) fn tell_radii_apart(&mut self) {
+    pub(crate) fn tell_radii_apart(&mut self) {
         let mut met: Vec<Exact> = Vec::new();
         let own = self.own.iter_mut().map(|o| &mut o.radius);
         for radius in own.chain(self.further.iter_mut().map(|f| &mut f.radius)) {

@@ -1,7 +1,7 @@
 //! How vehicles and their motions are drawn.
 
 use super::{Drive, Further, Generated, Moving, Own, Stand};
-use crate::claims::point::{Domain, value};
+use crate::claims::exact_point::{Domain, value};
 use crate::formula::Exact;
 use proptest::prelude::*;
 

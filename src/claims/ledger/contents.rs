@@ -1,7 +1,7 @@
 //! Lists of the claims that need no run: what is claimed, and where each equation of the paper is dealt with.
 
-use super::super::Claim;
 use super::json::claim;
+use crate::claims::Claim;
 use serde_json::{Value, json};
 use std::fmt::Write;
 

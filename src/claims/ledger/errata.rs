@@ -1,6 +1,6 @@
 //! The paper's errata, from the claims.
 
-use super::super::{Entry, Gives, Ledger, Outcome, Status};
+use crate::claims::{Entry, Gives, Ledger, Outcome, Status};
 use std::fmt::Write;
 
 /// `theory/ERRATA.md`: what the paper prints that is not so, with the counterexample the machine found, and what is.

@@ -1,6 +1,6 @@
 //! The ledger for scripts.
 
-use super::super::{Claim, Entry, Evidence, Ledger, Outcome, Status};
+use crate::claims::{Claim, Entry, Evidence, Ledger, Outcome, Status};
 use serde_json::{Map, Value, json};
 
 /// Every claim with the status it earned, its evidence and the counts.
@@ -20,7 +20,7 @@ pub fn json(ledger: &Ledger) -> Value {
 }
 
 /// What a claim says, without what it earned.
-pub(super) fn claim(c: &Claim) -> Value {
+pub(crate) fn claim(c: &Claim) -> Value {
     json!({
         "id": c.id, "says": c.says, "place": c.place, "equations": c.equations, "hypotheses": c.hypotheses,
         "remark": c.remark, "stated": c.stated.name(), "evidence": c.evidence.iter().map(evidence).collect::<Vec<_>>(),

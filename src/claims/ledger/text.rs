@@ -1,7 +1,7 @@
 //! The ledger for a terminal.
 
-use super::super::{Entry, Ledger, Status};
 use super::outcome;
+use crate::claims::{Entry, Ledger, Status};
 use std::fmt::Write;
 
 /// Width of the column of statuses.

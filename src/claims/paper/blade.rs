@@ -13,12 +13,12 @@ fn direction() -> Option<Form> {
     sleigh.constraints.into_iter().find(|c| c.letter() == 'T').map(|c| c.form)
 }
 
-pub(super) fn formula(text: &str) -> Expr {
+pub(crate) fn formula(text: &str) -> Expr {
     Expr::parse(text).unwrap_or_else(|_| Expr::int(0))
 }
 
 /// Velocities of the sleigh in the world, its row g with creep and without, s, p and σ, and derivatives of all.
-pub(super) fn sleigh() -> Machine {
+pub(crate) fn sleigh() -> Machine {
     let velocities = Machine::default()
         .with_text("x'", "v_l*cos(phi) - v_t*sin(phi)")
         .with_text("y'", "v_l*sin(phi) + v_t*cos(phi)");
@@ -47,7 +47,7 @@ pub(super) fn sleigh() -> Machine {
 }
 
 /// The row with x' and y' left free.
-pub(super) fn row() -> Machine {
+pub(crate) fn row() -> Machine {
     let machine = sleigh();
     let keep = ["g", "g_phi", "g_e", "ideal", "s", "p", "sigma", "s_phi", "p_phi", "s_e", "p_e"];
     keep.iter().fold(Machine::default(), |m, name| match machine.formula(name) {
@@ -56,12 +56,12 @@ pub(super) fn row() -> Machine {
     })
 }
 
-pub(super) fn on_row(s: &Statement, _: &Sampling) -> Outcome {
+pub(crate) fn on_row(s: &Statement, _: &Sampling) -> Outcome {
     static MACHINE: LazyLock<Machine> = LazyLock::new(row);
     prove(&MACHINE, s)
 }
 
-pub(super) fn on_sleigh(s: &Statement, _: &Sampling) -> Outcome {
+pub(crate) fn on_sleigh(s: &Statement, _: &Sampling) -> Outcome {
     static MACHINE: LazyLock<Machine> = LazyLock::new(sleigh);
     prove(&MACHINE, s)
 }

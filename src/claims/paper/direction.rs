@@ -10,7 +10,7 @@ const CHAPTER: &str = "03-traverse-creep";
 const REGULAR: &str = "03b-singularity-free";
 const FORMS: &str = "src/mechanism/contact.rs";
 
-pub(super) fn claims() -> Vec<Claim> {
+pub(crate) fn claims() -> Vec<Claim> {
     [intrinsic(), regular(), group()].concat()
 }
 

@@ -8,7 +8,7 @@ use crate::formula::{Exact, Expr, Fun, Node, Normal, Scalar, Symbol};
 ///
 /// Proved by comparing the product of the left side's divisors with the right side in normal form; refuted by the
 /// simplest numbers at which one is the case and not the other.
-pub(super) fn undefined_exactly_where(machine: &Machine, statement: &Statement) -> Outcome {
+pub(crate) fn undefined_exactly_where(machine: &Machine, statement: &Statement) -> Outcome {
     Outcome::all(statement.equations().iter().map(|equation| {
         let derived = machine.put_into(equation.left.clone());
         match mismatch(equation, &derived) {
@@ -20,14 +20,14 @@ pub(super) fn undefined_exactly_where(machine: &Machine, statement: &Statement) 
 }
 
 /// A formula that is of the first degree in a coefficient, solved for it: where it is `value`.
-pub(super) fn solved_for(coefficient: &str, formula: &Expr, value: &Expr) -> Expr {
+pub(crate) fn solved_for(coefficient: &str, formula: &Expr, value: &Expr) -> Expr {
     let name = Symbol::from(coefficient);
     let without = formula.substitute(&|s| (*s == name).then(|| Expr::int(0)));
     &(value - &without) / &formula.derivative(&name)
 }
 
 /// Shows that every right side has a value everywhere, whatever the values of its symbols.
-pub(super) fn defined_everywhere(statement: &Statement) -> Outcome {
+pub(crate) fn defined_everywhere(statement: &Statement) -> Outcome {
     Outcome::all(statement.equations().iter().map(|equation| {
         if divisors(&equation.right).as_number().is_some() {
             return Outcome::PROVED;

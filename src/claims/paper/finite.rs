@@ -2,14 +2,14 @@
 
 use super::domain::undefined_exactly_where;
 use super::rotation::solved;
-use crate::claims::driven::{Creep, driven, model, undefined};
+use crate::claims::simulated::{Creep, driven, model, undefined};
 use crate::claims::{Claim, Fault, Machine, Outcome, Sampling, Statement, Status, Verdict, near, proving, value_said};
 use crate::error::Result;
 use proptest::prelude::*;
 
 const CHAPTER: &str = "02-rotation-creep";
 
-pub(super) fn claims() -> Vec<Claim> {
+pub(crate) fn claims() -> Vec<Claim> {
     vec![
         Claim::new("eq-5", Status::Sampled, "the angle of rotation creep θ_rc = θ − θ₁ with d = r·θ₁")
             .at("section 2, (5)–(6), the rotational pair (d, θ)")
@@ -97,7 +97,7 @@ fn wheel(r: f64, effect: Creep, yaw_rate: &str, c: &[f64], start: &[f64], times:
 }
 
 /// (d, θ) of a wheel with constant rotation creep.
-pub(super) fn rotational_pair(s: &Statement, sampling: &Sampling) -> Outcome {
+pub(crate) fn rotational_pair(s: &Statement, sampling: &Sampling) -> Outcome {
     sampling.one_in(4).cases(cases(), shown, |(r, e, c, t)| {
         let path = wheel(*r, ("rotation-creep", None, vec![*e]), "0", c, &[0.0; 3], &[0.0, *t]);
         let d = path.map_err(|e| undefined(&e))?[1][0];
@@ -114,7 +114,7 @@ pub(super) fn rotational_pair(s: &Statement, sampling: &Sampling) -> Outcome {
 }
 
 /// (ξ, η) of a wheel with constant traverse creep and constant heading.
-pub(super) fn traverse_pair(s: &Statement, sampling: &Sampling) -> Outcome {
+pub(crate) fn traverse_pair(s: &Statement, sampling: &Sampling) -> Outcome {
     sampling.one_in(4).cases(cases(), shown, |(r, e, c, t)| {
         let heading = c[2];
         let path = wheel(*r, ("traverse-creep", None, vec![*e]), "0", c, &[0.0, 0.0, heading], &[0.0, *t]);
@@ -139,7 +139,7 @@ fn moving_frame(from: &[f64], to: &[f64]) -> (f64, f64) {
 const SPANS: [f64; 3] = [4e-4, 2e-4, 1e-4];
 
 /// θ_rc/θ over shorter and shorter times, of a wheel that pushes through a viscous contact.
-pub(super) fn rotation_limit(s: &Statement, sampling: &Sampling) -> Outcome {
+pub(crate) fn rotation_limit(s: &Statement, sampling: &Sampling) -> Outcome {
     sampling.one_in(4).cases(cases(), shown, |(r, e, c, t)| {
         let effect = ("traction-creep", None, vec![0.05 + e.abs()]);
         let mut times = vec![0.0, *t];
@@ -162,7 +162,7 @@ pub(super) fn rotation_limit(s: &Statement, sampling: &Sampling) -> Outcome {
 }
 
 /// η/ξ over shorter and shorter times, of a wheel held sideways by a viscous contact.
-pub(super) fn traverse_limit(s: &Statement, sampling: &Sampling) -> Outcome {
+pub(crate) fn traverse_limit(s: &Statement, sampling: &Sampling) -> Outcome {
     sampling.one_in(4).cases(cases(), shown, |(r, e, c, t)| {
         let effect = ("cornering-creep", None, vec![0.05 + e.abs()]);
         let mut times = vec![0.0, *t];

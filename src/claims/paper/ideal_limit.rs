@@ -1,7 +1,7 @@
 //! The ideal limit: creep vanishes with its coefficients. Corrected theorem (d).
 
 use super::wheel::wheel;
-use crate::claims::driven::{Creep, TURN, WHEEL, driven, model, undefined};
+use crate::claims::simulated::{Creep, TURN, WHEEL, driven, model, undefined};
 use crate::claims::{Claim, Fault, Machine, Status, near, prove, proving, value_said};
 use crate::error::Result;
 use crate::model::Trailer;
@@ -21,7 +21,7 @@ fn kappa() -> Machine {
     })
 }
 
-pub(super) fn claims() -> Vec<Claim> {
+pub(crate) fn claims() -> Vec<Claim> {
     vec![one_wheel(), differential_drive(), trailers()]
 }
 

@@ -1,14 +1,15 @@
 //! Section 1: the pneumatic tyre, equations (1) and (2), as far as kinematics can tell.
 
-use crate::claims::driven::{driven, model, undefined};
+use crate::claims::simulated::{driven, model, undefined};
 use crate::claims::{Claim, Machine, Outcome, Sampling, Statement, Status, near, proving, value_said};
-use crate::effects::{self, Applied};
+use crate::effects;
+use crate::effects::Applied;
 use crate::model::Model;
 
 const CHAPTER: &str = "01-introduction";
 const EFFECTS: &str = "src/effects/catalogue.toml";
 
-pub(super) fn claims() -> Vec<Claim> {
+pub(crate) fn claims() -> Vec<Claim> {
     vec![
         Claim::new(
             "eq-1",

@@ -8,7 +8,7 @@ const CHAPTER: &str = "10-viscous";
 const LAWS: &str = "src/dynamics/law.rs";
 const TESTS: &str = "tests/dynamics/laws.rs";
 
-pub(super) fn claims() -> Vec<Claim> {
+pub(crate) fn claims() -> Vec<Claim> {
     vec![growth(), elastic(), two_laws()]
 }
 

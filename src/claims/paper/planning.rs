@@ -1,10 +1,10 @@
 //! The paper's plea: planning must account for creep.
 
-use crate::claims::driven::{TURN, WHEEL, driven, model, undefined};
+use crate::claims::simulated::{TURN, WHEEL, driven, model, undefined};
 use crate::claims::{Claim, Fault, Outcome, Sampling, Statement, Status, Verdict, near, value_said};
 use proptest::prelude::*;
 
-pub(super) fn claims() -> Vec<Claim> {
+pub(crate) fn claims() -> Vec<Claim> {
     vec![
         Claim::new("planning", Status::Sampled, "a plan made on the ideal wheel misses its goal by (κ − 1)·goal when executed with creep, and hits when made with it")
             .at("sections 1 and 5: existing algorithms for planning and control should be modified")

@@ -1,8 +1,8 @@
 //! Section 4, simulation: with forces the energy is what friction leaves of it.
 
-use crate::claims::driven::undefined;
-use crate::claims::forced::{along_motion, ideal, lettered, machine_of, residuals, viscous};
-use crate::claims::pushed::{Pushed, pushed};
+use crate::claims::generated_forced::{Pushed, pushed};
+use crate::claims::simulated::undefined;
+use crate::claims::with_forces::{along_motion, ideal, lettered, machine_of, residuals, viscous};
 use crate::claims::{Claim, Machine, Statement, Status, Verdict, near, proving, value_said};
 use crate::dynamics::Dynamics;
 use crate::error::Result;
@@ -10,7 +10,7 @@ use crate::formula::Expr;
 
 const CHAPTER: &str = "10-viscous";
 
-pub(super) fn claims() -> Vec<Claim> {
+pub(crate) fn claims() -> Vec<Claim> {
     vec![energy_falls()]
 }
 

@@ -1,14 +1,14 @@
 //! Realisation as an inversion: from any admissible motion back to the coefficients and round again.
 
-use crate::claims::driven::{Creep, model, undefined};
 use crate::claims::generated::{Contact, Moving, moving};
+use crate::claims::simulated::{Creep, model, undefined};
 use crate::claims::{Claim, Fault, Statement, Status, Verdict, near, value_said};
 use crate::formula::{Exact, Expr, Symbol};
 use crate::model::{Model, Trailer};
 use crate::vehicles::Definition;
 use proptest::prelude::*;
 
-pub(super) fn claims() -> Vec<Claim> {
+pub(crate) fn claims() -> Vec<Claim> {
     vec![
         Claim::new("realisation", Status::Sampled, "every admissible creeping motion has coefficients, and they give the motion back")
             .at("section 4, Proposition and both theorems; corrected theorems (a)–(c)")

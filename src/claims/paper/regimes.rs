@@ -6,7 +6,7 @@ use proptest::prelude::Strategy;
 
 const CODE: &[&str] = &["src/mechanism/regime/rotation.rs", "src/mechanism/regime/traverse.rs"];
 
-pub(super) fn claims() -> Vec<Claim> {
+pub(crate) fn claims() -> Vec<Claim> {
     let remark = "The limits are inputs: nothing in the paper determines them. For T the paper names no regime outside \
                   its open interval; side-slip is our word.";
     vec![

@@ -1,7 +1,7 @@
 //! Section 2: rotation creep of a disk, equations (3)–(13).
 
-use crate::claims::paper::domain::{solved_for, undefined_exactly_where};
-use crate::claims::paper::finite;
+use super::domain::{solved_for, undefined_exactly_where};
+use super::finite;
 use crate::claims::{Claim, Domain, Machine, Outcome, Sampling, Statement, Status, at_points, prove};
 use crate::formula::Expr;
 use crate::mechanism::Part;
@@ -23,7 +23,7 @@ fn disk() -> Machine {
 }
 
 /// The derived speed of the disk solved for the coefficient, at any speed and rate.
-pub(super) fn solved() -> Machine {
+pub(crate) fn solved() -> Machine {
     let speed = Machine::of("disk").with_text("theta'", "omega").written_out("v_l");
     Machine::default().with("e_rc", solved_for("e_rc", &speed, &Expr::sym("v_l")))
 }
@@ -33,7 +33,7 @@ fn on_disk(s: &Statement, _: &Sampling) -> Outcome {
     prove(&MACHINE, s)
 }
 
-pub(super) fn claims() -> Vec<Claim> {
+pub(crate) fn claims() -> Vec<Claim> {
     [kinematics(), finite::claims(), other_coefficients(), friction(), generic_form()].concat()
 }
 

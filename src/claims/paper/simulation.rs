@@ -1,6 +1,6 @@
 //! Section 4: the simulation of Fig. 7 and the energy rule.
 
-use crate::claims::driven::{Creep, model, undefined};
+use crate::claims::simulated::{Creep, model, undefined};
 use crate::claims::{
     Claim, Domain, Fault, Machine, Outcome, Sampling, Statement, Status, Verdict, at_points, near, proving, value_said,
 };
@@ -10,9 +10,9 @@ use crate::motion::{Reading, fig7_case, fig7_path};
 use proptest::prelude::*;
 
 const CHAPTER: &str = "08-simulation";
-const CONSERVATIVE: &str = "src/motion/conservative.rs";
+const CONSERVATIVE: &str = "src/energy_rule/readings.rs";
 
-pub(super) fn claims() -> Vec<Claim> {
+pub(crate) fn claims() -> Vec<Claim> {
     vec![figure(), data(), energy_rule(), constant_energy(), traverse_first()]
 }
 

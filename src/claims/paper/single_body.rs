@@ -23,7 +23,7 @@ fn determinant(machine: &Machine, velocities: [&str; 3], coefficients: [&str; 3]
 }
 
 /// Two driven wheels, right 1 and left 2, with the velocities of their contacts on the ground.
-pub(super) fn two_wheels() -> Machine {
+pub(crate) fn two_wheels() -> Machine {
     let machine = Machine::of("differential-drive")
         .with_text("r_1", "r")
         .with_text("r_2", "r")
@@ -67,7 +67,7 @@ fn car() -> Machine {
     machine.with("det", det).with("yaw_by_f", by("e_f")).with("yaw_by_r", by("e_tc"))
 }
 
-pub(super) fn claims() -> Vec<Claim> {
+pub(crate) fn claims() -> Vec<Claim> {
     [equations(), slips(), corrected_theorem(), reference_point()].concat()
 }
 

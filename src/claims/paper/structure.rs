@@ -4,12 +4,13 @@ use crate::claims::{Claim, Machine, Outcome, Sampling, Statement, Status, provin
 use crate::formula::{Exact, Expr, Node, Scalar, Symbol};
 use crate::mechanism::{Mechanism, Nonholonomy, Point};
 use crate::model::mechanism;
-use crate::vehicles::{self, Vehicle};
+use crate::vehicles;
+use crate::vehicles::Vehicle;
 use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock, Mutex};
 
 const CHAPTER: &str = "05a-holonomy";
-const GROWTH: &str = "src/mechanism/growth.rs";
+const GROWTH: &str = "src/mechanism/growth_vector.rs";
 const INTEGRALS: &str = "src/mechanism/integrals.rs";
 
 #[derive(serde::Deserialize)]
@@ -22,7 +23,7 @@ static DESCRIBED: LazyLock<Vec<Vehicle>> = LazyLock::new(|| {
     toml::from_str::<Descriptions>(include_str!("descriptions.toml")).map(|d| d.vehicle).unwrap_or_default()
 });
 
-pub(super) fn described(id: &str) -> Option<&'static Vehicle> {
+pub(crate) fn described(id: &str) -> Option<&'static Vehicle> {
     vehicles::named(id).or_else(|| DESCRIBED.iter().find(|v| v.id == id))
 }
 
@@ -148,7 +149,7 @@ impl Found {
     }
 }
 
-pub(super) fn claims() -> Vec<Claim> {
+pub(crate) fn claims() -> Vec<Claim> {
     let found = Found::default();
     vec![counts(&found), integral(&found), skid_steer(&found), table(&found), trains(&found), degrees(&found)]
 }

@@ -1,6 +1,6 @@
 //! Section 4, last paragraph: constraints that are symmetries, and their geometry.
 
-use crate::claims::driven::{model, undefined};
+use crate::claims::simulated::{model, undefined};
 use crate::claims::{Claim, Fault, Machine, Outcome, Sampling, Statement, Status, Verdict, near, proving, value_said};
 use crate::connection::{Axis, Connection, Matrix, Path, PlanarBody, RotationConnection, floating_energy, turned};
 use crate::formula::{Exact, Expr, Symbol};
@@ -16,11 +16,11 @@ const MOMENTUM: &str = "src/mechanism/momentum.rs";
 const CONNECTION: &str = "src/connection/abelian.rs";
 const ROTATION: &str = "src/connection/rotation.rs";
 
-pub(super) fn claims() -> Vec<Claim> {
+pub(crate) fn claims() -> Vec<Claim> {
     vec![hopper(), curvature(), phase(), one_hinge(), two_hinges(), cat(), cat_loop()]
 }
 
-pub(super) fn base(id: &str, status: Status, says: &str) -> Claim {
+pub(crate) fn base(id: &str, status: Status, says: &str) -> Claim {
     Claim::new(id, status, says).at(PLACE).chapter(CHAPTER)
 }
 
@@ -28,12 +28,12 @@ pub(super) fn base(id: &str, status: Status, says: &str) -> Claim {
 const ENERGY: &str = "I*psi'^2/2 + m*(l + d)^2*(psi' + theta')^2/2 + m*l'^2/2";
 
 /// Body and leg turn together.
-pub(super) fn turn() -> [(Symbol, Expr); 1] {
+pub(crate) fn turn() -> [(Symbol, Expr); 1] {
     [("psi".into(), Expr::int(1))]
 }
 
 /// The momentum of the hopper, and its shape.
-pub(super) fn hopping() -> Option<(Momentum, [Symbol; 2])> {
+pub(crate) fn hopping() -> Option<(Momentum, [Symbol; 2])> {
     let momentum = Momentum::of(&super::blade::formula(ENERGY), &turn()).ok()?;
     Some((momentum, ["l", "theta"].map(Symbol::from)))
 }
@@ -78,7 +78,7 @@ fn curvature() -> Claim {
     };
     base("hopper-curvature", Status::Proved, "the hopper's constraint is nonholonomic: its curvature dσ/dl is not zero")
         .under("I > 0, m > 0, l + d > 0")
-        .code(&[CONNECTION, "src/mechanism/growth.rs"])
+        .code(&[CONNECTION, "src/mechanism/growth_vector.rs"])
         .tests(&["tests/symmetry/connection.rs"])
         .proof(
             "by exact derivatives of the local form",
@@ -140,7 +140,7 @@ fn three_ways((swing, [i, m, d]): &Hop) -> Result<[f64; 3], Fault> {
 }
 
 /// Within so much of each other without regard to size.
-pub(super) fn within(what: &str, found: f64, said: f64, tolerance: f64) -> Verdict {
+pub(crate) fn within(what: &str, found: f64, said: f64, tolerance: f64) -> Verdict {
     match (found - said).abs() <= tolerance {
         true => Ok(()),
         false => Err(Fault::False(format!("{what} is {found:.14}, the statement says {said:.14}"))),
@@ -148,7 +148,7 @@ pub(super) fn within(what: &str, found: f64, said: f64, tolerance: f64) -> Verdi
 }
 
 /// What became of checks of numbers that stand by themselves.
-pub(super) fn all_of(checks: impl IntoIterator<Item = Verdict>) -> Outcome {
+pub(crate) fn all_of(checks: impl IntoIterator<Item = Verdict>) -> Outcome {
     Outcome::all(checks.into_iter().map(|check| match check {
         Ok(()) => Outcome::Holds { cases: 1 },
         Err(Fault::False(says)) => Outcome::failure(says),

@@ -1,7 +1,7 @@
 //! Section 4, last paragraph: creep of constraints that are symmetries, by the drag of air.
 
 use super::symmetry::{all_of, base, hopping, turn, within};
-use crate::claims::driven::undefined;
+use crate::claims::simulated::undefined;
 use crate::claims::{
     Claim, Domain, Fault, Machine, Outcome, Sampling, Statement, Status, at_points, near, prove, proving, value_said,
 };
@@ -16,7 +16,7 @@ const AIR: &str = "c_b*psi'^2/2 + c_l*(psi' + theta')^2/2";
 const ON_THE_LEG: &str = "c_b*psi'^2/2 + c_l*(l + d)^2*(psi' + theta')^2/2";
 const TESTS: [&str; 1] = ["tests/symmetry/drag.rs"];
 
-pub(super) fn claims() -> Vec<Claim> {
+pub(crate) fn claims() -> Vec<Claim> {
     vec![memory(), no_memory(), coefficient(), creep(), recovery()]
 }
 

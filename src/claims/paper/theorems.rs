@@ -14,7 +14,7 @@ const GENERATED: &str = "src/claims/generated/stand.rs";
 const TESTS: &str = "tests/mechanism/realisation.rs";
 const DRAWN: &str = "tests/claims/generated.rs";
 
-pub(super) fn claims() -> Vec<Claim> {
+pub(crate) fn claims() -> Vec<Claim> {
     vec![single_body(), passive(), trailers(), only_traverse()]
 }
 

@@ -1,7 +1,7 @@
 //! Section 4: a car with N trailers; corrected theorem (c).
 
 use super::domain::undefined_exactly_where;
-use crate::claims::driven::{driven, model, undefined};
+use crate::claims::simulated::{driven, model, undefined};
 use crate::claims::{Claim, Machine, Outcome, Sampling, Statement, Status, near, prove, proving, value_said};
 use crate::model::Trailer;
 
@@ -29,7 +29,7 @@ fn courses(n: usize) -> Machine {
     })
 }
 
-pub(super) fn claims() -> Vec<Claim> {
+pub(crate) fn claims() -> Vec<Claim> {
     [recursion(), towing()].concat()
 }
 

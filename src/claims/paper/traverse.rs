@@ -9,7 +9,7 @@ use crate::formula::Expr;
 const CHAPTER: &str = "03-traverse-creep";
 const FORMS: &str = "src/mechanism/contact.rs";
 
-pub(super) fn claims() -> Vec<Claim> {
+pub(crate) fn claims() -> Vec<Claim> {
     [velocities(), coefficient(), signs(), friction()].concat()
 }
 

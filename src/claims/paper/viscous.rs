@@ -1,15 +1,15 @@
 //! Sections 2 and 3 with forces: disk and sleigh under viscous friction, and their ideal motions.
 
-use crate::claims::forced::{ideal, lettered, machine_of, residuals, vanishing, viscous};
+use crate::claims::with_forces::{ideal, lettered, machine_of, residuals, vanishing, viscous};
 use crate::claims::{Claim, Machine, Sampling, Statement, Status, proving};
 use crate::dynamics::{Dynamics, Formulas};
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
 
-pub(super) const CHAPTER: &str = "10-viscous";
+pub(crate) const CHAPTER: &str = "10-viscous";
 const CODE: &[&str] = &["src/dynamics/derive.rs", "src/dynamics/bodies.rs", "src/dynamics/contact.rs"];
 
-pub(super) fn claims() -> Vec<Claim> {
+pub(crate) fn claims() -> Vec<Claim> {
     vec![disk(), disk_ideal(), sleigh(), caplygin(), slow_creep(), constant_creep()]
 }
 

@@ -1,8 +1,8 @@
 //! The limit b → ∞: the free motion with friction tends to the ideally constrained one, measured.
 
 use super::viscous::CHAPTER;
-use crate::claims::driven::undefined;
-use crate::claims::pushed::{Pushed, pushed};
+use crate::claims::generated_forced::{Pushed, pushed};
+use crate::claims::simulated::undefined;
 use crate::claims::{Claim, Fault, Outcome, Statement, Status, Verdict, near, value_said};
 use crate::dynamics::{Dynamics, Masses, Start, simulate_dynamics};
 use crate::error::{Error, Result};
@@ -10,7 +10,7 @@ use crate::model::Model;
 use crate::motion::{Formulas, Integrator, Method, Table};
 use std::sync::LazyLock;
 
-pub(super) fn claims() -> Vec<Claim> {
+pub(crate) fn claims() -> Vec<Claim> {
     vec![order(), sleigh(), emerging(), not_uniform()]
 }
 
@@ -19,7 +19,7 @@ fn base(id: &str, says: &str) -> Claim {
         .at("introduction and section 2: the realization of constraints by viscous friction [6]; corrected theorem (e)")
         .about(&[11, 18])
         .chapter(CHAPTER)
-        .code(&["src/dynamics/system.rs", "src/motion/stiff.rs"])
+        .code(&["src/dynamics/system.rs", "src/motion/integrators/radau.rs"])
         .tests(&["tests/dynamics/sleigh.rs", "tests/dynamics/vehicles.rs"])
 }
 

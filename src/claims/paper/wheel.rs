@@ -1,7 +1,7 @@
 //! Section 4: the single wheel, equations (22)–(25) and the Proposition.
 
 use super::domain::defined_everywhere;
-use crate::claims::driven::{TURN, WHEEL, driven, model, undefined};
+use crate::claims::simulated::{TURN, WHEEL, driven, model, undefined};
 use crate::claims::{Claim, Machine, Outcome, Sampling, Statement, Status, near, prove, value_said};
 use crate::model::mechanism;
 use crate::vehicles;
@@ -12,7 +12,7 @@ const CHAPTER: &str = "04-single-wheel";
 const BUILD: &str = "src/model/build.rs";
 
 /// The wheel: its motion, its two rows without creep, the determinant of (v_l, v_t) by (e_rc, e_tc).
-pub(super) fn wheel() -> Machine {
+pub(crate) fn wheel() -> Machine {
     let machine = Machine::of("unicycle");
     let by = |name: &str, e: &str| machine.written_out(name).derivative(&e.into());
     let det = &(&by("v_l", "e_rc") * &by("v_t", "e_tc")) - &(&by("v_l", "e_tc") * &by("v_t", "e_rc"));
@@ -37,7 +37,7 @@ fn on_rows(s: &Statement, _: &Sampling) -> Outcome {
     prove(&MACHINE, s)
 }
 
-pub(super) fn claims() -> Vec<Claim> {
+pub(crate) fn claims() -> Vec<Claim> {
     [equations(), proposition(), similarity()].concat()
 }
 

@@ -1,7 +1,7 @@
 //! Elementary functions over a block of lanes, the same bits on every processor.
 
-use super::super::float::{finite, quotient};
 use super::Fun;
+use crate::formula::float::{finite, quotient};
 
 /// Largest argument whose whole quarter turns are taken away exactly: 2²⁰·π/2 and some margin below.
 const FAR: f64 = 1.0e6;

@@ -36,7 +36,7 @@ fn constant(name: &Symbol) -> Symbol {
 }
 
 /// Rates and readings over lanes.
-pub(super) struct LaneEquations {
+pub(crate) struct LaneEquations {
     /// States.
     pub n: usize,
     pub visible: usize,

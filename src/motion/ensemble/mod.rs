@@ -8,7 +8,7 @@ mod steps;
 
 pub use equations::{EnsembleInputs, Varied};
 
-use super::tableau::{ORDER_4, ORDER_8};
+use super::integrators::tableau::{ORDER_4, ORDER_8};
 use crate::error::{Error, Result};
 use crate::formula::Isa;
 use crate::model::Model;
@@ -16,7 +16,7 @@ use equations::LaneEquations;
 use steps::{Scheme, Span};
 
 /// Lanes of a block: four vectors of AVX-512.
-pub(super) const LANES: usize = 32;
+pub(crate) const LANES: usize = 32;
 
 /// Many cases of one model, each with its own parameters, constants of the inputs and initial pose.
 ///

@@ -41,7 +41,7 @@ struct Work<'a> {
 impl Ensemble {
     /// The first number of steps that an order needs for most of the cases, and what it costs; without bound where the order
     /// does not get there, or not for less than `most`.
-    pub(super) fn effort_of(&self, order: i32, e: &LaneEquations, cases: &[&[f64]], most: f64) -> Result<(f64, f64)> {
+    pub(crate) fn effort_of(&self, order: i32, e: &LaneEquations, cases: &[&[f64]], most: f64) -> Result<(f64, f64)> {
         let mut work = Work::new(e, scheme(order));
         let (stages, spans) = (work.scheme.stages, self.spans(e));
         let cost = |steps| (stages * spans.iter().map(|s| self.steps_in(s, steps)).sum::<usize>()) as f64;
@@ -76,7 +76,7 @@ impl Ensemble {
     }
 
     /// Integrates cases until each is as exact as asked for.
-    pub(super) fn refined(&self, e: &LaneEquations, plan: &Plan, cases: &[&[f64]]) -> Result<Vec<Case>> {
+    pub(crate) fn refined(&self, e: &LaneEquations, plan: &Plan, cases: &[&[f64]]) -> Result<Vec<Case>> {
         let mut work = Work::new(e, scheme(plan.order));
         let mut done: Vec<Option<Case>> = vec![None; cases.len()];
         // The first two runs of every case, then one more for those that need it, side by side again.
@@ -259,10 +259,10 @@ fn extrapolated(coarse: &Rows, fine: &Rows, order: i32) -> Rows {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{EnsembleInputs, Varied};
     use super::*;
     use crate::formula::Expr;
     use crate::model::Model;
+    use crate::motion::ensemble::{EnsembleInputs, Varied};
 
     fn wheels(from: f64, times: &[f64], tolerance: f64) -> Ensemble {
         let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();

@@ -5,7 +5,7 @@ use super::steps::{Lane, States};
 
 /// The error of a case, and what of it is due to steps that are too long.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Estimate {
+pub(crate) struct Estimate {
     /// The whole of it; NaN where the motion is undefined.
     pub error: f64,
     /// As if there were no rounding.
@@ -29,7 +29,7 @@ const LEAST: f64 = 4.0 * f64::EPSILON;
 
 /// What rounding leaves of each lane at best, relative to the size of a state above one: units in the last place, and of
 /// the place on the plane what a heading that is rounded makes of the way there.
-pub(super) struct Floor {
+pub(crate) struct Floor {
     turned_way: Lane,
 }
 

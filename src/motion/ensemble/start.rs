@@ -9,7 +9,7 @@ use crate::model::{Equations, Model};
 use crate::motion::{initial_hidden, visible_state};
 
 /// What finding a start needs beside the lanes: the equations one case at a time.
-pub(super) struct Start {
+pub(crate) struct Start {
     equations: Equations,
     /// Which of the varied quantities are parameters of the equations.
     free: Vec<usize>,
@@ -32,7 +32,7 @@ impl Start {
 
 impl Ensemble {
     /// The states at the first time, lane by lane; lanes beyond the cases repeat the last one.
-    pub(super) fn start(
+    pub(crate) fn start(
         &self,
         e: &LaneEquations,
         readings: &mut Memory<LANES>,

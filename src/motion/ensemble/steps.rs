@@ -3,14 +3,14 @@
 use super::LANES;
 use super::equations::LaneEquations;
 use crate::formula::{Isa, Kernel, Memory, Rows};
-use crate::motion::tableau::Tableau;
+use crate::motion::integrators::tableau::Tableau;
 
 /// The lanes of one quantity.
-pub(super) type Lane = [f64; LANES];
+pub(crate) type Lane = [f64; LANES];
 
 /// A stretch of time on which the inputs are smooth, cut into steps of equal length.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Span {
+pub(crate) struct Span {
     pub from: f64,
     pub to: f64,
     pub steps: usize,
@@ -19,7 +19,7 @@ pub(super) struct Span {
 }
 
 /// The coefficients of a method without its zeros.
-pub(super) struct Scheme {
+pub(crate) struct Scheme {
     pub stages: usize,
     pub order: i32,
     c: Vec<f64>,
@@ -44,7 +44,7 @@ const MOST: usize = 1 << 18;
 /// What depends on the time alone, stage by stage of a run: the same for every block of cases, and kept for the next one
 /// where it is not too much.
 #[derive(Clone, Default)]
-pub(super) struct Instants {
+pub(crate) struct Instants {
     values: Vec<f64>,
     at: usize,
     all: usize,
@@ -75,7 +75,7 @@ impl Instants {
 }
 
 /// Memory for integrating a block.
-pub(super) struct Block {
+pub(crate) struct Block {
     pub memory: Memory<LANES>,
     /// Rates, stage by stage.
     k: Rows<LANES>,
@@ -97,7 +97,7 @@ impl Block {
 
 /// States under way, and what rounding has taken from their sums so far: it goes into the next step. Otherwise the
 /// rounding of a long run grows with the square of its steps.
-pub(super) struct States {
+pub(crate) struct States {
     pub z: Vec<Lane>,
     lost: Vec<Lane>,
     pub start: Vec<Lane>,
@@ -123,13 +123,13 @@ impl States {
 }
 
 /// Advances the states of a block over a span.
-pub(super) fn advance(e: &LaneEquations, scheme: &Scheme, span: Span, states: &mut States, memory: Running, isa: Isa) {
+pub(crate) fn advance(e: &LaneEquations, scheme: &Scheme, span: Span, states: &mut States, memory: Running, isa: Isa) {
     let Running { block, instants } = memory;
     isa.dispatch(Advance { e, scheme, span, states, block, instants });
 }
 
 /// Memory of a run under way.
-pub(super) struct Running<'a> {
+pub(crate) struct Running<'a> {
     pub block: &'a mut Block,
     pub instants: &'a mut Instants,
 }

@@ -1,0 +1,238 @@
+//! A run whose inputs and poses have clocks of their own, by one clock.
+
+use super::cross_correlation::{Found, SHORTEST, search};
+use super::refinement::{Fitted, refined};
+use super::speed_profile::{Driven, Measured};
+use crate::discrepancy::diagnosis::verdict::Outcome;
+use crate::discrepancy::pipeline::Request;
+use crate::discrepancy::preprocessing::unit_errors::too_sparse;
+use crate::discrepancy::report::{Estimate, RunClock, Verdict};
+use crate::error::Result;
+use crate::files::{Clock, Run};
+use crate::model::Model;
+use crate::number_format::significant;
+use rayon::prelude::*;
+
+/// Grid of the poses' motion, s.
+const GRID: f64 = 0.1;
+/// Deviance that tells one offset from another beyond doubt.
+const SURE: f64 = 40.0;
+/// Deviations of what differs by chance that are no chance.
+const CHANCE: f64 = 5.0;
+/// Longest file whose clock is looked for, s: what is tried grows with it.
+const LONGEST: f64 = 2e5;
+/// Motions that agree less are not of one drive.
+const ALIKE: f64 = 0.5;
+
+/// A run by one clock, and what was found of its clocks.
+#[derive(Clone, Debug)]
+pub struct Aligned {
+    /// The run, its inputs by the clock of the poses.
+    pub run: Run,
+    /// The clock and its deviations.
+    pub fitted: Fitted,
+    /// Correlation of the motion in both files.
+    pub correlation: f64,
+    /// Another offset that agrees nearly as well, s.
+    pub other: Option<f64>,
+    /// The last time of the poses that the clock may come from, s: those behind it are held out.
+    pub(crate) until: f64,
+}
+
+/// Why a run cannot be aligned, for a person.
+pub(crate) struct Obstacle {
+    verdict: Verdict,
+    why: String,
+}
+
+impl Obstacle {
+    fn unusable(why: String) -> Self {
+        Self { verdict: Verdict::UnusableData, why }
+    }
+
+    pub fn outcome(self) -> Outcome {
+        Outcome { verdict: self.verdict, sentence: Some(self.why), next_experiment: None }
+    }
+}
+
+impl Aligned {
+    /// As the report lists it.
+    pub fn clock(&self, held_out: bool) -> RunClock {
+        let Fitted { clock, offset_std, drift_std, .. } = self.fitted;
+        RunClock {
+            run: self.run.name.clone(),
+            truth: self.run.apart.as_ref().map(|a| file_name(&a.truth)).unwrap_or_default(),
+            held_out,
+            offset_s: Estimate { value: clock.offset, std: offset_std, unit: "s".into() },
+            drift: Estimate { value: clock.drift, std: drift_std, unit: "1".into() },
+            at_s: clock.at,
+            correlation: self.correlation,
+            other_offset_s: self.other,
+        }
+    }
+
+    /// A warning where another offset would do nearly as well.
+    pub(crate) fn doubt(&self) -> Option<String> {
+        let other = significant(self.other?, 4);
+        let own = significant(self.fitted.clock.offset, 4);
+        Some(format!(
+            "{}: a clock offset of {other} s fits nearly as well as {own} s; give --clock-offset if you know it",
+            self.run.name
+        ))
+    }
+}
+
+/// Runs by one clock each; the first obstacle where that is not to be had.
+///
+/// # Errors
+/// When the model's formulas are malformed.
+pub(crate) fn aligned(
+    runs: &[Run],
+    share: f64,
+    request: &Request,
+    model: &Model,
+    near: Option<f64>,
+) -> Result<std::result::Result<Vec<Aligned>, Obstacle>> {
+    runs.par_iter().map(|run| aligned_one(run, share, request, model, near)).collect()
+}
+
+fn aligned_one(
+    run: &Run,
+    share: f64,
+    request: &Request,
+    model: &Model,
+    near: Option<f64>,
+) -> Result<std::result::Result<Aligned, Obstacle>> {
+    if let Some(obstacle) = endless(run) {
+        return Ok(Err(Obstacle::unusable(obstacle)));
+    }
+    if let Some(obstacle) = too_sparse(model, [run])? {
+        return Ok(Err(Obstacle::unusable(obstacle)));
+    }
+    let driven = Driven::of(model, run, request.file.input_timing.into())?;
+    let laid = |part: &Run| {
+        let poses = [part.time[0], part.time[part.time.len() - 1]];
+        search(&driven, &Measured::of(part, GRID), poses, near).filter(|f| f.correlation > ALIKE)
+    };
+    let mut part = run.beginning(share);
+    let Some(mut found) = laid(&part) else { return Ok(Err(unlike(run))) };
+    // The share is one of the time that both files have, which the clock tells. What is behind it is held out: where it
+    // was looked at, the clock is looked for again without it.
+    let until = if share < 1.0 { held_out_from(run, &found.clock, share) } else { f64::INFINITY };
+    let seen = part.time[part.time.len() - 1];
+    part = run.until(until);
+    if until < seen {
+        let Some(again) = laid(&part) else { return Ok(Err(unlike(run))) };
+        found = again;
+    }
+    let Found { clock, correlation, other } = found;
+    let Some(fitted) = refined(&part, model, request.file, clock)? else { return Ok(Err(unlike(run))) };
+    let rival = match other {
+        Some(other) => refined(&part, model, request.file, Clock { offset: other, ..clock })?,
+        None => None,
+    };
+    let (fitted, other) = settled(fitted, rival);
+    let by_one = run.aligned(&fitted.clock);
+    if by_one.time.len() < 2 {
+        return Ok(Err(unlike(run)));
+    }
+    Ok(Ok(Aligned { run: by_one, fitted, correlation, other, until }))
+}
+
+/// The time of the poses at which a share of what both files have is over.
+fn held_out_from(run: &Run, clock: &Clock, share: f64) -> f64 {
+    let both = run.aligned(clock).time;
+    match (both.first(), both.last()) {
+        (Some(first), Some(last)) => first + share * (last - first),
+        _ => f64::INFINITY,
+    }
+}
+
+/// The better of two clocks by their fits, and the other one's offset where these do not tell for sure.
+fn settled(first: Fitted, rival: Option<Fitted>) -> (Fitted, Option<f64>) {
+    let Some(rival) = rival else { return (first, None) };
+    let (good, bad) = if rival.misfit < first.misfit { (rival, first) } else { (first, rival) };
+    // Misfits are deviances a row; rows that are alike count once.
+    let apart = (bad.misfit - good.misfit) * good.rows / good.dependence;
+    // Rows that only one of both has differ by chance, too: a value's deviance has a variance of two.
+    let chance = (2.0 * (good.alone(&bad) + bad.alone(&good)) / good.dependence).sqrt();
+    let told = apart > SURE + CHANCE * chance;
+    (good, (!told).then_some(bad.clock.offset))
+}
+
+/// Files too long to lay upon each other, or to be in seconds.
+fn endless(run: &Run) -> Option<String> {
+    let longest = span(run.input_time()).max(span(&run.time));
+    (longest.is_nan() || longest > LONGEST).then(|| {
+        format!(
+            "The clocks of {} cannot be aligned: it lasts {} s, and at most {} s can be; is its time in seconds?",
+            run.name,
+            significant(longest, 3),
+            significant(LONGEST, 2)
+        )
+    })
+}
+
+/// Why no clock makes both files one drive.
+fn unlike(run: &Run) -> Obstacle {
+    let truth = run.apart.as_ref().map(|a| file_name(&a.truth)).unwrap_or_default();
+    let shortest = span(run.input_time()).min(span(&run.time));
+    if shortest < SHORTEST {
+        let why = format!(
+            "{} and {truth} are too short to find how their clocks belong together: {} s, and at least {} s are needed.",
+            run.name,
+            significant(shortest, 2),
+            significant(SHORTEST, 2)
+        );
+        return Obstacle { verdict: Verdict::NotIdentifiable, why };
+    }
+    Obstacle::unusable(format!(
+        "No offset of their clocks makes the inputs of {} move as the poses of {truth} do: check that both are of one \
+         drive, the columns and the units.",
+        run.name
+    ))
+}
+
+fn span(time: &[f64]) -> f64 {
+    time.last().zip(time.first()).map_or(0.0, |(last, first)| last - first)
+}
+
+fn file_name(path: &std::path::Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A clock whose fit misses so much a value, of so many values that begin at a time and last 100 s.
+    fn clock(offset: f64, misfit: f64, rows: f64, from: f64, dependence: f64) -> Fitted {
+        let clock = Clock { offset, drift: 0.0, at: 0.0 };
+        let covers = [from, from + 100.0];
+        Fitted { clock, offset_std: None, drift_std: None, misfit, rows, covers, dependence }
+    }
+
+    /// Beyond doubt are 40, and five deviations of what the values make that only one of both has.
+    #[test]
+    fn a_rival_is_told_by_its_deviance_and_what_both_have() {
+        // Rows of the rival, how much later it begins, how many rows are alike; the misfits a value that do and do not tell.
+        for (rows, later, dependence, told, open) in [
+            (1000.0, 0.0, 1.0, 0.0401, 0.0399),
+            (1000.0, 0.0, 4.0, 0.1604, 0.1596),
+            (1000.0, 20.0, 1.0, 0.1815, 0.1813),
+            (1500.0, 20.0, 1.0, 0.1982, 0.1980),
+            (1500.0, 20.0, 4.0, 0.4765, 0.4760),
+        ] {
+            for (more, is_told) in [(told, true), (open, false)] {
+                let good = clock(1.0, 1.0, 1000.0, 0.0, dependence);
+                let bad = clock(7.0, 1.0 + more, rows, later, dependence);
+                for (first, rival) in [(good, bad), (bad, good)] {
+                    let (best, other) = settled(first, Some(rival));
+                    assert_eq!((best.clock.offset, other), (1.0, (!is_told).then_some(7.0)), "{rows} {later} {more}");
+                }
+            }
+        }
+        let (alone, other) = settled(clock(3.0, 9.0, 10.0, 0.0, 1.0), None);
+        assert_eq!((alone.clock.offset, other), (3.0, None));
+    }
+}

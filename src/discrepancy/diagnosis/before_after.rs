@@ -1,0 +1,135 @@
+//! The model before and after along the fitted and the held-out runs, and how far each strays.
+
+use crate::discrepancy::preprocessing::dataset::Data;
+use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::sensor_noise::Noise;
+use crate::discrepancy::rendering::summary;
+use crate::discrepancy::report::{BeforeAfter, Floor, Gap, GapCurve, Step};
+use crate::discrepancy::selection::select::Choice;
+use crate::discrepancy::shooting::rollout::{Errors, Predictor};
+use crate::error::Result;
+use crate::model::Model;
+use rayon::prelude::*;
+
+/// Horizons of the curve, s.
+const CURVE: [f64; 12] = [0.2, 0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0, 45.0];
+/// Windows a point of the curve needs.
+const FEWEST_WINDOWS: usize = 2;
+
+/// A model along all runs of a kind.
+pub struct Predictors<'a>(Vec<Predictor<'a>>);
+
+impl<'a> Predictors<'a> {
+    /// A model along some runs.
+    ///
+    /// # Errors
+    /// When the model's formulas are malformed.
+    pub fn new(model: &Model, records: &'a [Record]) -> Result<Self> {
+        Ok(Self(records.par_iter().map(|r| Predictor::new(model, r)).collect::<Result<_>>()?))
+    }
+
+    /// The predictor of each run.
+    pub fn each(&self) -> &[Predictor<'a>] {
+        &self.0
+    }
+
+    /// How many windows of a horizon there are in all runs.
+    fn windows(&self, horizon: f64) -> usize {
+        self.0.iter().map(|p| p.windows(horizon).len()).sum()
+    }
+
+    /// Errors after a horizon, over all runs.
+    fn errors(&self, horizon: f64) -> Errors {
+        let each: Vec<Errors> = self.0.par_iter().map(|p| p.errors(horizon)).collect();
+        each.into_iter().fold(Errors::default(), Errors::joined)
+    }
+
+    /// The noise floor at some horizons, over all runs.
+    fn floors(&self, horizons: &[f64], noise: &Noise, seed: u64) -> Vec<Errors> {
+        // As often for every run, so that a window weighs in the floor what it weighs in the gap.
+        let often = |h: &f64| (2000 / self.windows(*h).max(1)).clamp(4, 200);
+        let draws: Vec<usize> = horizons.iter().map(often).collect();
+        let of = |(i, p): (usize, &Predictor)| p.floors(horizons, &draws, noise, seed.wrapping_add(i as u64));
+        let each: Vec<Vec<Errors>> = self.0.par_iter().enumerate().map(of).collect();
+        let zero = vec![Errors::default(); horizons.len()];
+        each.iter().fold(zero, |sum, floors| sum.into_iter().zip(floors).map(|(s, f)| s.joined(*f)).collect())
+    }
+}
+
+/// The model as it was and with what was found, along the runs that were fitted and those that were held out.
+pub struct Judged<'a> {
+    data: &'a Data,
+    /// Along the fitted runs, before and after.
+    pub fitted: [Predictors<'a>; 2],
+    /// Along the held-out runs, before and after.
+    pub held_out: [Predictors<'a>; 2],
+    noise: Noise,
+    seed: u64,
+}
+
+impl<'a> Judged<'a> {
+    /// Both models along all data.
+    ///
+    /// # Errors
+    /// When a model's formulas are malformed.
+    pub fn of(data: &'a Data, model: &Model, choice: &Choice, seed: u64) -> Result<Self> {
+        let both = |records: &'a [Record]| -> Result<[Predictors<'a>; 2]> {
+            Ok([Predictors::new(model, records)?, Predictors::new(&choice.after.model, records)?])
+        };
+        let noise = choice.after.noise();
+        Ok(Self { data, fitted: both(&data.fitted)?, held_out: both(&data.held_out)?, noise, seed })
+    }
+
+    /// The gap at each horizon that fits the data.
+    pub fn gaps(&self, horizons: &[f64]) -> Vec<Gap> {
+        let gap = |&horizon: &f64| {
+            let compare = |[before, after]: &[Predictors; 2]| {
+                let (before, after) = (before.errors(horizon), after.errors(horizon));
+                (before.windows() > 0).then(|| BeforeAfter {
+                    position_rms_before: before.position_rms(),
+                    position_rms_after: after.position_rms(),
+                    heading_rms_before: before.heading_rms(),
+                    heading_rms_after: after.heading_rms(),
+                })
+            };
+            let (fit, held_out) = (compare(&self.fitted), compare(&self.held_out));
+            if fit.is_none() && held_out.is_none() {
+                return None;
+            }
+            let judged = if held_out.is_some() { &self.held_out } else { &self.fitted };
+            let floor = judged[1].floors(&[horizon], &self.noise, self.seed)[0];
+            let noise_floor = Floor { position_rms: floor.position_rms(), heading_rms: floor.heading_rms() };
+            Some(Gap { horizon_s: horizon, fit, held_out, noise_floor })
+        };
+        horizons.iter().filter_map(gap).collect()
+    }
+
+    /// The gap over horizons as a curve: of the held-out runs where they are long enough.
+    pub fn curve(&self) -> GapCurve {
+        let enough = |[before, _]: &[Predictors; 2], h: f64| before.windows(h) >= FEWEST_WINDOWS;
+        let judged = if enough(&self.held_out, 1.0) { &self.held_out } else { &self.fitted };
+        let horizon: Vec<f64> = CURVE.into_iter().filter(|h| enough(judged, *h)).collect();
+        let along = |p: &Predictors| horizon.iter().map(|h| p.errors(*h).position_rms()).collect();
+        let floor = judged[1].floors(&horizon, &self.noise, self.seed);
+        GapCurve {
+            before: along(&judged[0]),
+            after: along(&judged[1]),
+            floor: floor.iter().map(Errors::position_rms).collect(),
+            horizon,
+        }
+    }
+
+    /// The fitting data's gap after each addition.
+    ///
+    /// # Errors
+    /// When a model's formulas are malformed.
+    pub fn steps(&self, choice: &Choice, gaps: &[Gap]) -> Result<Vec<Step>> {
+        let fitted: Vec<Gap> = gaps.iter().filter(|g| g.fit.is_some()).cloned().collect();
+        let Some(horizon) = summary::middle(&fitted).map(|g| g.horizon_s) else { return Ok(vec![]) };
+        let step = |(added, model): &(String, Model)| {
+            let gap_after = Predictors::new(model, &self.data.fitted)?.errors(horizon).position_rms();
+            Ok(Step { added: added.clone(), gap_after })
+        };
+        choice.steps.iter().map(step).collect()
+    }
+}

@@ -1,0 +1,56 @@
+//! What was found, as the report lists it.
+
+use super::equivalents::Relative;
+use crate::discrepancy::estimation::fit::Fit;
+use crate::discrepancy::localisation::constraint_residuals;
+use crate::discrepancy::preprocessing::dataset::Data;
+use crate::discrepancy::rendering::figure_data;
+use crate::discrepancy::report::{Estimate, Evidence, Named, Rival, Unnamed};
+use crate::discrepancy::selection::select::Chosen;
+use crate::discrepancy::selection::unnamed_terms;
+use crate::error::Result;
+use crate::model::Model;
+use std::collections::BTreeMap;
+
+/// A chosen effect as the report lists it.
+pub(crate) fn named(chosen: &Chosen, relatives: &[Relative], model: &Model) -> Named {
+    let a = &chosen.applied;
+    let values = a.effect.parameters.iter().zip(&a.values).zip(&chosen.std);
+    let mut parameters: BTreeMap<String, Estimate> = values
+        .map(|(((name, p), value), std)| (name.clone(), Estimate { value: *value, std: *std, unit: p.unit.clone() }))
+        .collect();
+    if let Some(i) = a.trailer {
+        parameters.insert("trailer".into(), Estimate { value: i as f64, std: None, unit: "1".into() });
+    }
+    let rival = |r: &Relative| Rival { id: r.applied.effect.id.clone(), why: r.why.into() };
+    Named {
+        id: a.effect.id.clone(),
+        says: a.effect.says.clone(),
+        place: a.effect.place.clone(),
+        parameters,
+        evidence: Evidence { delta_bic: chosen.delta_bic, p_value: chosen.p_value },
+        indistinguishable_from: relatives.iter().map(rival).collect(),
+        equation: figure_data::equation(a, model),
+    }
+}
+
+/// Chosen terms as the report lists them, judged on the held-out data.
+pub(crate) fn without_name(terms: &[&Chosen], data: &Data, after: &Fit, model: &Model) -> Result<Vec<Unnamed>> {
+    if terms.is_empty() {
+        return Ok(vec![]);
+    }
+    let judged = if data.held_out.is_empty() { &data.fitted } else { &data.held_out };
+    let mut bare = after.model.clone();
+    bare.effects.retain(|e| !unnamed_terms::is_term(e));
+    let violations = |m: &Model| -> Result<Vec<_>> {
+        judged.iter().map(|r| constraint_residuals::Violation::of(m, r, &after.noise())).collect()
+    };
+    let (without, with) = (violations(&bare)?, violations(&after.model)?);
+    let one = |c: &&Chosen| Unnamed {
+        place: c.applied.effect.place.clone(),
+        equation: unnamed_terms::equation(&c.applied, model),
+        held_out_reduction: unnamed_terms::reduction(&c.applied.effect.place, &without, &with),
+        parameters: named(c, &[], model).parameters,
+    };
+    Ok(terms.iter().map(one).collect())
+}

@@ -1,0 +1,8 @@
+//! The meaning of a fit: verdict, equivalent effects, plausibility, contradictions, gaps before and after.
+
+pub(crate) mod before_after;
+pub(crate) mod contradictions;
+pub mod equivalents;
+pub(crate) mod findings;
+pub(crate) mod plausibility;
+pub mod verdict;

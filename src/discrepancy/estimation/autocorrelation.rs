@@ -1,0 +1,128 @@
+//! How far what remains unexplained hangs together over time.
+//!
+//! The statistical model takes jumps at the ends of windows as independent. Where a law is missing they are not: a
+//! creep that nobody modelled violates its constraint the same way for as long as the vehicle moves the same way. Then
+//! n windows say no more than n/τ independent ones, with the integrated correlation
+//!
+//! τ = 1 + 2·Σₖ ρₖ,
+//!
+//! and a gain of deviance counts for its τ-th part. With nothing unexplained there is nothing to hang together: τ = 1.
+
+use crate::discrepancy::shooting::windows::Linear;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+/// Deviance from which on unexplained motion is more than chance.
+pub const NOTICEABLE: f64 = 25.0;
+
+/// Lags that are looked at, as a share of the series: longer ones are seen too seldom.
+const LONGEST: usize = 3;
+
+/// The integrated correlation of series that belong together, 1 where they are white or too short to tell.
+///
+/// Lags are summed in pairs as long as a pair's sum is positive: what a sum of all lags adds beyond that is noise.
+///
+/// ```
+/// use creepage::discrepancy::whiteness::integrated_correlation;
+/// let alternating = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
+/// assert_eq!(integrated_correlation(&[alternating.to_vec()]), 1.0);
+/// let standing = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0];
+/// assert_eq!(integrated_correlation(&[standing.to_vec()]), 5.0);
+/// ```
+pub fn integrated_correlation(series: &[Vec<f64>]) -> f64 {
+    let longest = series.iter().map(Vec::len).max().unwrap_or(0) / LONGEST;
+    let covariance = |lag: usize| {
+        let pairs = series.iter().flat_map(|s| s.iter().zip(s.iter().skip(lag)));
+        let (sum, n) = pairs.fold((0.0, 0.0), |(sum, n), (a, b)| (sum + a * b, n + 1.0));
+        if n > 0.0 { sum / n } else { 0.0 }
+    };
+    let here = covariance(0);
+    if here <= 0.0 {
+        return 1.0;
+    }
+    let mut sum = 0.0;
+    for lag in (1..longest).step_by(2) {
+        let pair = (covariance(lag) + covariance(lag + 1)) / here;
+        if pair <= 0.0 {
+            break;
+        }
+        sum += pair;
+    }
+    1.0 + 2.0 * sum
+}
+
+/// The integrated correlation of what a fit leaves unexplained, each kind of jump by the deviance it is worth.
+pub fn of_what_remains(linear: &[Vec<Linear>], unexplained: &[f64; 4]) -> f64 {
+    let kinds = || (0..4).filter(|c| unexplained[*c] > NOTICEABLE);
+    let weight: f64 = kinds().map(|c| unexplained[c]).sum();
+    if weight <= 0.0 {
+        return 1.0;
+    }
+    let rates = |c: usize| -> Vec<Vec<f64>> {
+        let of_window = |w: &Linear| w.mismatch.get(c).map(|m| m / w.duration.sqrt());
+        linear.iter().map(|segment| segment.iter().filter_map(of_window).collect()).collect()
+    };
+    kinds().map(|c| unexplained[c] * integrated_correlation(&rates(c))).sum::<f64>() / weight
+}
+
+/// Probability that white noise is taken for coloured, at each scale.
+const BY_CHANCE: f64 = 5e-4;
+/// Rows in a block: two, four, … two to this power.
+const SCALES: usize = 6;
+
+/// Squared sums of residuals over blocks of neighbouring rows, for blocks of two, four, eight … rows.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Blocks {
+    squares: [f64; SCALES],
+    count: [usize; SCALES],
+}
+
+/// The blocks of one column that are not full yet.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Run {
+    open: [f64; SCALES],
+    rows: usize,
+}
+
+impl Run {
+    /// Takes the next row's residual and hands over the blocks that it fills.
+    pub fn push(&mut self, residual: f64, to: &mut Blocks) {
+        self.rows += 1;
+        for k in 0..SCALES {
+            self.open[k] += residual;
+            if self.rows.is_multiple_of(2 << k) {
+                to.squares[k] += self.open[k].powi(2);
+                to.count[k] += 1;
+                self.open[k] = 0.0;
+            }
+        }
+    }
+}
+
+/// How many rows in a row the noise of a fit is alike: over blocks of two rows, of four …
+///
+/// τ = Σ (Σ r)² / (n·⟨r²⟩),
+///
+/// the inner sum over the n rows of a block. For white noise this is about one at every scale; the largest that chance
+/// does not explain is taken, each channel by itself. What is slower than a window moves its pose and is not seen here.
+pub fn of_noise(linear: &[Vec<Linear>]) -> f64 {
+    let windows = || linear.iter().flatten();
+    let mut found: f64 = 1.0;
+    for channel in 0..3 {
+        let rows: usize = windows().map(|w| w.count[channel]).sum();
+        let mean = windows().map(|w| w.square(channel)).sum::<f64>() / rows as f64;
+        for k in 0..SCALES {
+            let count: usize = windows().map(|w| w.blocks[channel].count[k]).sum();
+            let squares: f64 = windows().map(|w| w.blocks[channel].squares[k]).sum();
+            let tau = squares / (count as f64 * (2 << k) as f64 * mean);
+            if tau > found && tau > by_chance(count as f64) {
+                found = tau;
+            }
+        }
+    }
+    found
+}
+
+/// What the mean square of so many independent standard normal numbers hardly exceeds by chance.
+fn by_chance(count: f64) -> f64 {
+    ChiSquared::new(count).map_or(f64::INFINITY, |d| d.inverse_cdf(1.0 - BY_CHANCE) / count)
+}

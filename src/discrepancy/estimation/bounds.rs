@@ -1,0 +1,115 @@
+//! What values the parameters of free effects may take.
+
+use crate::discrepancy::record::angle::wrapped;
+use crate::effects::{Applied, Parameter};
+use crate::model::Model;
+use nalgebra::DVector;
+
+/// A positive value below this share of its plausible size is as good as neutral, and a stiff state to integrate.
+const LEAST_SHARE: f64 = 0.04;
+
+/// Where a fit stops: a positive value short of zero.
+fn range_of(p: &Parameter) -> [f64; 2] {
+    if p.positive { [p.range[0].max(p.size * LEAST_SHARE), p.range[1]] } else { p.range }
+}
+
+/// Whether an effect stands at the edge of its range where it vanishes.
+pub fn vanishes(effect: &Applied) -> bool {
+    let mut values = effect.effect.parameters.values().zip(&effect.values);
+    values.any(|(p, v)| p.positive && *v <= range_of(p)[0] * 1.001)
+}
+
+/// Whether a value of an effect stands at an end of its range: the data ask for more than any vehicle has, which says
+/// that they tell nothing of it, or that it imitates something else.
+pub fn is_at_an_end(effect: &Applied) -> bool {
+    let mut values = effect.effect.parameters.values().zip(&effect.values);
+    values.any(|(p, v)| !p.periodic && p.range.iter().any(|end| (v - end).abs() <= 1e-9 * (p.range[1] - p.range[0])))
+}
+
+/// What values the parameters may take.
+pub struct Bounds {
+    range: Vec<[f64; 2]>,
+    positive: Vec<bool>,
+    periodic: Vec<bool>,
+}
+
+impl Bounds {
+    /// The bounds of a model's free effects.
+    pub fn of(model: &Model) -> Self {
+        let all = || model.free_effects().flat_map(|e| e.effect.parameters.values());
+        Self {
+            range: all().map(range_of).collect(),
+            positive: all().map(|p| p.positive).collect(),
+            periodic: all().map(|p| p.periodic).collect(),
+        }
+    }
+
+    /// A step held inside: a positive value is at most divided or multiplied by five.
+    pub fn step(&self, p: &DVector<f64>, step: &DVector<f64>) -> DVector<f64> {
+        DVector::from_fn(p.len(), |i, _| {
+            if self.periodic[i] {
+                return step[i];
+            }
+            let target = p[i] + step[i];
+            let target = if self.positive[i] { target.clamp(p[i] / 5.0, p[i] * 5.0) } else { target };
+            target.clamp(self.range[i][0], self.range[i][1]) - p[i]
+        })
+    }
+
+    /// The point a step leads to, held inside; a periodic value loses its whole turns.
+    pub fn within(&self, p: &DVector<f64>, step: &DVector<f64>) -> DVector<f64> {
+        let target = p + self.step(p, step);
+        DVector::from_fn(p.len(), |i, _| match self.periodic[i] {
+            true => wrapped(target[i]),
+            // What is added and taken away again is rounded.
+            false => target[i].clamp(self.range[i][0], self.range[i][1]),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects;
+    use std::f64::consts::PI;
+
+    fn with(id: &str, values: &[f64]) -> Applied {
+        Applied::new(effects::named(id).unwrap(), None, values.to_vec())
+    }
+
+    /// A positive value whose range begins further up stops there, not below it.
+    #[test]
+    fn a_fit_stops_inside_of_what_a_file_may_say() {
+        let mut effect = effects::named("cornering-creep").unwrap().clone();
+        let p = effect.parameters.get_mut("mass_over_bT").unwrap();
+        (p.range, p.size) = ([0.2, 5.0], 0.25);
+        let applied = |v: f64| Applied::new(&effect, None, vec![v]);
+        let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap().with_effect(applied(0.3).freed());
+        let at =
+            |p: f64, step: f64| Bounds::of(&model).within(&DVector::from_vec(vec![p]), &DVector::from_vec(vec![step]));
+        assert_eq!(at(0.3, -0.2)[0], 0.2);
+        assert_eq!(at(0.3, 9.0)[0], 1.5);
+        assert_eq!((vanishes(&applied(0.2)), vanishes(&applied(0.21))), (true, false));
+    }
+
+    /// The way across ±π is as short as any other.
+    #[test]
+    fn an_angle_goes_on_where_it_is_wrapped() {
+        let slope = with("side-slope", &[3.1, 0.05]);
+        assert_eq!(slope.effect.parameters.keys().collect::<Vec<_>>(), ["direction", "rate"]);
+        let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap().with_effect(slope.freed());
+        let (bounds, p) = (Bounds::of(&model), DVector::from_vec(vec![3.1, 0.05]));
+        let step = DVector::from_vec(vec![0.1, 0.01]);
+        assert!((bounds.step(&p, &step) - &step).norm() < 1e-15);
+        let there = bounds.within(&p, &step);
+        assert!((there[0] - (3.2 - 2.0 * PI)).abs() < 1e-12 && (there[1] - 0.06).abs() < 1e-15, "{there}");
+    }
+
+    #[test]
+    fn an_end_of_the_range_is_no_value() {
+        assert!(is_at_an_end(&with("lever-arm", &[-100.0, 3.0])) && is_at_an_end(&with("lever-arm", &[0.1, 100.0])));
+        assert!(!is_at_an_end(&with("lever-arm", &[-99.0, 3.0])));
+        // An angle has no end.
+        assert!(!is_at_an_end(&with("side-slope", &[PI, 0.05])));
+    }
+}

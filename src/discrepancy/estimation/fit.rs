@@ -1,0 +1,346 @@
+//! A model with free effects fitted to all windows at once.
+
+use super::autocorrelation;
+use super::bounds::Bounds;
+use super::elimination::{Eliminated, Variances, eliminate};
+use super::levenberg_marquardt::damped_step;
+use super::problem::Problem;
+use super::variance_components;
+use crate::discrepancy::initial_state::hidden_states;
+use crate::discrepancy::record::sensor_noise::Noise;
+use crate::discrepancy::shooting::windows::{Linear, Segment, Starts, linearise};
+use crate::error::Result;
+use crate::model::{Equations, Model};
+use nalgebra::{DMatrix, DVector};
+
+/// A model fitted to a problem.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// The model, its effects at the fitted values.
+    pub model: Model,
+    /// The fitted values, effect by effect.
+    pub p: Vec<f64>,
+    /// Their covariance, `None` when the data leave a direction open.
+    pub covariance: Option<DMatrix<f64>>,
+    /// Their covariance by the spread between runs, `None` with fewer than [`FEWEST_RUNS`].
+    pub between_runs: Option<DMatrix<f64>>,
+    /// How many runs were fitted.
+    pub runs: usize,
+    /// Information matrix of the parameters.
+    pub information: DMatrix<f64>,
+    /// Noise and unexplained motion.
+    pub variances: Variances,
+    /// Twice the negative log likelihood.
+    pub deviance: f64,
+    /// Poses at the windows' starts.
+    pub starts: Starts,
+    /// Effective number of measured values.
+    pub sample_size: f64,
+    /// By how much the deviance would grow without the jumps along, across, in yaw and of trailers: what remains
+    /// unexplained; zero where the variances were not estimated.
+    pub unexplained: [f64; 4],
+    /// How many windows in a row what remains unexplained is alike, at least 1: see [`super::autocorrelation`].
+    pub correlation: f64,
+    /// How many rows in a row the noise is alike, at least 1.
+    pub colour: f64,
+    /// How many numbers the poses were asked for beside the values: how hidden states began.
+    pub begun: f64,
+}
+
+/// Runs that their spread can be told from.
+pub const FEWEST_RUNS: usize = 4;
+
+/// How a fit is carried out.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// Linearisations at most.
+    pub passes: usize,
+    /// A step that promises to gain less deviance than this is not taken.
+    pub enough: f64,
+    /// Whether the variances are estimated anew.
+    pub variances: bool,
+}
+
+/// Parameters that are damped so much hardly move.
+const DAMPED: f64 = 10.0;
+
+/// A linearisation that has been accepted.
+struct Point {
+    p: DVector<f64>,
+    starts: Starts,
+    linear: Vec<Vec<Linear>>,
+    eliminated: Eliminated,
+}
+
+impl Fit {
+    /// How many values say what one independent value would: rows that are alike, times windows that are alike.
+    pub fn dependence(&self) -> f64 {
+        self.colour * self.correlation
+    }
+
+    /// How many numbers it has taken from the data.
+    pub fn size(&self) -> f64 {
+        self.p.len() as f64 + self.begun
+    }
+
+    /// The noise that was estimated.
+    pub fn noise(&self) -> Noise {
+        Noise { variance: self.variances.noise, colour: self.colour }
+    }
+}
+
+impl Problem {
+    /// Fits the values of a model's free effects by Levenberg–Marquardt with exact Jacobians.
+    ///
+    /// `None` when the model is undefined along the runs.
+    pub fn fit(&self, model: &Model, starts: &Starts, variances: &Variances, effort: Effort) -> Result<Option<Fit>> {
+        let equations = model.free_equations()?;
+        let p = DVector::from_vec(model.free_values());
+        let bounds = Bounds::of(model);
+        let mut v = *variances;
+        let Some(mut point) = self.point(&equations, p, starts.clone(), &v) else { return Ok(None) };
+        point = self.descend(&equations, point, &v, &bounds, effort, false);
+        if effort.variances {
+            // Better variances show a better way down, and the other way round.
+            for first_step in [1.0, 0.3, 0.3, 0.3, 0.3, 0.3] {
+                let better = variance_components::improve(&point.linear, v, self.free, point.p.len(), first_step);
+                let settled = better.close_to(&v);
+                v = better;
+                let Some(e) = eliminate(&point.linear, &v, point.p.len()) else { return Ok(None) };
+                point.eliminated = e;
+                // What is promised here can be believed: the model has been followed down to this point.
+                point = self.descend(&equations, point, &v, &bounds, effort, true);
+                if settled {
+                    break;
+                }
+            }
+        }
+        let unexplained = if effort.variances { self.unexplained(&point, &v) } else { [0.0; 4] };
+        let correlation = autocorrelation::of_what_remains(&point.linear, &unexplained);
+        let colour = if effort.variances { autocorrelation::of_noise(&point.linear) } else { 1.0 };
+        let begun = self.begun(&equations, &point);
+        Ok(Some(Fit { unexplained, correlation, colour, begun, ..self.finished(model, point, v) }))
+    }
+
+    fn point(&self, equations: &Equations, p: DVector<f64>, starts: Starts, v: &Variances) -> Option<Point> {
+        let linear = linearise(equations, p.as_slice(), &self.records, &self.plan, &starts)?;
+        let eliminated = eliminate(&linear, v, p.len())?;
+        Some(Point { p, starts, linear, eliminated })
+    }
+
+    /// Levenberg–Marquardt steps of parameters and poses; a step that leads uphill is damped and, since no damping of
+    /// the parameters shortens what the poses do, taken by a share.
+    fn descend(
+        &self,
+        equations: &Equations,
+        mut here: Point,
+        v: &Variances,
+        bounds: &Bounds,
+        effort: Effort,
+        mut settled: bool,
+    ) -> Point {
+        let (mut damping, mut share) = (1e-6, 1.0);
+        for _ in 0..effort.passes {
+            let Some(delta) = step(&here.eliminated, damping) else { return here };
+            // What lies beyond a bound promises nothing.
+            let delta = bounds.step(&here.p, &delta);
+            if settled && promised(&here.eliminated, &delta) < effort.enough {
+                break;
+            }
+            let corrections = here.eliminated.corrections(&here.linear, &delta);
+            let target = bounds.within(&here.p, &(delta * share));
+            let next = self.point(equations, target, moved(&here.starts, &corrections, share), v);
+            let gain = next.as_ref().map_or(f64::NEG_INFINITY, |n| gain(&here, n, v, share));
+            match next {
+                Some(next) if gain >= -1e-3 => {
+                    // A short step that gains little says nothing of how far the valley is.
+                    settled = gain < effort.enough.max(1e-2) && share == 1.0;
+                    here = next;
+                    damping = (damping / 10.0).max(1e-9);
+                    share = f64::min(1.0, 3.0 * share);
+                }
+                _ => {
+                    // Damping the parameters comes first: only then is it the poses that overshoot.
+                    if damping > DAMPED {
+                        share *= 0.3;
+                    }
+                    damping = (damping * 30.0).max(1e-3);
+                }
+            }
+            if damping > 1e9 {
+                break;
+            }
+        }
+        here
+    }
+
+    /// H⁻¹·(Σ g gᵀ)·H⁻¹ with the gradient g of each run: what runs of the same kind would scatter by, whatever the
+    /// reason.
+    fn between_runs(&self, e: &Eliminated) -> Option<DMatrix<f64>> {
+        let runs = self.records.len();
+        if runs < FEWEST_RUNS {
+            return None;
+        }
+        let (information, _) = e.normal();
+        let p = information.nrows();
+        let bread = inverse(&information)?;
+        let mut gradients = DMatrix::zeros(p, runs);
+        for (segment, part) in self.plan.iter().zip(&e.parts) {
+            let mut column = gradients.column_mut(segment.record);
+            column += part.view((0, p), (p, 1));
+        }
+        let meat = &gradients * gradients.transpose() * (runs as f64 / (runs as f64 - 1.0));
+        Some(&bread * meat * &bread)
+    }
+
+    fn finished(&self, model: &Model, point: Point, variances: Variances) -> Fit {
+        let (information, _) = point.eliminated.normal();
+        let mut model = model.clone();
+        let mut rest = point.p.iter().copied();
+        for e in model.effects.iter_mut().filter(|e| e.free) {
+            e.values.iter_mut().for_each(|value| *value = rest.next().unwrap_or(*value));
+        }
+        Fit {
+            deviance: variance_components::deviance(&point.linear, &variances, &point.eliminated),
+            between_runs: self.between_runs(&point.eliminated),
+            runs: self.records.len(),
+            covariance: inverse(&information),
+            sample_size: sample_size(&point.linear, &point.eliminated),
+            p: point.p.as_slice().to_vec(),
+            model,
+            information,
+            variances,
+            starts: point.starts,
+            unexplained: [0.0; 4],
+            correlation: 1.0,
+            colour: 1.0,
+            begun: 0.0,
+        }
+    }
+
+    /// How many numbers the beginnings of hidden states took from the poses.
+    fn begun(&self, equations: &Equations, point: &Point) -> f64 {
+        let of = |(segment, starts): (&Segment, &Vec<Vec<f64>>)| {
+            let record = &self.records[segment.record];
+            hidden_states::asked(equations, point.p.as_slice(), record, segment.windows[0].start, &starts[0]).1
+        };
+        self.plan.iter().zip(&point.starts).map(of).sum()
+    }
+
+    /// What each kind of jump is needed for.
+    fn unexplained(&self, point: &Point, v: &Variances) -> [f64; 4] {
+        let k = point.p.len();
+        let here = variance_components::deviance(&point.linear, v, &point.eliminated);
+        std::array::from_fn(|c| {
+            let calm = variance_components::without_jump(*v, c);
+            let e = eliminate(&point.linear, &calm, k).filter(|_| self.free.jump[c] && calm != *v);
+            e.map_or(0.0, |e| variance_components::deviance(&point.linear, &calm, &e) - here)
+        })
+    }
+}
+
+/// What a step gains: a whole one in what is promised once the poses have followed, a shortened one in what is there.
+fn gain(here: &Point, next: &Point, v: &Variances, share: f64) -> f64 {
+    match share < 1.0 {
+        true => misfit(&here.linear, v) - misfit(&next.linear, v),
+        false => here.eliminated.cost() - next.eliminated.cost(),
+    }
+}
+
+/// What the poses and values of a point cost as they are: squared residuals over the noise and squared jumps over
+/// theirs. The cost that is left when the poses are eliminated is a promise of the linearisation, and where that is far
+/// from the truth no step would be seen to lead down.
+fn misfit(linear: &[Vec<Linear>], v: &Variances) -> f64 {
+    let of_window = |w: &Linear| {
+        let noise: f64 = v.noise.iter().enumerate().map(|(channel, noise)| w.square(channel) / noise).sum();
+        let jump = w.mismatch.iter().enumerate().map(|(c, m)| m * m / (v.jump[c.min(3)] * w.duration));
+        noise + jump.sum::<f64>()
+    };
+    linear.iter().flatten().map(of_window).sum()
+}
+
+/// The number of values that count as independent in a fit.
+fn sample_size(linear: &[Vec<Linear>], e: &Eliminated) -> f64 {
+    let windows = linear.iter().map(Vec::len).sum::<usize>() as f64;
+    let coordinates = linear.iter().flatten().map(|w| w.axes.nrows()).max().unwrap_or(1) as f64;
+    let values = linear.iter().flatten().flat_map(|w| w.count).sum::<usize>() as f64;
+    independent(values, windows * coordinates, e.jump_determinant)
+}
+
+/// How many of some values count as independent: all of them where noise is white and nothing jumps, one a window and
+/// coordinate where jumps dominate.
+fn independent(values: f64, jumps: f64, jump_determinant: f64) -> f64 {
+    let white = (-jump_determinant / jumps.max(1.0)).exp();
+    jumps + (values - jumps).max(0.0) * white
+}
+
+/// The inverse of an information matrix, unless a direction is as good as open.
+pub(crate) fn inverse(information: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    if information.is_empty() {
+        return Some(information.clone());
+    }
+    let scale = DVector::from_fn(information.nrows(), |i, _| information[(i, i)].sqrt().recip());
+    if !scale.iter().all(|s| s.is_finite()) {
+        return None;
+    }
+    let scaled = DMatrix::from_fn(scale.len(), scale.len(), |i, j| information[(i, j)] * scale[i] * scale[j]);
+    let eigen = scaled.clone().symmetric_eigenvalues();
+    if eigen.iter().any(|e| *e < 1e-7) {
+        return None;
+    }
+    let inverse = scaled.cholesky()?.inverse();
+    Some(DMatrix::from_fn(scale.len(), scale.len(), |i, j| inverse[(i, j)] * scale[i] * scale[j]))
+}
+
+fn step(e: &Eliminated, damping: f64) -> Option<DVector<f64>> {
+    let (information, gradient) = e.normal();
+    let unseen = DVector::zeros(gradient.len());
+    damped_step(information, &gradient, damping, &unseen)
+}
+
+/// What a step gains in deviance if the model is as linear as it looks.
+fn promised(e: &Eliminated, delta: &DVector<f64>) -> f64 {
+    let (information, gradient) = e.normal();
+    -(delta.dot(&(information * delta)) + 2.0 * gradient.dot(delta))
+}
+
+fn moved(starts: &Starts, by: &[Vec<DVector<f64>>], share: f64) -> Starts {
+    let add = |(z, d): (&Vec<f64>, &DVector<f64>)| z.iter().zip(d.iter()).map(|(z, d)| z + share * d).collect();
+    starts.iter().zip(by).map(|(s, b)| s.iter().zip(b).map(add).collect()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::estimation::autocorrelation::Blocks;
+
+    /// A window with two trailers, and others without a jump behind them.
+    #[test]
+    fn a_misfit_counts_noise_and_jumps_in_their_variances() {
+        let window = |squares: [f64; 3], duration: f64, mismatch: &[f64]| Linear {
+            gram: squares.map(|square| DMatrix::from_element(1, 1, square)),
+            count: [1; 3],
+            blocks: [Blocks::default(); 3],
+            back: None,
+            axes: DMatrix::zeros(0, 0),
+            duration,
+            mismatch: mismatch.to_vec(),
+        };
+        let v = Variances { noise: [2.0, 4.0, 8.0], jump: [1.0, 2.0, 4.0, 8.0] };
+        let first = window([2.0, 8.0, 24.0], 0.5, &[1.0, 2.0, 4.0, 8.0, 16.0]);
+        // 1 + 2 + 3, and 2 + 4 + 8 + 16 + 64.
+        assert_eq!(misfit(&[vec![first.clone()]], &v), 6.0 + 94.0);
+        let second = window([20.0, 0.0, 0.0], 3.0, &[]);
+        assert_eq!(misfit(&[vec![first.clone(), second.clone()], vec![second]], &v), 100.0 + 20.0);
+    }
+
+    #[test]
+    fn what_jumps_counts_once_a_window() {
+        assert_eq!(independent(900.0, 60.0, 0.0), 900.0);
+        assert!((independent(900.0, 60.0, 60.0 * 50.0) - 60.0).abs() < 1e-9);
+        // Jumps as large as the noise, say: each makes half of what is beyond one a window worthless.
+        assert!((independent(900.0, 60.0, 60.0 * 2.0_f64.ln()) - 480.0).abs() < 1e-9);
+        // Fewer values than jumps say no less than one each.
+        assert_eq!(independent(40.0, 60.0, 0.0), 60.0);
+    }
+}

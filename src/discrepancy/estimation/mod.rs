@@ -1,0 +1,10 @@
+//! The fit: windows linked by process noise, parameters by Gauss–Newton, variances by REML.
+
+pub mod autocorrelation;
+pub(crate) mod bounds;
+pub mod elimination;
+pub mod fit;
+pub mod levenberg_marquardt;
+pub mod problem;
+pub mod rate_regression;
+pub mod variance_components;

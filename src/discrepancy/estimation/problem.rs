@@ -1,0 +1,97 @@
+//! Runs cut into windows, and what is known of their noise.
+
+use super::elimination::Variances;
+use super::variance_components::Free;
+use crate::discrepancy::initial_state::heading_from_path;
+use crate::discrepancy::record::local_polynomial;
+use crate::discrepancy::record::record::{Channel, Record};
+use crate::discrepancy::shooting::windows::{Segment, Starts};
+use crate::error::Result;
+use crate::model::{Equations, Model};
+use crate::motion::visible_state;
+
+/// Runs cut into windows, with what is known of their noise.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    /// The runs.
+    pub records: Vec<Record>,
+    /// Their windows.
+    pub plan: Vec<Segment>,
+    /// Which variances are free.
+    pub free: Free,
+    /// Where the variances start.
+    pub variances: Variances,
+}
+
+impl Problem {
+    /// Cuts runs into windows and estimates their noise; a known standard deviation of position (m) or heading (rad)
+    /// is kept.
+    ///
+    /// A run without a window says nothing, so it is left out where another one has some: whatever is asked of runs one
+    /// by one would take its silence for an answer.
+    pub fn new(records: Vec<Record>, position: Option<f64>, heading: Option<f64>) -> Self {
+        let records = match records.iter().any(has_windows) {
+            true => records.into_iter().filter(has_windows).collect(),
+            false => records,
+        };
+        let plan = crate::discrepancy::shooting::windows::plan(&records);
+        let channels = [Channel::Position, Channel::Heading, Channel::Trailer];
+        let known = [position, heading, heading];
+        let present = channels.map(|c| records.iter().any(|r| r.channels().contains(&c)));
+        let noise = [0, 1, 2].map(|k| known[k].unwrap_or_else(|| noise_of(&records, channels[k])).powi(2));
+        let jump = [noise[0], noise[0], noise[1], noise[2]];
+        let free =
+            Free { noise: [0, 1, 2].map(|k| present[k] && known[k].is_none()), jump: [true, true, true, present[2]] };
+        Self { records, plan, free, variances: Variances { noise, jump } }
+    }
+
+    /// How many windows there are.
+    pub fn windows(&self) -> usize {
+        self.plan.iter().map(|s| s.windows.len()).sum()
+    }
+
+    /// Σ n·ln σ² over all measured values of all windows.
+    pub fn noise_determinant(&self, v: &Variances) -> f64 {
+        let of_segment = |s: &Segment| {
+            let rows: usize = s.windows.iter().map(std::ops::Range::len).sum();
+            let each = self.records[s.record].channels().into_iter().map(|c| v.noise[c as usize].ln());
+            rows as f64 * each.sum::<f64>()
+        };
+        self.plan.iter().map(of_segment).sum()
+    }
+
+    /// Poses at the windows' starts from the measurements alone, as the model's sensor says.
+    pub fn starts(&self, model: &Model) -> Result<Starts> {
+        starts(model, &self.records, &self.plan)
+    }
+}
+
+/// Poses at the windows' starts from the measurements alone, as a model's sensor says; where no heading is measured, its
+/// motion at the values that it has.
+pub(crate) fn starts(model: &Model, records: &[Record], plan: &[Segment]) -> Result<Starts> {
+    let equations = model.equations(&[])?;
+    Ok(plan.iter().map(|s| heading_from_path::starts(&equations, &records[s.record], &s.windows)).collect())
+}
+
+/// Whether a run is long enough to be cut into windows.
+pub(crate) fn has_windows(record: &Record) -> bool {
+    !crate::discrepancy::shooting::windows::plan(std::slice::from_ref(record)).is_empty()
+}
+
+/// The median noise of a channel over the runs.
+fn noise_of(records: &[Record], channel: Channel) -> f64 {
+    let mut found: Vec<f64> = Vec::new();
+    for r in records {
+        let columns = r.channels().into_iter().zip(&r.columns).filter(|(c, _)| *c == channel);
+        found.extend(columns.filter_map(|(_, y)| local_polynomial::noise(&r.time[r.rows.clone()], &y[r.rows.clone()])));
+    }
+    found.sort_by(f64::total_cmp);
+    // A column without any noise still has its last digit.
+    found.get(found.len() / 2).copied().unwrap_or(1e-3).max(1e-9)
+}
+
+/// The pose that a measurement says, or the measurement itself where the sensor's formulas cannot be undone.
+pub fn pose_of(equations: &Equations, measured: &[f64]) -> Vec<f64> {
+    let p = vec![0.0; equations.free.len()];
+    visible_state(equations, &p, measured).unwrap_or_else(|_| measured.to_vec())
+}

@@ -1,0 +1,6 @@
+//! Whether an effect is real: information criterion, score test, Wald test, cross-validation, bootstrap, jackknife.
+
+pub mod cross_validation;
+pub mod parametric_bootstrap;
+pub mod score_test;
+pub(crate) mod wald_test;

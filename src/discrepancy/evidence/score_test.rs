@@ -1,0 +1,199 @@
+//! Candidates proposed: what each effect would gain, to first order, from one linearisation of all.
+
+use crate::discrepancy::estimation::elimination::{Chain, Eliminated};
+use crate::discrepancy::estimation::fit::{Effort, Fit};
+use crate::discrepancy::estimation::problem::Problem;
+use crate::discrepancy::shooting::windows::{Segment, each_window};
+use crate::effects::{Applied, Effect};
+use crate::error::Result;
+use crate::model::{Equations, Model};
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+/// A candidate with the deviance it promises.
+#[derive(Clone, Debug)]
+pub struct Promise {
+    /// The effect where a fit would begin, its values corrected to first order.
+    pub applied: Applied,
+    /// Standard deviations its values would have.
+    pub std: Vec<f64>,
+    /// Twice the negative log likelihood it promises at the noise and jumps of the model without it.
+    pub deviance: f64,
+}
+
+/// What a model's candidates promise, one at a time and two together.
+#[derive(Clone, Debug, Default)]
+pub struct Promises {
+    /// Each candidate alone, in the order of the library.
+    pub single: Vec<Promise>,
+    /// Two candidates together, the most promising first; of those that are weighed by one linearisation.
+    pub pairs: Vec<[Promise; 2]>,
+}
+
+/// How many pairs are looked at further.
+const PAIRS: usize = 2;
+
+/// Whether an effect vanishes at zero and can be linearised there together with all others of its kind.
+fn is_regular(effect: &Effect, model: &Model, trailer: Option<usize>) -> bool {
+    let known = model.effects.iter().any(|e| e.effect.id == effect.id && e.trailer == trailer);
+    // A user's own may be undefined somewhere, or close a circle with another: it must not spoil the pass for others.
+    !known && effect.origin.is_none() && effect.states.is_empty() && effect.starts().len() == 1
+}
+
+/// The candidates for a model by what they promise, best first.
+///
+/// Effects that vanish at zero are weighed together by one pass over the data; effects with states, and those a
+/// local search reaches from several starts only, by one pass a start.
+pub fn promises(problem: &Problem, base: &Fit, model: &Model, open: &[(&Effect, Option<usize>)]) -> Result<Promises> {
+    let (regular, others): (Vec<_>, Vec<_>) = open.iter().partition(|(e, t)| is_regular(e, model, *t));
+    let applied = |(e, t): &(&Effect, Option<usize>)| {
+        e.starts().into_iter().map(|s| Applied::new(e, *t, s).freed()).collect::<Vec<_>>()
+    };
+    let together: Vec<Applied> = regular.iter().flat_map(applied).collect();
+    // An entry of the model file is where the search for a better value begins.
+    let alone: Vec<Vec<Applied>> = others
+        .iter()
+        .flat_map(|(e, t)| match model.effects.iter().find(|a| a.effect.id == e.id && a.trailer == *t) {
+            Some(given) => vec![given.clone().freed()],
+            None => applied(&(*e, *t)),
+        })
+        .map(|a| vec![a])
+        .collect();
+    let groups: Vec<Vec<Applied>> = std::iter::once(together).filter(|g| !g.is_empty()).chain(alone).collect();
+    let found: Vec<Promises> = groups.par_iter().map(|g| promise(problem, base, model, g)).collect::<Result<_>>()?;
+    let mut all = Promises::default();
+    for group in found {
+        all.single.extend(group.single);
+        all.pairs.extend(group.pairs);
+    }
+    keep_best_start(&mut all.single);
+    Ok(all)
+}
+
+/// Of several starts of one effect the most promising stays.
+fn keep_best_start(found: &mut Vec<Promise>) {
+    let mut kept: Vec<Promise> = Vec::with_capacity(found.len());
+    for promise in found.drain(..) {
+        match kept.iter_mut().find(|k| k.applied.same_as(&promise.applied)) {
+            Some(k) if promise.deviance < k.deviance => *k = promise,
+            Some(_) => {}
+            None => kept.push(promise),
+        }
+    }
+    *found = kept;
+}
+
+fn promise(problem: &Problem, base: &Fit, model: &Model, group: &[Applied]) -> Result<Promises> {
+    let joint = group.iter().fold(model.clone(), |m, a| m.with_effect(a.clone()));
+    let free = joint.free_parameters();
+    let equations = joint.equations(&free)?;
+    let Some(e) = joined(problem, base, &equations, &joint.free_values()) else { return Ok(Promises::default()) };
+    let constant = e.log_determinant + problem.noise_determinant(&base.variances);
+    let position = |s: &crate::formula::Symbol| free.iter().position(|f| f == s);
+    let indices = |a: &Applied| a.parameters().iter().filter_map(position).collect::<Vec<usize>>();
+    let kept: Vec<usize> =
+        model.free_effects().filter(|e| !group.iter().any(|g| g.same_as(e))).flat_map(indices).collect();
+    let weigh = |together: &[&Applied]| -> Option<Vec<Promise>> {
+        let own: Vec<Vec<usize>> = together.iter().map(|a| indices(a)).collect();
+        let all: Vec<usize> = kept.iter().chain(own.iter().flatten()).copied().collect();
+        let (gain, step, spread) = restricted_step(&e, &all)?;
+        let mut at = kept.len();
+        let each = together.iter().zip(&own).map(|(a, own)| {
+            let mut applied = (*a).clone();
+            let part = at..at + own.len();
+            at += own.len();
+            applied.values.iter_mut().zip(&step.as_slice()[part.clone()]).for_each(|(v, s)| *v = moved(*v, *s, a));
+            Promise { applied, std: spread.as_slice()[part].to_vec(), deviance: e.cost() - gain + constant }
+        });
+        Some(each.collect())
+    };
+    let single: Vec<Promise> = group.iter().filter_map(|a| weigh(&[a])).flatten().collect();
+    let two = |i: usize| group[i + 1..].iter().map(move |b| [&group[i], b]);
+    let mut pairs: Vec<[Promise; 2]> = match group.len() <= MOST_PAIRED {
+        true => (0..group.len()).flat_map(two).filter_map(|ab| weigh(&ab)?.try_into().ok()).collect(),
+        false => vec![],
+    };
+    pairs.sort_by(|a, b| a[0].deviance.total_cmp(&b[0].deviance));
+    pairs.truncate(PAIRS);
+    Ok(Promises { single, pairs })
+}
+
+/// A model along all windows, which are eliminated as they come: of a large library none could be kept.
+fn joined(problem: &Problem, base: &Fit, equations: &Equations, p: &[f64]) -> Option<Eliminated> {
+    let along = |(segment, starts): (&Segment, &Vec<Vec<f64>>)| {
+        let mut chain = Chain::new(&base.variances, p.len(), false);
+        let record = &problem.records[segment.record];
+        each_window(equations, p, record, segment, starts, |window| chain.push(&window))?;
+        Some(chain)
+    };
+    let chains: Vec<Chain> = problem.plan.par_iter().zip(&base.starts).map(along).collect::<Option<_>>()?;
+    let mut total = Eliminated::nothing(p.len());
+    chains.into_iter().try_for_each(|c| total.add(c))?;
+    Some(total)
+}
+
+/// Of more candidates than these, pairs are not looked for: a library of terms.
+const MOST_PAIRED: usize = 40;
+
+/// A first-order step that stays where the effect has a meaning.
+fn moved(value: f64, step: f64, a: &Applied) -> f64 {
+    // Nonlinear effects begin where they were linearised: their first step may lead anywhere.
+    if a.effect.states.is_empty() && a.effect.starts().len() == 1 { value + step } else { value }
+}
+
+/// What the quadratic form gains when only some parameters move, how they move, and how well they are known.
+fn restricted_step(e: &Eliminated, indices: &[usize]) -> Option<(f64, DVector<f64>, DVector<f64>)> {
+    let (information, gradient) = e.normal();
+    let k = indices.len();
+    let mut h = DMatrix::from_fn(k, k, |i, j| information[(indices[i], indices[j])]);
+    (0..k).for_each(|i| h[(i, i)] = if h[(i, i)] > 0.0 { h[(i, i)] * (1.0 + 1e-9) } else { 1.0 });
+    let g = DVector::from_fn(k, |i, _| gradient[indices[i]]);
+    let h = h.cholesky()?;
+    let step = h.solve(&g);
+    let gain = g.dot(&step);
+    let spread = h.inverse().diagonal().map(f64::sqrt);
+    gain.is_finite().then_some((gain, -step, spread))
+}
+
+/// Fits candidates at the noise and jumps of the model without them; a wild first step is taken back.
+pub fn settled(
+    problem: &Problem,
+    base: &Fit,
+    model: &Model,
+    promises: &[&Promise],
+    effort: Effort,
+) -> Result<Option<Fit>> {
+    let begin = promises.iter().fold(model.clone(), |m, p| m.with_effect(tamed(p)));
+    problem.fit(&begin, &base.starts, &base.variances, effort)
+}
+
+/// The effect as promised, or where its fit would begin when that lies outside its range.
+fn tamed(promise: &Promise) -> Applied {
+    let mut applied = promise.applied.clone();
+    if !applied.is_in_range() {
+        applied.values = promise.applied.effect.starts().swap_remove(0);
+    }
+    applied
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::fixtures::{applied, unicycle};
+    use crate::effects::named;
+    use crate::provenance::Origin;
+
+    #[test]
+    fn an_effect_with_states_or_values_of_its_own_is_asked_alone() {
+        let bare = unicycle(&[]);
+        let creep = named("traverse-creep").unwrap();
+        let known = bare.clone().with_effect(applied("traverse-creep"));
+        assert!(is_regular(creep, &bare, None) && !is_regular(creep, &known, None));
+        // Of another place it is another effect.
+        assert!(is_regular(creep, &known, Some(1)));
+        assert!(!is_regular(named("relaxation-length").unwrap(), &bare, None));
+        let origin = Origin { path: "own.toml".into(), sha256: String::new(), text: String::new() };
+        let own = Effect { origin: Some(origin.into()), ..creep.clone() };
+        assert!(!is_regular(&own, &bare, None));
+    }
+}

@@ -1,0 +1,96 @@
+//! What a fit says of its effects: how far from neutral, how alike in all runs, how likely by chance.
+
+use crate::discrepancy::estimation::fit::Fit;
+use crate::effects::Applied;
+use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
+
+/// Where an effect's values stand among the free ones, those that vanish where it is neutral.
+pub(crate) fn neutral_at_zero(fit: &Fit, effect: &Applied) -> Vec<(usize, f64)> {
+    let mut at = 0;
+    for e in fit.model.free_effects() {
+        if e.same_as(effect) {
+            let all = e.effect.parameters.values().zip(&e.values).enumerate();
+            let kept = all.filter(|(_, (p, _))| !p.periodic).map(|(i, (p, v))| (p.positive, (at + i, *v)));
+            let (positive, signed): (Vec<_>, Vec<_>) = kept.partition(|(positive, _)| *positive);
+            return if signed.is_empty() { positive } else { signed }.into_iter().map(|(_, v)| v).collect();
+        }
+        at += e.values.len();
+    }
+    vec![]
+}
+
+/// Squared distance of an effect from neutral in units of a covariance; zero when that is not known.
+fn distance(fit: &Fit, covariance: Option<&nalgebra::DMatrix<f64>>, effect: &Applied) -> f64 {
+    distance_of(fit, covariance, effect, &|_, v| v)
+}
+
+/// The squared length of a vector in units of a covariance, made of an effect's values and where they stand among the free
+/// ones; zero when the covariance is not known.
+pub(crate) fn distance_of(
+    fit: &Fit,
+    covariance: Option<&nalgebra::DMatrix<f64>>,
+    effect: &Applied,
+    of: &dyn Fn(usize, f64) -> f64,
+) -> f64 {
+    let own = neutral_at_zero(fit, effect);
+    let Some(c) = covariance else { return 0.0 };
+    let block = nalgebra::DMatrix::from_fn(own.len(), own.len(), |i, j| c[(own[i].0, own[j].0)]);
+    let v = nalgebra::DVector::from_iterator(own.len(), own.iter().map(|(i, v)| of(*i, *v)));
+    block.cholesky().map_or(0.0, |c| v.dot(&c.solve(&v)))
+}
+
+/// As [`distance`] by the noise alone.
+pub(crate) fn wald(fit: &Fit, effect: &Applied) -> f64 {
+    distance(fit, fit.covariance.as_ref(), effect)
+}
+
+/// Largest probability that runs which scatter as these do show such an effect by chance.
+const BY_CHANCE: f64 = 1e-3;
+
+/// Whether an effect shows in the runs alike, and not in a few of them or in different directions.
+pub(crate) fn repeats(fit: &Fit, effect: &Applied) -> bool {
+    let Some(between) = &fit.between_runs else { return true };
+    let k = neutral_at_zero(fit, effect).len() as f64;
+    let free = fit.runs as f64 - k;
+    if free < 1.0 {
+        return true;
+    }
+    let f = distance(fit, Some(between), effect) / k * free / (fit.runs as f64 - 1.0);
+    FisherSnedecor::new(k, free).is_ok_and(|d| d.sf(f) < BY_CHANCE)
+}
+
+/// Probability that χ² with k degrees of freedom exceeds x.
+pub(crate) fn tail(x: f64, k: usize) -> f64 {
+    ChiSquared::new(k as f64).map_or(f64::NAN, |d| d.sf(x))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::fixtures::{KNOWN, applied, fit_of, unicycle};
+    use nalgebra::DMatrix;
+
+    #[test]
+    fn an_effect_is_told_by_the_values_that_vanish_with_it() {
+        let fit = fit_of(unicycle(&KNOWN));
+        let places = |id: &str| neutral_at_zero(&fit, &applied(id));
+        assert_eq!(places("relaxation-length"), [(1, 0.1)]);
+        assert_eq!((places("traction-creep"), places("traverse-creep")), (vec![(0, 0.3)], vec![(3, -0.05)]));
+        assert_eq!(places("side-slope"), []);
+    }
+
+    /// One value over its spread between runs, squared, is F of one and of the runs less one: of five runs 74.1 is met by one
+    /// in a thousand, of two 405 284.
+    #[test]
+    fn what_the_runs_scatter_by_is_no_effect() {
+        let effect = applied("traverse-creep");
+        let repeats = |runs: usize, ratio: f64| {
+            let mut between = DMatrix::identity(4, 4);
+            between[(3, 3)] = (0.05 / ratio).powi(2);
+            super::repeats(&Fit { runs, between_runs: Some(between), ..fit_of(unicycle(&KNOWN)) }, &effect)
+        };
+        assert_eq!([8.5, 8.7].map(|ratio| repeats(5, ratio)), [false, true]);
+        assert_eq!([630.0, 640.0].map(|ratio| repeats(2, ratio)), [false, true]);
+        assert!(repeats(1, 0.1) && super::repeats(&fit_of(unicycle(&KNOWN)), &effect));
+    }
+}

@@ -1,0 +1,360 @@
+//! What to drive next: the manoeuvre that is expected to tell most.
+//!
+//! A manoeuvre is driven by the model as fitted, without noise, and the other model is fitted to that *and* to what
+//! the runs at hand say of it; what is left of the misfit is the deviance to expect.
+
+use super::envelope::Envelope;
+use super::manoeuvre::{LENGTH, Manoeuvre, library};
+use crate::discrepancy::diagnosis::equivalents::Relative;
+use crate::discrepancy::diagnosis::verdict::{Outcome, missed};
+use crate::discrepancy::estimation::elimination::{Variances, eliminate};
+use crate::discrepancy::estimation::fit::Fit;
+use crate::discrepancy::estimation::problem::{Problem, starts};
+use crate::discrepancy::record::record::Record;
+use crate::discrepancy::report::{NextExperiment, Verdict};
+use crate::discrepancy::selection::search::{SCREEN, without};
+use crate::discrepancy::selection::select::{Choice, Scored};
+use crate::discrepancy::shooting::windows::{linearise, plan};
+use crate::effects::Applied;
+use crate::error::Result;
+use crate::model::Model;
+use crate::motion::{Arc, Stepper, Timing};
+use crate::number_format::significant;
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+/// Rows a second of a manoeuvre that is thought through; more rows are less noise.
+const RATE: f64 = 10.0;
+/// Steps of the fit to a manoeuvre.
+const PASSES: usize = 3;
+/// Evidence that separates two effects beyond doubt.
+const ENOUGH: f64 = 25.0;
+/// A manoeuvre within this share of the best one is as good.
+pub(crate) const ALIKE: f64 = 0.9;
+/// More rivals than these are not thought of at once.
+const MOST_RIVALS: usize = 4;
+
+/// A model, and what the runs at hand say of its free parameters.
+struct Known {
+    model: Model,
+    p: DVector<f64>,
+    information: DMatrix<f64>,
+}
+
+impl Known {
+    fn of(fit: &Fit) -> Self {
+        let p = DVector::from_column_slice(&fit.p);
+        Self { model: fit.model.clone(), p, information: fit.information.clone() }
+    }
+
+    /// A step that keeps a positive value positive: it is at most divided or multiplied by five.
+    fn held(&self, p: &DVector<f64>, step: &DVector<f64>) -> DVector<f64> {
+        let positive: Vec<bool> =
+            self.model.free_effects().flat_map(|e| e.effect.parameters.values()).map(|p| p.positive).collect();
+        DVector::from_fn(p.len(), |i, _| match positive[i] {
+            true => (p[i] + step[i]).max(p[i] / 5.0).min(p[i] * 5.0) - p[i],
+            false => step[i],
+        })
+    }
+
+    /// The BIC's charge for its parameters.
+    fn charge(&self, sample_size: f64) -> f64 {
+        self.p.len() as f64 * sample_size.ln()
+    }
+}
+
+/// What is needed to think a manoeuvre through.
+pub(crate) struct Thought<'a> {
+    pub(crate) envelope: Envelope,
+    like: &'a Record,
+    variances: Variances,
+    sample_size: f64,
+}
+
+/// What to drive next, after a verdict: for relatives that some run could tell apart, or for an effect that would have
+/// been missed; else what the verdict itself advises.
+///
+/// # Errors
+/// When a model's formulas are malformed.
+pub fn next(
+    problem: &Problem,
+    choice: &Choice,
+    relatives: &[Vec<Relative>],
+    outcome: &Outcome,
+) -> Result<Option<NextExperiment>> {
+    let own = match outcome.verdict {
+        Verdict::MissingEffect | Verdict::UnnamedEffect => between(problem, choice, relatives)?,
+        Verdict::NotIdentifiable => {
+            missed(&choice.candidates, choice.before.dependence()).and_then(|c| revealing(problem, choice, c))
+        }
+        _ => None,
+    };
+    Ok(own.or_else(|| outcome.next_experiment.clone()))
+}
+
+/// Manoeuvres for what the runs at hand leave open: the first chosen effect with relatives that differ from it.
+///
+/// # Errors
+/// When a model's formulas are malformed.
+fn between(problem: &Problem, choice: &Choice, relatives: &[Vec<Relative>]) -> Result<Option<NextExperiment>> {
+    let open = choice.chosen.iter().zip(relatives);
+    let open = open.map(|(c, r)| (c, most_different(r)));
+    let Some((chosen, rivals)) = open.into_iter().find(|(_, r)| !r.is_empty()) else { return Ok(None) };
+    let after = &choice.after;
+    let fitted = |r: &&Relative| {
+        let model = without(&after.model, &chosen.applied, &choice.before.model).with_effect(r.applied.clone().freed());
+        problem.fit(&model, &after.starts, &after.variances, SCREEN)
+    };
+    let fits: Vec<Fit> =
+        rivals.iter().take(MOST_RIVALS).map(fitted).collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
+    let Some(thought) = Thought::of(problem, after) else { return Ok(None) };
+    let truth = Known::of(after);
+    let others: Vec<Known> = fits.iter().map(Known::of).collect();
+    if others.is_empty() {
+        return Ok(None);
+    }
+    // Whichever is true, the other must fall short.
+    let worth = |m: &Manoeuvre| {
+        let both = others.iter().flat_map(|o| [thought.misfit(m, &truth, o), thought.misfit(m, o, &truth)]);
+        both.collect::<Option<Vec<_>>>().map(|all| all.into_iter().fold(f64::INFINITY, f64::min))
+    };
+    let names: Vec<String> = rivals.iter().take(MOST_RIVALS).map(|r| r.applied.label()).collect();
+    let pair = format!("{} from {}", chosen.applied.label(), names.join(" or "));
+    Ok(thought.best(worth).map(|(m, worth)| advice(m.sentence(&thought.envelope), worth, &pair)))
+}
+
+/// The manoeuvre that would show an effect of plausible size that the runs at hand would not have shown.
+///
+/// # Errors
+/// When a model's formulas are malformed.
+fn revealing(problem: &Problem, choice: &Choice, missed: &Scored) -> Option<NextExperiment> {
+    let before = &choice.after;
+    let thought = Thought::of(problem, before)?;
+    let of = Known::of(before);
+    let effect = &missed.applied.effect;
+    let sizes: Vec<f64> = effect.parameters.values().map(|p| p.size).collect();
+    let applied = Applied::new(effect, missed.applied.trailer, sizes);
+    let label = applied.label();
+    let truth = Known { model: before.model.clone().with_effect(applied.freed()), ..Known::of(before) };
+    let (m, worth) = thought.best(|m| thought.misfit(m, &truth, &of))?;
+    let why = format!(
+        "a plausible {label} would have been missed; this is expected to show it with a ΔBIC of about {}",
+        significant(worth, 2)
+    );
+    (worth > ENOUGH).then(|| NextExperiment { why, manoeuvre: m.sentence(&thought.envelope) })
+}
+
+/// What to say of a manoeuvre that is expected to be worth so much.
+fn advice(sentence: String, worth: f64, pair: &str) -> NextExperiment {
+    let expected = significant(worth.max(0.0), 2);
+    let times = (ENOUGH / worth.max(1e-9)).ceil();
+    let (manoeuvre, why) = match times {
+        t if t <= 1.0 => (sentence, format!("the minute is expected to do so with a ΔBIC of {expected}")),
+        t if t <= 30.0 => (
+            format!("{sentence}; repeat it {t} times"),
+            format!("a minute is expected to give a ΔBIC of {expected} only"),
+        ),
+        _ => (
+            "no manoeuvre within these speeds and turns separates them in reasonable time; measure the parameter \
+             itself instead"
+                .to_string(),
+            format!("a minute is expected to give a ΔBIC of {expected} at best"),
+        ),
+    };
+    NextExperiment { why: format!("these runs do not tell {pair}; {why}"), manoeuvre }
+}
+
+/// The relatives that a run is to tell apart: those that agree to first order only where there are no others, for they
+/// would have a say in every choice and are told apart by precision more than by a manoeuvre.
+fn most_different(relatives: &[Relative]) -> Vec<&Relative> {
+    let by_data: Vec<&Relative> = relatives.iter().filter(|r| r.why == "data").collect();
+    if by_data.is_empty() { relatives.iter().filter(|r| r.differs()).collect() } else { by_data }
+}
+
+/// Whether a worth, which may be negative, is nearly as much as the most.
+fn nearly(worth: f64, most: f64) -> bool {
+    worth >= most - (1.0 - ALIKE) * most.abs()
+}
+
+impl<'a> Thought<'a> {
+    pub(crate) fn of(problem: &'a Problem, fit: &Fit) -> Option<Self> {
+        let like = problem.records.first()?;
+        let envelope = Envelope::of(&fit.model, &problem.records)?;
+        let of = Self { envelope, like, variances: fit.variances, sample_size: fit.sample_size };
+        Some(Self { variances: of.scaled(fit.variances), ..of })
+    }
+
+    /// Variances at the rows of a manoeuvre that says as much as one with the rows of the runs.
+    pub(crate) fn scaled(&self, mut v: Variances) -> Variances {
+        v.noise.iter_mut().for_each(|v| *v *= (self.like.step() * RATE).min(1e3));
+        v
+    }
+
+    /// The manoeuvre of the most worth, or the simplest of those that are nearly as good.
+    fn best(&self, worth: impl Fn(&Manoeuvre) -> Option<f64> + Sync) -> Option<(&'static Manoeuvre, f64)> {
+        let all: Vec<&Manoeuvre> = library(&self.envelope).collect();
+        let worths: Vec<Option<f64>> = all.par_iter().map(|m| worth(m)).collect();
+        let most = worths.iter().flatten().copied().fold(f64::NEG_INFINITY, f64::max);
+        all.into_iter().zip(worths).find_map(|(m, w)| w.filter(|w| nearly(*w, most)).map(|w| (m, w)))
+    }
+
+    /// By how much the BIC of `other` is expected to exceed that of `truth` after a manoeuvre.
+    fn misfit(&self, m: &Manoeuvre, truth: &Known, other: &Known) -> Option<f64> {
+        let record = self.driven(m, &truth.model)?;
+        let equations = other.model.free_equations().ok()?;
+        let records = [record];
+        let plan = plan(&records);
+        let mut starts = starts(&other.model, &records, &plan).ok()?;
+        let mut p = other.p.clone();
+        let mut left = f64::NAN;
+        for _ in 0..PASSES {
+            let linear = linearise(&equations, p.as_slice(), &records, &plan, &starts)?;
+            let e = eliminate(&linear, &self.variances, p.len())?;
+            let away = &p - &other.p;
+            let (information, gradient) = e.normal();
+            let held = &other.information * &away;
+            let (information, gradient) = (information + &other.information, gradient + &held);
+            let scale = information.diagonal().iter().copied().fold(0.0, f64::max);
+            let step = match p.len() {
+                0 => DVector::zeros(0),
+                k => -(information + DMatrix::identity(k, k) * (1e-12 * scale)).cholesky()?.solve(&gradient),
+            };
+            // What is left after this step, were the model as linear as it looks.
+            left = e.cost() + away.dot(&held) + gradient.dot(&step);
+            let delta = other.held(&p, &step);
+            for (s, by) in starts.iter_mut().zip(e.corrections(&linear, &delta)) {
+                s.iter_mut().zip(by).for_each(|(z, d)| z.iter_mut().zip(d.iter()).for_each(|(z, d)| *z += d));
+            }
+            p += delta;
+        }
+        Some(left + other.charge(self.sample_size) - truth.charge(self.sample_size)).filter(|w| w.is_finite())
+    }
+
+    /// What the sensors would log of a manoeuvre, without noise.
+    pub(crate) fn driven(&self, m: &Manoeuvre, truth: &Model) -> Option<Record> {
+        let times: Vec<f64> = (0..=(LENGTH * RATE) as usize).map(|i| i as f64 / RATE).collect();
+        let inputs = m.inputs(&self.envelope, &times);
+        let equations = truth.equations(&[]).ok()?;
+        let mut record = Record::new(
+            "manoeuvre",
+            times,
+            vec![vec![]; self.like.columns.len()],
+            self.like.has_heading,
+            &inputs,
+            Timing::Sample,
+        );
+        record.trailers = self.like.trailers;
+        let signals = record.signals.clone();
+        let mut stepper = Stepper::new(&equations, &signals, &[]);
+        let mut z = vec![0.0; equations.visible];
+        z.extend(
+            crate::discrepancy::initial_state::hidden_states::at_rest(
+                &equations,
+                &[],
+                &mut stepper,
+                record.time[0],
+                &z,
+            )
+            .z,
+        );
+        let mut arc = Arc { z, s: vec![] };
+        for i in 0..record.time.len() {
+            let y = stepper.outputs(&arc.z);
+            for c in 0..record.columns.len() {
+                let value = y[record.output_of(c)];
+                record.columns[c].push(value);
+            }
+            if i + 1 < record.time.len() {
+                stepper.advance(&mut arc, record.time[i], record.time[i + 1]);
+            }
+        }
+        record.columns.iter().flatten().all(|x| x.is_finite()).then_some(record)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::fixtures::{KNOWN, WEAVING, applied, fit_of, logged, unicycle};
+
+    /// A value with a sign goes to a fifth or to five times itself at most, another as far as the step leads.
+    #[test]
+    fn a_positive_value_stays_positive() {
+        let known = Known::of(&fit_of(unicycle(&KNOWN)));
+        assert_eq!(known.p.as_slice(), [0.3, 0.1, 0.8, -0.05]);
+        for (step, goes) in [
+            (0.05, [0.05, 0.05, 0.05, 0.05]),
+            (-0.05, [-0.05, -0.05, -0.05, -0.05]),
+            (2.0, [1.2, 2.0, 2.0, 2.0]),
+            (10.0, [1.2, 10.0, 3.2, 10.0]),
+            (-0.5, [-0.24, -0.5, -0.5, -0.5]),
+            (-10.0, [-0.24, -10.0, -0.64, -10.0]),
+        ] {
+            let held = known.held(&known.p, &DVector::from_element(4, step));
+            held.iter().zip(goes).for_each(|(a, b)| assert!((a - b).abs() < 1e-12, "{step}: {held}"));
+        }
+    }
+
+    #[test]
+    fn a_worth_is_near_the_most_on_either_side_of_nothing() {
+        for (worth, most, is_near) in
+            [(9.01, 10.0, true), (8.99, 10.0, false), (-10.99, -10.0, true), (-11.01, -10.0, false), (0.0, 0.0, true)]
+        {
+            assert_eq!(nearly(worth, most), is_near, "{worth} {most}");
+        }
+    }
+
+    /// Of a creep that is known to be a hundredth less than it is, with an information I, and that a manoeuvre would show to be what
+    /// it is with an information G, there remain G·I/(G + I) times the square of the difference.
+    #[test]
+    fn what_is_known_and_what_a_manoeuvre_shows_share_the_misfit() {
+        let known = |e: f64, information: f64| {
+            let model = unicycle(&[("traverse-creep", &[e])]);
+            Known { information: DMatrix::from_element(1, 1, information), ..Known::of(&fit_of(model)) }
+        };
+        let fixed = |e: f64| {
+            let creep = Applied { values: vec![e], ..applied("traverse-creep") };
+            Known::of(&fit_of(unicycle(&[]).with_effect(creep)))
+        };
+        let truth = known(-0.05, 1.0);
+        let equations = truth.model.free_equations().unwrap();
+        let time = (0..600).map(|i| 0.05 * f64::from(i)).collect();
+        let records = [logged((&equations, &[-0.05]), time, WEAVING, &[0.0; 3], 1e-3)];
+        let thought = Thought {
+            envelope: Envelope::of(&truth.model, &records).unwrap(),
+            like: &records[0],
+            variances: Variances { noise: [1e-6; 3], jump: [1e-9; 4] },
+            sample_size: 1000.0,
+        };
+        let m = library(&thought.envelope).next().unwrap();
+        let of = |other: &Known| thought.misfit(m, &truth, other).unwrap();
+        // A model without the creep as a free value is charged a parameter less.
+        let whole = of(&fixed(-0.04)) + 1000.0_f64.ln();
+        assert!(whole > 30.0 && (of(&fixed(-0.05)) + 1000.0_f64.ln()).abs() < 1e-3, "{whole}");
+        // What has the truth for its own lacks nothing, and is charged the same.
+        assert!(of(&known(-0.05, 1.0)).abs() < 1e-3);
+        let g = whole / 1e-4;
+        for (information, share) in [(1e-6 * g, 0.0), (g / 3.0, 0.25), (g, 0.5), (3.0 * g, 0.75), (1e6 * g, 1.0)] {
+            let left = of(&known(-0.04, information)) / whole;
+            assert!((left - share).abs() < 0.01, "{information}: {left}");
+        }
+    }
+
+    /// What is worth the evidence in one minute is driven once, what needs a few as often as that; below there is none.
+    #[test]
+    fn a_manoeuvre_is_repeated_until_it_is_worth_enough() {
+        let of = |worth: f64| advice("drive a circle".into(), worth, "a from b");
+        for (worth, manoeuvre, expected) in [
+            (30.0, "drive a circle", "expected to do so with a ΔBIC of 30"),
+            (25.0, "drive a circle", "expected to do so with a ΔBIC of 25"),
+            (24.0, "drive a circle; repeat it 2 times", "ΔBIC of 24 only"),
+            (25.0 / 30.0, "drive a circle; repeat it 30 times", "ΔBIC of 0.83 only"),
+            (0.8, "no manoeuvre within these speeds", "ΔBIC of 0.80 at best"),
+            (-3.0, "no manoeuvre within these speeds", "ΔBIC of 0 at best"),
+        ] {
+            let said = of(worth);
+            assert!(said.manoeuvre.starts_with(manoeuvre) && said.why.contains(expected), "{said:?}");
+            assert_eq!(said.manoeuvre.contains("repeat"), manoeuvre.contains("repeat"));
+        }
+    }
+}

@@ -1,0 +1,5 @@
+//! Optimal experiment design: the manoeuvre that would tell rival effects apart.
+
+pub mod design;
+pub mod envelope;
+pub mod manoeuvre;

@@ -1,0 +1,6 @@
+//! Where and when model and data disagree.
+
+pub mod clock_drift;
+pub mod constraint_residuals;
+pub(crate) mod driving_regimes;
+pub mod unexplained_motion;

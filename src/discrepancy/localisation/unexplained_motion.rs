@@ -1,0 +1,58 @@
+//! What the last model leaves: constraint by constraint, against the noise, and whether it is white.
+
+use super::constraint_residuals::{CONSTRAINTS, Violation};
+use crate::discrepancy::estimation::fit::Fit;
+use crate::discrepancy::evidence::wald_test::tail;
+use crate::discrepancy::report::{Remaining, RemainingConstraint};
+
+/// What a fit leaves of every constraint on the data it was fitted to.
+///
+/// | symbol | meaning |
+/// |---|---|
+/// | RMS, noise | the violated rate over windows, and what smoothing noise alone makes of it |
+/// | p | probability of so much unexplained motion by chance: half of χ²₁, for a variance is never negative |
+/// | rows, windows alike | integrated correlations, see [`crate::discrepancy::estimation::autocorrelation`]: 1 where noise and jumps are white |
+pub fn remaining(fit: &Fit, has_heading: bool, after: &[Violation]) -> Remaining {
+    let noise = fit.variances.noise.map(f64::sqrt);
+    let constraints = CONSTRAINTS.iter().enumerate().filter_map(|(c, (place, unit))| {
+        let (rms, noise) = Violation::rms(after, c)?;
+        // Of noise that is not white the poses wander: what that makes of the rate is no motion.
+        let moved = if fit.colour > 1.0 { (1.0 - (noise / rms).powi(2)).max(0.0) } else { 1.0 };
+        let gain = moved * fit.unexplained[c] / fit.dependence();
+        // Half of the weight lies on zero.
+        let p_value = if gain > 0.0 { 0.5 * tail(gain, 1) } else { 1.0 };
+        Some(RemainingConstraint { place: (*place).into(), unit: (*unit).into(), rms, noise, p_value })
+    });
+    Remaining {
+        position_noise: noise[0],
+        heading_noise: has_heading.then_some(noise[1]),
+        rows_alike: fit.colour,
+        windows_alike: fit.correlation,
+        constraints: constraints.collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::fixtures::{fit_of, unicycle};
+
+    /// What noise that wanders makes of a rate is taken off what remains; of white noise nothing is.
+    #[test]
+    fn what_remains_is_judged_beside_its_noise() {
+        let mut missed = Violation::across("a.csv", &[0.2, -0.2, 0.2, 0.2]);
+        missed.noise = [0.0, 0.1, 0.0, 0.0];
+        let p_of = |colour: f64, correlation: f64, unexplained: f64| {
+            let fit = Fit { colour, correlation, unexplained: [0.0, unexplained, 0.0, 0.0], ..fit_of(unicycle(&[])) };
+            let left = remaining(&fit, false, std::slice::from_ref(&missed));
+            let of = left.constraints.iter().find(|c| c.place == "traverse constraint").unwrap();
+            assert!((of.rms - 0.2).abs() < 1e-12 && (of.noise - 0.1).abs() < 1e-12);
+            assert!(left.heading_noise.is_none() && (left.position_noise - 1e-3).abs() < 1e-12);
+            of.p_value
+        };
+        let close = |p: f64, gain: f64| (p - 0.5 * tail(gain, 1)).abs() < 1e-12;
+        assert!(close(p_of(1.0, 1.0, 8.0), 8.0) && close(p_of(1.0, 2.0, 8.0), 4.0));
+        assert!(close(p_of(2.0, 1.0, 8.0), 0.75 * 4.0) && close(p_of(4.0, 2.0, 40.0), 0.75 * 5.0));
+        assert_eq!((p_of(1.0, 1.0, 0.0), p_of(2.0, 1.0, -1.0)), (1.0, 1.0));
+    }
+}

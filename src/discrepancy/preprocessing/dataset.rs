@@ -1,0 +1,51 @@
+//! What a request gives: the records to fit and those to judge by.
+
+use super::outliers;
+use crate::discrepancy::estimation::problem::has_windows;
+use crate::discrepancy::pipeline::Request;
+use crate::discrepancy::record::record::Record;
+use crate::error::Result;
+use crate::files::Run;
+use crate::model::Model;
+use rayon::prelude::*;
+
+/// Share of every run that is fitted when no run is held out.
+pub(crate) const FITTED_SHARE: f64 = 0.75;
+
+/// Runs cut into what is fitted and what is held out.
+pub(crate) struct Data {
+    pub fitted: Vec<Record>,
+    pub held_out: Vec<Record>,
+    /// Rows left out because their measured pose is grossly wrong.
+    pub gross: usize,
+}
+
+impl Data {
+    /// The records of a request's runs.
+    pub fn of(request: &Request, model: &Model) -> Result<Self> {
+        let record = |r: &Run| Record::of_run(r, request.file.input_timing, model.trailer_count());
+        let whole: Vec<Record> = request.runs.iter().map(record).collect();
+        let (fitted, held_out): (Vec<Record>, Vec<Record>) = match request.held_out.is_empty() {
+            true => whole.iter().map(|r| r.split(FITTED_SHARE)).unzip(),
+            false => (whole, request.held_out.iter().map(record).collect()),
+        };
+        let clean = |records: &[Record]| -> Result<(Vec<Record>, Vec<usize>)> {
+            let each = records.par_iter().map(|r| outliers::without_gross_errors(r, model));
+            Ok(each.collect::<Result<Vec<_>>>()?.into_iter().unzip())
+        };
+        let ((fitted, a), (held_out, b)) = (clean(&fitted)?, clean(&held_out)?);
+        Ok(Self { fitted, held_out, gross: a.iter().chain(&b).sum() })
+    }
+
+    /// Where logs were interrupted, and which are too short to be fitted beside others.
+    pub fn warnings(&self) -> impl Iterator<Item = String> + '_ {
+        let interrupted = self.fitted.iter().chain(&self.held_out).filter_map(|r| {
+            let pieces = r.segments(0.0).len();
+            (pieces > 1).then(|| format!("{}: the log is interrupted; it is used in {pieces} pieces", r.name))
+        });
+        let some = self.fitted.iter().any(has_windows);
+        let short = self.fitted.iter().filter(move |r| some && !has_windows(r));
+        let said = |r: &Record| format!("{}: too short for a window of one second; it is not fitted", r.name);
+        interrupted.chain(short.map(said))
+    }
+}

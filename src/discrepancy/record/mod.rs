@@ -1,0 +1,6 @@
+//! A measured run as columns and signals, with the noise of its sensor.
+
+pub mod angle;
+pub mod local_polynomial;
+pub mod record;
+pub mod sensor_noise;

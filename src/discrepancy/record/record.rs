@@ -1,0 +1,222 @@
+//! A run as the fit sees it.
+
+use super::local_polynomial;
+use crate::files::{InputTiming, Run};
+use crate::motion::{Signals, Timing};
+use std::ops::Range;
+use std::sync::OnceLock;
+
+/// Rows of a run: measured pose, inputs as signals.
+#[derive(Clone, Debug)]
+pub struct Record {
+    /// Name of the run.
+    pub name: String,
+    /// Times, strictly increasing, s.
+    pub time: Vec<f64>,
+    /// Measured x, y and, when measured, heading and trailer headings; angles unwrapped.
+    pub columns: Vec<Vec<f64>>,
+    /// Whether a heading was measured (then it is column 2).
+    pub has_heading: bool,
+    /// The inputs.
+    pub signals: Signals,
+    /// Trailers of the vehicle, measured or not.
+    pub trailers: usize,
+    /// Rows that take part.
+    pub rows: Range<usize>,
+    pub(crate) known: Known,
+}
+
+/// What has been found out about all rows once; a copy, which may be of other rows, finds out for itself.
+#[derive(Debug, Default)]
+pub(crate) struct Known {
+    step: OnceLock<f64>,
+    noise: OnceLock<f64>,
+}
+
+impl Clone for Known {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+/// What kind of thing a measured column is; columns of one kind share a noise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Channel {
+    /// x or y.
+    Position,
+    /// The body's heading.
+    Heading,
+    /// A trailer's heading.
+    Trailer,
+}
+
+impl Record {
+    /// A whole run.
+    pub fn new(
+        name: &str,
+        time: Vec<f64>,
+        columns: Vec<Vec<f64>>,
+        has_heading: bool,
+        inputs: &[Vec<f64>],
+        timing: Timing,
+    ) -> Self {
+        let signals = Signals::new(&time, inputs, timing);
+        let rows = 0..time.len();
+        let trailers = columns.len() - 2 - usize::from(has_heading);
+        Self { name: name.to_string(), time, columns, has_heading, signals, trailers, rows, known: Known::default() }
+    }
+
+    /// A run as it was read, of a vehicle with some trailers.
+    pub fn of_run(run: &Run, timing: InputTiming, trailers: usize) -> Self {
+        let mut columns = vec![run.x.clone(), run.y.clone()];
+        columns.extend(run.heading.clone());
+        columns.extend(run.trailer_headings.iter().cloned());
+        let signals = Signals::new(run.input_time(), &run.inputs, timing.into());
+        let (rows, has_heading) = (0..run.time.len(), run.heading.is_some());
+        let (name, time) = (run.name.clone(), run.time.clone());
+        Self { name, time, columns, has_heading, signals, trailers, rows, known: Known::default() }
+    }
+
+    /// The kind of each measured column.
+    pub fn channels(&self) -> Vec<Channel> {
+        let kind = |i: usize| match i {
+            0 | 1 => Channel::Position,
+            2 if self.has_heading => Channel::Heading,
+            _ => Channel::Trailer,
+        };
+        (0..self.columns.len()).map(kind).collect()
+    }
+
+    /// The output of the equations that each measured column is compared with.
+    pub fn output_of(&self, column: usize) -> usize {
+        if column >= 2 && !self.has_heading { column + 1 } else { column }
+    }
+
+    /// The run up to a time and from it on, as shares of the whole duration.
+    pub fn split(&self, share: f64) -> (Record, Record) {
+        let (first, last) = (self.time[self.rows.start], self.time[self.rows.end - 1]);
+        let cut = first + share * (last - first);
+        let at = self.rows.start + self.time[self.rows.clone()].partition_point(|t| *t < cut);
+        let part = |rows: Range<usize>| Record { rows, ..self.clone() };
+        (part(self.rows.start..at), part(at..self.rows.end))
+    }
+
+    /// Standard deviation of the measured positions, m.
+    pub fn position_noise(&self) -> f64 {
+        let of = |c: usize| local_polynomial::noise(&self.time[self.rows.clone()], &self.columns[c][self.rows.clone()]);
+        *self.known.noise.get_or_init(|| [0, 1].into_iter().filter_map(of).fold(1e-9, f64::max))
+    }
+
+    /// The usual time between rows, s.
+    pub fn step(&self) -> f64 {
+        *self.known.step.get_or_init(|| self.median_step())
+    }
+
+    fn median_step(&self) -> f64 {
+        let mut steps: Vec<f64> = self.time[self.rows.clone()].windows(2).map(|w| w[1] - w[0]).collect();
+        local_polynomial::median(&mut steps).unwrap_or(f64::NAN)
+    }
+
+    /// The time between rows from which on a log is interrupted, s.
+    pub fn gap(&self) -> f64 {
+        (5.0 * self.step()).max(0.5)
+    }
+
+    /// Stretches without a gap, a margin away from the ends of the log so that inputs can be looked up
+    /// earlier and later than they were logged.
+    pub fn segments(&self, margin: f64) -> Vec<Range<usize>> {
+        let gap = self.gap();
+        let (first, last) = (self.time[0] + margin, self.time[self.time.len() - 1] - margin);
+        let mut segments: Vec<Range<usize>> = Vec::new();
+        for i in self.rows.clone().filter(|i| (first..=last).contains(&self.time[*i])) {
+            match segments.last_mut() {
+                Some(s) if s.end == i && self.time[i] - self.time[i - 1] <= gap => s.end = i + 1,
+                _ => segments.push(i..i + 1),
+            }
+        }
+        segments.retain(|s| s.len() >= 4);
+        segments
+    }
+
+    /// The measured values at a row as outputs of the equations; what is not measured is zero.
+    pub fn measured(&self, i: usize) -> Vec<f64> {
+        let mut y: Vec<f64> = self.columns.iter().map(|c| c[i]).collect();
+        if !self.has_heading {
+            y.insert(2, 0.0);
+        }
+        y.resize(3 + self.trailers, y[2]);
+        y
+    }
+
+    /// The measured values smoothed around a row; a missing heading is the direction of travel.
+    ///
+    /// Rows before those that take part help too, later ones never: what is held out stays closed.
+    pub fn smoothed(&self, i: usize) -> Vec<f64> {
+        let weights = self.smoothing(i);
+        let mut y: Vec<f64> = self.columns.iter().map(|c| local_polynomial::value(c, &weights)).collect();
+        if !self.has_heading {
+            y.insert(2, self.course(i));
+        }
+        // A trailer that nothing measures is taken to follow straight.
+        y.resize(3 + self.trailers, y[2]);
+        y
+    }
+
+    /// The weights of the smoothing around a row.
+    pub fn smoothing(&self, i: usize) -> Vec<(usize, f64)> {
+        local_polynomial::weights(&self.time, 0..self.rows.end, i)
+    }
+
+    /// Direction of travel at a row, rad; backward travel is not known and not corrected here.
+    fn course(&self, i: usize) -> f64 {
+        let Some(weights) = self.course_weights(i) else { return 0.0 };
+        local_polynomial::value(&self.columns[1], &weights).atan2(local_polynomial::value(&self.columns[0], &weights))
+    }
+
+    /// The weights of the velocity that the direction of travel is taken from.
+    fn course_weights(&self, i: usize) -> Option<Vec<(usize, f64)>> {
+        local_polynomial::slope_weights(&self.time, 0..self.rows.end, i)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn record(columns: Vec<Vec<f64>>, has_heading: bool) -> Record {
+        let time: Vec<f64> = (0..5).map(|i| 100.0 + f64::from(i)).collect();
+        Record::new("run.csv", time, columns, has_heading, &[vec![1.0; 5]], Timing::Sample)
+    }
+
+    #[test]
+    fn a_row_is_compared_in_the_order_of_the_outputs() {
+        let column = |from: f64| (0..5).map(|i| from + f64::from(i)).collect::<Vec<f64>>();
+        let whole = record(vec![column(10.0), column(20.0), column(30.0), column(40.0)], true);
+        assert_eq!(whole.measured(2), [12.0, 22.0, 32.0, 42.0]);
+        let places = record(vec![column(10.0), column(20.0)], false);
+        assert_eq!(places.measured(3), [13.0, 23.0, 0.0]);
+        let towed = record(vec![column(10.0), column(20.0), column(40.0)], false);
+        assert_eq!(towed.measured(1), [11.0, 21.0, 0.0, 41.0]);
+        assert_eq!([2, 1].map(|c| towed.output_of(c)), [3, 1]);
+    }
+
+    /// Where no heading is measured the smoothed one is that of the path, and a trailer is taken to follow it.
+    #[test]
+    fn a_missing_heading_is_the_direction_of_travel() {
+        let rows: Vec<f64> = (0..40).map(f64::from).collect();
+        let along = |x: f64, y: f64| {
+            let columns = vec![rows.iter().map(|i| 5.0 + x * i).collect(), rows.iter().map(|i| y * i - 2.0).collect()];
+            let time = rows.iter().map(|i| 0.1 * i).collect();
+            Record { trailers: 1, ..Record::new("run.csv", time, columns, false, &[vec![1.0; 40]], Timing::Sample) }
+        };
+        for (x, y) in [(0.3, 0.4), (-0.3, 0.4), (0.4, -0.3), (-0.1, -0.1)] {
+            for i in [0, 20, 39] {
+                let smoothed = along(x, y).smoothed(i);
+                let heading = y.atan2(x);
+                let expected = [5.0 + x * i as f64, y * i as f64 - 2.0, heading, heading];
+                let near = smoothed.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9);
+                assert!(near && smoothed.len() == 4, "{x} {y} {i}: {smoothed:?}");
+            }
+        }
+    }
+}

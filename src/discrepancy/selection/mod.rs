@@ -1,0 +1,10 @@
+//! Which effects are selected: a search that never sees held-out data.
+
+pub(crate) mod backward;
+pub(crate) mod candidates;
+pub(crate) mod input_sampling;
+pub(crate) mod search;
+pub mod select;
+pub(crate) mod stability;
+pub(crate) mod transients;
+pub mod unnamed_terms;

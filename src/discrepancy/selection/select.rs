@@ -1,0 +1,191 @@
+//! Which effects are missing: candidates ranked by evidence on the fitting data alone.
+
+use super::candidates::FINALISTS;
+use super::input_sampling::{Sampled, keep_sampled};
+use super::search::{FULL, Grown, MOST, Selection, bic, find, worth};
+use super::stability;
+use super::stability::{Scatter, Stable};
+use super::transients;
+use super::unnamed_terms;
+use crate::discrepancy::estimation::bounds::is_at_an_end;
+use crate::discrepancy::estimation::fit::Fit;
+use crate::discrepancy::estimation::problem::Problem;
+use crate::discrepancy::evidence::parametric_bootstrap;
+use crate::discrepancy::evidence::wald_test::tail;
+use crate::effects::{Applied, Effect};
+use crate::error::Result;
+use crate::model::Model;
+
+pub use super::search::Scored;
+
+/// A rival whose evidence is this close to the chosen effect's is not told from it.
+pub(crate) const CLOSE: f64 = 6.0;
+
+/// A gain so large that the exact law of chance gains does not matter.
+const BEYOND_DOUBT: f64 = 60.0;
+/// Data sets drawn for the law of chance gains.
+const DRAWS: usize = 99;
+
+/// An effect that was chosen.
+#[derive(Clone, Debug)]
+pub struct Chosen {
+    /// The effect at its fitted values.
+    pub applied: Applied,
+    /// Standard deviations of its values, where the data give them.
+    pub std: Vec<Option<f64>>,
+    /// BIC without minus BIC with the effect, beside all others.
+    pub delta_bic: f64,
+    /// Probability of so large an improvement where the effect is not there.
+    pub p_value: f64,
+    /// Effects that these data do not tell from it.
+    pub rivals: Vec<Applied>,
+}
+
+/// The outcome of the selection.
+#[derive(Clone, Debug)]
+pub struct Choice {
+    /// The model as given.
+    pub before: Fit,
+    /// The model with the chosen effects.
+    pub after: Fit,
+    /// The chosen effects, in the order of the model.
+    pub chosen: Vec<Chosen>,
+    /// The models on the way, after each addition.
+    pub steps: Vec<(String, Model)>,
+    /// All candidates as they stood against the model as given.
+    pub candidates: Vec<Scored>,
+    /// Effects and terms that the whole data ask for, and parts of them with other values, so that they are not kept.
+    pub unshared: Vec<Applied>,
+    /// Effects and terms that come and go with how often the inputs are logged, so that they are not kept.
+    pub unsampled: Vec<Applied>,
+}
+
+/// Adds effects of the library until nothing is left above the noise.
+///
+/// A candidate must beat BIC = deviance + k·ln n by a margin of 2·ln M for a library of M candidates: with
+/// nothing hidden the best of M would otherwise pass by chance. After each addition earlier ones are asked
+/// again whether they are still needed, and whether another would do better in their place.
+pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &dyn Fn(&str)) -> Result<Option<Choice>> {
+    progress("fitting the model as it is");
+    let starts = problem.starts(model)?;
+    let Some(before) = problem.fit(model, &starts, &problem.variances, FULL)? else { return Ok(None) };
+    let quick = transients::without_transients(library);
+    let selection = Selection {
+        problem,
+        before: &before,
+        library: &quick,
+        size: model.applicable(&quick).len().max(1) as f64,
+        most: MOST,
+        exchanges: true,
+        drops: true,
+    };
+    let named = transients::search(&selection, library, selection.grown(&before, progress)?)?;
+    let grown = unnamed_terms::search(&selection, &named, &[], progress)?.unwrap_or(named);
+    let Stable { mut grown, unshared, scatter } = stability::search(&selection, grown, progress)?;
+    let Sampled { dropped: unsampled, mut missed } = keep_sampled(&selection, &mut grown, progress)?;
+    // Where something went, the values no longer stand where they stood.
+    let scatter = scatter.filter(|_| unsampled.is_empty());
+    let mut chosen = selection.examined(&grown.fit, scatter.as_ref(), &missed)?;
+    // What others left of an effect may be less than it costs, or send it to the end of its range.
+    while let Some(idle) = chosen.iter().find(|c| is_at_an_end(&c.applied)).or_else(|| least_worth(&chosen)) {
+        let Some(smaller) = selection.reduced(&grown.fit, &idle.applied)? else { break };
+        forget(&mut missed, &grown.fit, &idle.applied);
+        grown.go_back_to(smaller);
+        chosen = selection.examined(&grown.fit, None, &missed)?;
+    }
+    let Grown { fit: after, steps, candidates, .. } = grown;
+    Ok(Some(Choice { before, after, chosen, steps, candidates, unshared, unsampled }))
+}
+
+/// The effect whose own evidence speaks against it most.
+fn least_worth(chosen: &[Chosen]) -> Option<&Chosen> {
+    let against = chosen.iter().filter(|c| c.delta_bic <= 0.0);
+    against.min_by(|a, b| a.delta_bic.total_cmp(&b.delta_bic))
+}
+
+/// Numbers that stand for the free values of a fit, without those of an effect.
+fn forget(numbers: &mut Vec<f64>, fit: &Fit, effect: &Applied) {
+    let mut at = 0;
+    for e in fit.model.free_effects() {
+        let values = e.values.len();
+        if e.same_as(effect) && at + values <= numbers.len() {
+            numbers.drain(at..at + values);
+            return;
+        }
+        at += values;
+    }
+}
+
+impl Selection<'_> {
+    /// Evidence, deviations and rivals of every chosen effect.
+    ///
+    /// `missed` is what the interpolation of the inputs may make up of each value; an offset no rows average out.
+    fn examined(&self, fit: &Fit, scatter: Option<&Scatter>, missed: &[f64]) -> Result<Vec<Chosen>> {
+        let mut at = 0;
+        let mut found = Vec::new();
+        for applied in fit.model.free_effects().cloned() {
+            let k = applied.values.len();
+            // What runs scatter by counts where it is more than their noise, and what hangs together in it, explains.
+            let runs = |i: usize| fit.between_runs.as_ref().map_or(0.0, |c| c[(i, i)].sqrt());
+            let between = |i: usize| scatter.map_or(0.0, |s| s.std[i]).max(runs(i));
+            let chance =
+                |i: usize| fit.covariance.as_ref().map(|c| (c[(i, i)] * fit.dependence()).sqrt().max(between(i)));
+            let spread = |i: usize| chance(i).map(|std| missed.get(i).map_or(std, |e| std.hypot(*e)));
+            let std = (at..at + k).map(spread).collect();
+            at += k;
+            let Some(smaller) = self.reduced(fit, &applied)? else { continue };
+            let n = fit.sample_size.max(smaller.sample_size);
+            let gain = (smaller.deviance - fit.deviance).max(0.0);
+            let rivals = self.rivals(fit, &applied)?;
+            let delta_bic = worth(fit, &smaller, n);
+            let p_value = self.p_value(&smaller, &applied, gain / fit.dependence())?;
+            found.push(Chosen { applied, std, delta_bic, p_value, rivals });
+        }
+        Ok(found)
+    }
+
+    /// Probability of such a gain by chance; where χ² does not hold, from data drawn without the effect.
+    fn p_value(&self, without: &Fit, applied: &Applied, gain: f64) -> Result<f64> {
+        let k = applied.values.len();
+        if parametric_bootstrap::is_regular(applied) || gain > BEYOND_DOUBT {
+            return Ok(tail(gain, k));
+        }
+        Ok(self.problem.chance_gains(without, applied, DRAWS, 0)?.p_value(gain))
+    }
+
+    /// Effects that explain the data as well in the place of a chosen one.
+    fn rivals(&self, fit: &Fit, chosen: &Applied) -> Result<Vec<Applied>> {
+        let n = fit.sample_size;
+        let behind = |f: &Fit| (bic(f, n) - bic(fit, n)) / fit.dependence();
+        let near = self.in_place_of(fit, chosen)?.into_iter().filter(|(_, f)| behind(f) < 4.0 * CLOSE);
+        let mut found = Vec::new();
+        for (applied, rough) in near.take(FINALISTS) {
+            let full = self.refined(&rough)?.unwrap_or(rough);
+            if behind(&full) < CLOSE {
+                found.extend(find(&full.model, &applied));
+            }
+        }
+        Ok(found)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::fixtures::{KNOWN, applied, fit_of, unicycle};
+
+    #[test]
+    fn the_numbers_of_one_effect_are_forgotten() {
+        let fit = fit_of(unicycle(&KNOWN));
+        let without = |id: &str, mut numbers: Vec<f64>| {
+            forget(&mut numbers, &fit, &applied(id));
+            numbers
+        };
+        let all = vec![1.0, 2.0, 3.0, 4.0];
+        let left = ["traction-creep", "relaxation-length", "traverse-creep"].map(|id| without(id, all.clone()));
+        assert_eq!(left, [vec![2.0, 3.0, 4.0], vec![1.0, 4.0], vec![1.0, 2.0, 3.0]]);
+        // An effect that is not among them, or came after the numbers did.
+        assert_eq!(without("side-slope", all.clone()), all);
+        assert_eq!(without("traverse-creep", all[..3].to_vec()), all[..3]);
+    }
+}

@@ -1,0 +1,267 @@
+//! The gap: how far a model strays from the measurements after a horizon, and what noise alone would make of it.
+
+use super::windows::MARGIN;
+use crate::discrepancy::estimation::problem::pose_of;
+use crate::discrepancy::initial_state::heading_from_path::{Course, heading_at, measured_at};
+use crate::discrepancy::initial_state::hidden_states;
+use crate::discrepancy::record::angle::wrapped;
+use crate::discrepancy::record::local_polynomial;
+use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::sensor_noise::Noise;
+use crate::error::Result;
+use crate::model::{Equations, Model};
+use crate::motion::{Arc, Arcs, LaneStepper, Stepper};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use std::ops::Range;
+
+/// How many windows are followed side by side.
+const LANES: usize = 8;
+
+/// Sum of squared errors over windows.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Errors {
+    position: f64,
+    heading: f64,
+    windows: usize,
+    headings: usize,
+}
+
+impl Errors {
+    fn add(&mut self, position: [f64; 2], heading: Option<f64>) {
+        self.position += position[0] * position[0] + position[1] * position[1];
+        self.windows += 1;
+        if let Some(h) = heading {
+            let h = wrapped(h);
+            self.heading += h * h;
+            self.headings += 1;
+        }
+    }
+
+    /// Errors of more windows.
+    pub fn joined(mut self, other: Errors) -> Errors {
+        self.position += other.position;
+        self.heading += other.heading;
+        self.windows += other.windows;
+        self.headings += other.headings;
+        self
+    }
+
+    /// RMS position error, m.
+    pub fn position_rms(&self) -> f64 {
+        (self.position / self.windows as f64).sqrt()
+    }
+
+    /// RMS heading error, rad, when a heading was measured.
+    pub fn heading_rms(&self) -> Option<f64> {
+        (self.headings > 0).then(|| (self.heading / self.headings as f64).sqrt())
+    }
+
+    /// How many windows there were.
+    pub fn windows(&self) -> usize {
+        self.windows
+    }
+}
+
+/// A model that predicts along a run, restarted from smoothed measurements; hidden states are carried from the
+/// data before.
+pub struct Predictor<'a> {
+    record: &'a Record,
+    equations: Equations,
+    hidden: Vec<Vec<f64>>,
+}
+
+impl<'a> Predictor<'a> {
+    /// A model along a run.
+    ///
+    /// # Errors
+    /// When the model's formulas are malformed.
+    pub fn new(model: &Model, record: &'a Record) -> Result<Self> {
+        let equations = model.equations(&[])?;
+        let hidden = hidden_along(&equations, record);
+        Ok(Self { record, equations, hidden })
+    }
+
+    /// The state at a row: the smoothed pose and the carried hidden states.
+    fn start(&self, i: usize) -> Vec<f64> {
+        let mut z = pose_of(&self.equations, &self.measured(i));
+        z.extend(self.hidden.get(i).into_iter().flatten());
+        z
+    }
+
+    /// What was measured at a row, smoothed.
+    pub fn measured(&self, i: usize) -> Vec<f64> {
+        measured_at(&self.equations, self.record, i)
+    }
+
+    /// The outputs at rows `from..=to`, restarted at `from`.
+    pub fn outputs(&self, from: usize, to: usize) -> Vec<Vec<f64>> {
+        let mut stepper = Stepper::new(&self.equations, &self.record.signals, &[]);
+        let mut arc = Arc { z: self.start(from), s: vec![] };
+        let visible = self.equations.visible;
+        let mut found = vec![stepper.outputs(&arc.z)[..visible].to_vec()];
+        for i in from..to {
+            stepper.advance(&mut arc, self.record.time[i], self.record.time[i + 1]);
+            found.push(stepper.outputs(&arc.z)[..visible].to_vec());
+        }
+        found
+    }
+
+    /// What the sensor would measure at the first and at the last row of some windows, each restarted at its first.
+    fn ends(&self, windows: &[(usize, usize)]) -> Vec<[Vec<f64>; 2]> {
+        windows.chunks(LANES).flat_map(|some| self.side_by_side(some)).collect()
+    }
+
+    /// As [`Predictor::ends`], of so many windows as there are lanes, or fewer: the last one fills the rest.
+    fn side_by_side(&self, windows: &[(usize, usize)]) -> Vec<[Vec<f64>; 2]> {
+        let rows: [Range<usize>; LANES] = std::array::from_fn(|l| windows[l.min(windows.len() - 1)]).map(|(i, k)| i..k);
+        let starts = rows.each_ref().map(|rows| self.start(rows.start));
+        let mut arcs = Arcs::of(starts.each_ref().map(|z| &z[..]));
+        let mut stepper = LaneStepper::new(&self.equations, &self.record.signals, [&[]; LANES]);
+        let visible = self.equations.visible;
+        let measured = |y: &[[f64; LANES]], l: usize| y[..visible].iter().map(|y| y[l]).collect::<Vec<f64>>();
+        let y = stepper.outputs_here(&arcs.z);
+        let first: Vec<Vec<f64>> = (0..windows.len()).map(|l| measured(y, l)).collect();
+        stepper.through(&mut arcs, &self.record.time, &rows);
+        let y = stepper.outputs_here(&arcs.z);
+        first.into_iter().enumerate().map(|(l, first)| [first, measured(y, l)]).collect()
+    }
+
+    /// The rows at which the non-overlapping windows of a horizon begin and end.
+    pub fn windows(&self, horizon: f64) -> Vec<(usize, usize)> {
+        let time = &self.record.time;
+        let mut found = Vec::new();
+        for segment in self.record.segments(MARGIN) {
+            let mut start = segment.start;
+            // Half a step early counts as on time.
+            let slack = 0.5 * self.record.step();
+            for i in segment {
+                if time[i] - time[start] >= horizon - slack {
+                    found.push((start, i));
+                    start = i;
+                }
+            }
+        }
+        found
+    }
+
+    /// Errors after a horizon over non-overlapping windows.
+    pub fn errors(&self, horizon: f64) -> Errors {
+        let mut errors = Errors::default();
+        let windows = self.windows(horizon);
+        for ((_, to), [_, end]) in windows.iter().zip(self.ends(&windows)) {
+            let measured = |c: usize| self.record.columns[c][*to];
+            let heading = self.record.has_heading.then(|| end[2] - measured(2));
+            errors.add([0, 1].map(|c| end[c] - measured(c)), heading);
+        }
+        errors
+    }
+
+    /// What [`Predictor::errors`] would give at each horizon if this model were true, by drawing measurement noise.
+    ///
+    /// Noise enters twice: at the restart, whose smoothed pose it shifts and turns, and at the end. A model of
+    /// a vehicle on a plane moves rigidly with its start, so no trajectory has to be integrated anew.
+    ///
+    /// `draws` says how often noise is drawn for each horizon.
+    pub fn floors(&self, horizons: &[f64], draws: &[usize], noise: &Noise, seed: u64) -> Vec<Errors> {
+        let each: Vec<Vec<Restart>> = horizons.iter().map(|h| self.restarts(*h)).collect();
+        let mut errors = vec![Errors::default(); horizons.len()];
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        for draw in 0..draws.iter().copied().max().unwrap_or(0) {
+            let noisy = noise.added_to(self.record, &mut rng);
+            for ((restarts, errors), _) in each.iter().zip(&mut errors).zip(draws).filter(|(_, n)| draw < **n) {
+                restarts.iter().for_each(|r| r.add_error(self.record, &noisy, errors));
+            }
+        }
+        errors
+    }
+
+    /// The windows of a horizon with what noise acts on.
+    fn restarts(&self, horizon: f64) -> Vec<Restart> {
+        let windows = self.windows(horizon);
+        let restart = |(&(from, to), [first, last]): (&(usize, usize), [Vec<f64>; 2])| {
+            let smoothing = self.record.smoothing(from);
+            Restart {
+                to,
+                clean: self.record.columns.iter().map(|c| local_polynomial::value(c, &smoothing)).collect(),
+                smoothing,
+                displacement: [last[0] - first[0], last[1] - first[1]],
+                course: (!self.record.has_heading).then(|| heading_at(&self.equations, self.record, from)),
+            }
+        };
+        windows.iter().zip(self.ends(&windows)).map(restart).collect()
+    }
+}
+
+/// A window as noise sees it.
+struct Restart {
+    to: usize,
+    /// The measurements smoothed around its start, and the weights of the smoothing.
+    clean: Vec<f64>,
+    smoothing: Vec<(usize, f64)>,
+    /// How far the model moves in it.
+    displacement: [f64; 2],
+    /// A heading that is taken from the path inherits the noise of its positions.
+    course: Option<Course>,
+}
+
+impl Restart {
+    fn add_error(&self, record: &Record, noisy: &[Vec<f64>], errors: &mut Errors) {
+        let shift = |c: usize| local_polynomial::value(&noisy[c], &self.smoothing) - self.clean[c];
+        let moved = |i: usize| [0, 1].map(|c| noisy[c][i] - record.columns[c][i]);
+        let turn = wrapped(self.course.as_ref().map_or_else(|| shift(2), |c| c.error(moved)));
+        let (sin, cos) = turn.sin_cos();
+        let d = self.displacement;
+        let turned = [(cos - 1.0) * d[0] - sin * d[1], sin * d[0] + (cos - 1.0) * d[1]];
+        let end = |c: usize| noisy[c][self.to] - record.columns[c][self.to];
+        let error = [0, 1].map(|c| shift(c) + turned[c] - end(c));
+        errors.add(error, record.has_heading.then(|| turn - end(2)));
+    }
+}
+
+/// Hidden states at every row of a log, from how they begin by its first rows; empty when there are none.
+fn hidden_along(equations: &Equations, record: &Record) -> Vec<Vec<f64>> {
+    if equations.n() == equations.visible {
+        return vec![];
+    }
+    let mut stepper = Stepper::new(equations, &record.signals, &[]);
+    let visible = |i: usize| record.measured(i);
+    let pose = pose_of(equations, &measured_at(equations, record, 0));
+    let mut hidden = hidden_states::at_start(equations, record, &pose);
+    let mut found = Vec::with_capacity(record.time.len());
+    for i in 0..record.time.len() {
+        found.push(hidden.clone());
+        if i + 1 < record.time.len() {
+            let mut arc = Arc { z: [visible(i), hidden].concat(), s: vec![] };
+            stepper.advance(&mut arc, record.time[i], record.time[i + 1]);
+            hidden = arc.z[equations.visible..].to_vec();
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::fixtures::{KNOWN, WEAVING, equations, logged, unicycle};
+
+    /// Windows side by side, more than there are lanes and of different lengths, end where each ends alone.
+    #[test]
+    fn windows_side_by_side_end_as_alone() {
+        let (equations, p) = equations(&KNOWN);
+        // Of the first half every fifth row is missing.
+        let time = (0..600).filter(|i| *i > 300 || i % 5 != 3).map(|i| 0.05 * f64::from(i)).collect();
+        let record = logged((&equations, &p), time, WEAVING, &vec![0.0; equations.n()], 1e-3);
+        let predictor = Predictor::new(&unicycle(&KNOWN), &record).unwrap();
+        for horizon in [0.33, 2.0, 12.0] {
+            let windows = predictor.windows(horizon);
+            let mut lengths: Vec<usize> = windows.iter().map(|(from, to)| to - from).collect();
+            lengths.dedup();
+            assert!(windows.len() > 1 && (lengths.len() > 1 || horizon > 1.0), "{lengths:?}");
+            for ((from, to), [first, last]) in windows.iter().zip(predictor.ends(&windows)) {
+                let alone = predictor.outputs(*from, *to);
+                assert_eq!((&alone[0], &alone[to - from]), (&first, &last));
+            }
+        }
+    }
+}

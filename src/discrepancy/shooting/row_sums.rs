@@ -1,0 +1,247 @@
+//! Some windows row by row, and what is summed over their rows.
+
+use super::windows::Linear;
+use crate::discrepancy::estimation::autocorrelation::{Blocks, Run};
+use crate::discrepancy::record::angle::wrapped;
+use crate::discrepancy::record::record::{Channel, Record};
+use crate::formula::Kernel;
+use crate::motion::{Arc, Arcs, LaneStepper};
+use nalgebra::DMatrix;
+use std::ops::Range;
+
+/// What is summed over the rows of L windows.
+pub(crate) struct Sums<const L: usize> {
+    /// Columns (z, p, 1).
+    width: usize,
+    channels: Vec<Channel>,
+    /// The output that each column of the record is compared with.
+    outputs: Vec<usize>,
+    /// Upper halves of Σ (J, r)ᵀ(J, r), column by column; empty for a channel that nothing measures.
+    gram: [Vec<[f64; L]>; 3],
+    blocks: [[Blocks; L]; 3],
+    runs: Vec<[Run; L]>,
+    line: Vec<[f64; L]>,
+}
+
+impl<const L: usize> Sums<L> {
+    pub fn new(columns: usize, record: &Record) -> Self {
+        let channels = record.channels();
+        let width = columns + 1;
+        let entries =
+            |kind: usize| if channels.iter().any(|c| *c as usize == kind) { width * (width + 1) / 2 } else { 0 };
+        Self {
+            width,
+            outputs: (0..channels.len()).map(|c| record.output_of(c)).collect(),
+            gram: [0, 1, 2].map(|kind| vec![[0.0; L]; entries(kind)]),
+            blocks: [[Blocks::default(); L]; 3],
+            runs: vec![[Run::default(); L]; channels.len()],
+            line: vec![[0.0; L]; width],
+            channels,
+        }
+    }
+
+    pub fn clear(&mut self) {
+        self.gram.iter_mut().for_each(|g| g.fill([0.0; L]));
+        self.blocks = [[Blocks::default(); L]; 3];
+        self.runs.fill([Run::default(); L]);
+    }
+
+    /// The sums of one window; `None` where they, or its end, are undefined.
+    pub fn linear(
+        &self,
+        l: usize,
+        record: &Record,
+        rows: &Range<usize>,
+        arc: &Arc,
+        next: Option<&Vec<f64>>,
+    ) -> Option<Linear> {
+        let visible = visible_of(record);
+        let gram = [0, 1, 2].map(|kind| self.gram_of(kind, l));
+        if !arc.z.iter().chain(&arc.s).all(|x| x.is_finite()) || !gram.iter().all(|g| g.iter().all(|x| x.is_finite())) {
+            return None;
+        }
+        let count = [0, 1, 2].map(|kind| self.channels.iter().filter(|c| **c as usize == kind).count() * rows.len());
+        let axes = body_axes(arc.z[2], visible);
+        let last = if next.is_some() { rows.end } else { rows.end - 1 };
+        let duration = record.time[last] - record.time[rows.start];
+        let (back, mismatch) = match next {
+            Some(next) => {
+                let c: Vec<f64> = (0..visible).map(|i| difference_of(i, arc.z[i] - next[i])).collect();
+                let mismatch = axes.tr_mul(&nalgebra::DVector::from_column_slice(&c));
+                (Some(backwards(&arc.s, &c, visible, self.width - 1)?), mismatch.as_slice().to_vec())
+            }
+            None => (None, vec![]),
+        };
+        Some(Linear { gram, count, blocks: self.blocks.map(|b| b[l]), back, axes, duration, mismatch })
+    }
+
+    fn gram_of(&self, kind: usize, l: usize) -> DMatrix<f64> {
+        let mut gram = DMatrix::zeros(self.width, self.width);
+        let mut sums = self.gram[kind].iter();
+        for column in 0..self.width {
+            for (row, sum) in (0..=column).zip(&mut sums) {
+                gram[(row, column)] = sum[l];
+                gram[(column, row)] = sum[l];
+            }
+        }
+        gram
+    }
+}
+
+/// L windows from their first row to their last, sums and all.
+pub(crate) struct Walk<'s, 'a, const L: usize> {
+    pub stepper: &'s mut LaneStepper<'a, L>,
+    pub record: &'s Record,
+    /// Empty for a lane that has nothing to do.
+    pub rows: &'s [Range<usize>; L],
+    /// Whether the next window's start is asked for.
+    pub goes_on: &'s [bool; L],
+    pub arcs: &'s mut Arcs<L>,
+    pub sums: &'s mut Sums<L>,
+}
+
+impl<const L: usize> Kernel for Walk<'_, '_, L> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { stepper, record, rows, goes_on, arcs, sums } = self;
+        let time = &record.time;
+        let mut longest = 0;
+        for rows in rows {
+            longest = longest.max(rows.len());
+        }
+        for r in 0..longest {
+            let y = stepper.outputs_here(&arcs.z);
+            let (mut from, mut to, mut active, mut at) = ([0.0; L], [0.0; L], [false; L], [0; L]);
+            for l in 0..L {
+                active[l] = r < rows[l].len();
+                at[l] = if active[l] { rows[l].start + r } else { 0 };
+                from[l] = time[at[l]];
+                let moves = active[l] && (r + 1 < rows[l].len() || goes_on[l]);
+                to[l] = time[at[l] + usize::from(moves)];
+            }
+            sums.add(y, &arcs.s, record, &at, &active);
+            stepper.advance_here(&mut arcs.z, &mut arcs.s, &from, &to);
+        }
+    }
+}
+
+impl<const L: usize> Sums<L> {
+    /// Adds a row of each window: outputs y, sensitivities s.
+    #[inline(always)]
+    fn add(&mut self, y: &[[f64; L]], s: &[[f64; L]], record: &Record, at: &[usize; L], active: &[bool; L]) {
+        let k = self.width - 1;
+        let visible = visible_of(record);
+        for (c, channel) in self.channels.iter().enumerate() {
+            let output = self.outputs[c];
+            output_line(y, output, visible, k, s, &mut self.line);
+            let measured = &record.columns[c];
+            let (kind, rest) = (*channel as usize, &mut self.line[k]);
+            for l in 0..L {
+                rest[l] = y[output][l] - measured[at[l]];
+            }
+            if *channel != Channel::Position {
+                for rest in rest.iter_mut() {
+                    *rest = wrapped(*rest);
+                }
+            }
+            let mut all = true;
+            for l in 0..L {
+                all &= active[l];
+                if active[l] {
+                    self.runs[c][l].push(rest[l], &mut self.blocks[kind][l]);
+                }
+            }
+            if !all {
+                for line in &mut self.line {
+                    for l in 0..L {
+                        line[l] = if active[l] { line[l] } else { 0.0 };
+                    }
+                }
+            }
+            add_square(&mut self.gram[kind], &self.line);
+        }
+    }
+}
+
+/// How many states the pose and the trailers make.
+pub(crate) fn visible_of(record: &Record) -> usize {
+    3 + record.trailers
+}
+
+fn difference_of(i: usize, difference: f64) -> f64 {
+    if i < 2 { difference } else { wrapped(difference) }
+}
+
+/// One row of J: ∂y/∂z·S plus the direct dependence of the sensor on p.
+#[inline(always)]
+fn output_line<const L: usize>(
+    y: &[[f64; L]],
+    output: usize,
+    visible: usize,
+    k: usize,
+    s: &[[f64; L]],
+    line: &mut [[f64; L]],
+) {
+    let outputs = visible;
+    let row = &y[outputs + output * k..outputs + (output + 1) * k];
+    let line = &mut line[..k];
+    line.fill([0.0; L]);
+    for (j, slope) in row[..visible].iter().enumerate() {
+        let mut none = true;
+        for slope in slope {
+            none &= *slope == 0.0;
+        }
+        if none {
+            continue;
+        }
+        for (line, s) in line.iter_mut().zip(&s[j * k..(j + 1) * k]) {
+            for l in 0..L {
+                line[l] += slope[l] * s[l];
+            }
+        }
+    }
+    for (line, direct) in line[visible..].iter_mut().zip(&row[visible..]) {
+        for l in 0..L {
+            line[l] += direct[l];
+        }
+    }
+}
+
+/// Adds the upper half of line·lineᵀ.
+#[inline(always)]
+fn add_square<const L: usize>(gram: &mut [[f64; L]], line: &[[f64; L]]) {
+    let mut rest = gram;
+    for (column, right) in line.iter().enumerate() {
+        let (own, others) = rest.split_at_mut(column + 1);
+        for (sum, left) in own.iter_mut().zip(line) {
+            for l in 0..L {
+                sum[l] += left[l] * right[l];
+            }
+        }
+        rest = others;
+    }
+}
+
+/// Columns: along and across the body, yaw, trailers.
+fn body_axes(heading: f64, visible: usize) -> DMatrix<f64> {
+    let mut axes = DMatrix::identity(visible, visible);
+    let (sin, cos) = heading.sin_cos();
+    axes[(0, 0)] = cos;
+    axes[(0, 1)] = -sin;
+    axes[(1, 0)] = sin;
+    axes[(1, 1)] = cos;
+    axes
+}
+
+/// δz = F⁻¹(δz̃ − B·δp − c) as a matrix on (δz̃, δp, 1).
+fn backwards(s: &[f64], c: &[f64], visible: usize, k: usize) -> Option<DMatrix<f64>> {
+    let f = DMatrix::from_fn(visible, visible, |i, j| s[i * k + j]);
+    let inverse = f.try_inverse()?;
+    let mut right = DMatrix::zeros(visible, k + 1);
+    for i in 0..visible {
+        right[(i, i)] = 1.0;
+        (visible..k).for_each(|j| right[(i, j)] = -s[i * k + j]);
+        right[(i, k)] = -c[i];
+    }
+    Some(inverse * right)
+}

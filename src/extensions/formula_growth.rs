@@ -1,0 +1,61 @@
+//! How far formulas grow when every effect is put into them: a few short ones may fill any memory.
+
+use super::test_vehicle::Machine;
+use crate::effects::Effect;
+use crate::error::Result;
+use crate::files::OwnEffect;
+use crate::formula::{Size, Symbol};
+use std::collections::BTreeMap;
+
+/// The most operations and nesting of a definition, and the most factors once all are put into one another.
+const MOST: Size = Size { nodes: 5000, depth: 300, degree: 1000 };
+
+/// That the definitions stay small with all effects of a library, the last of which is the user's.
+pub(crate) fn check(own: &OwnEffect, library: &[Effect], machines: &[Machine]) -> Result<()> {
+    if let Some((name, on)) = outgrown_of(library, machines) {
+        let touches =
+            |key: &str| key.trim_end_matches('*').starts_with(name.as_str()) || name.as_str().starts_with(key);
+        let at = own.changes.iter().find(|(key, _)| touches(key)).or(own.changes.iter().next());
+        let message = format!("with all effects together the formula of {name} grows beyond all bounds on {on}");
+        let error = at.map_or_else(|| own.id.error(message.clone()), |(_, (_, f))| f.error(message.clone()));
+        return Err(error.help("write `it` once in a formula, use smaller powers, or put fewer effects on one name"));
+    }
+    Ok(())
+}
+
+/// A definition that is too large with the effects, and the vehicle it is too large on.
+pub(crate) fn outgrown_of<'m>(library: &[Effect], machines: &'m [Machine]) -> Option<(Symbol, &'m str)> {
+    machines.iter().find_map(|m| Some((outgrown(library, m)?, m.label.as_str())))
+}
+
+/// A definition that is too large with the effects, if there is one.
+fn outgrown(library: &[Effect], machine: &Machine) -> Option<Symbol> {
+    let names = machine.defined();
+    let mut sizes: BTreeMap<Symbol, Size> =
+        machine.definitions.iter().map(|(n, f)| (n.clone(), Size::of(f, &|_| Size::SYMBOL))).collect();
+    let mut parts = machine.definitions.clone();
+    let mut degrees: BTreeMap<Symbol, usize> = BTreeMap::new();
+    for e in library {
+        let trailers = e.trailers(machine.model.trailer_count());
+        for (name, formula) in trailers.into_iter().filter_map(|t| machine.model.targets(e, t, &names)).flatten() {
+            let old = *sizes.get(&name).unwrap_or(&Size::SYMBOL);
+            let is_old = |s: &Symbol| s.as_str() == "it" || *s == name;
+            let new = Size::of(&formula, &|s| if is_old(s) { old } else { Size::SYMBOL });
+            if new.nodes > MOST.nodes || new.depth > MOST.depth {
+                return Some(name);
+            }
+            sizes.insert(name.clone(), new);
+            parts.rewrite(&name, &formula.substitute(&|s| is_old(s).then(|| crate::formula::Expr::sym(name.clone()))));
+        }
+    }
+    // With circles among them no order is right; the effects of a circle never stand in one model.
+    for (name, formula) in parts.sorted().unwrap_or_default() {
+        let inner = |s: &Symbol| Size { degree: degrees.get(s).copied().unwrap_or(1), ..Size::SYMBOL };
+        let degree = Size::of(formula, &inner).degree;
+        if degree > MOST.degree {
+            return Some(name.clone());
+        }
+        degrees.insert(name.clone(), degree);
+    }
+    None
+}

@@ -1,0 +1,79 @@
+//! Names in a user's formulas.
+
+use super::alone;
+use super::applicability::Place;
+use super::test_vehicle::Machine;
+use crate::error::Result;
+use crate::files::{FormulaText, OwnEffect, advice};
+use crate::formula::{Expr, Symbol};
+use std::collections::BTreeMap;
+
+/// That some vehicle knows every name.
+pub(crate) fn check(own: &OwnEffect, machines: &[Machine]) -> Result<()> {
+    check_needs(own, machines)?;
+    let defined = common(machines.iter().flat_map(Machine::defined));
+    for (key, (spot, _)) in &own.changes {
+        let only = alone(key, &Expr::int(0));
+        let stands = |trailer: Option<usize>| only.targets(&defined, trailer).is_some();
+        if !stands(None) && !stands(Some(1)) {
+            let names: Vec<&str> = defined.iter().map(Symbol::as_str).collect();
+            let error = spot.error(format!("no vehicle defines \"{key}\""));
+            return Err(error.help(advice(key, "there are", &names)));
+        }
+    }
+    let known = common(machines.iter().flat_map(|m| m.units.keys().cloned()));
+    for (_, formula) in own.changes.values() {
+        check_formula(own, formula, &known, true)?;
+    }
+    own.rates.values().try_for_each(|rate| check_formula(own, rate, &known, false))
+}
+
+fn check_needs(own: &OwnEffect, machines: &[Machine]) -> Result<()> {
+    let inputs = common(machines.iter().flat_map(|m| m.model.vehicle.inputs.keys().map(|i| Symbol::new(i))));
+    let inputs: Vec<&str> = inputs.iter().map(Symbol::as_str).collect();
+    for (role, spot) in own.effect.needs.iter().zip(&own.needs) {
+        if !inputs.contains(&role.as_str()) {
+            let error = spot.error(format!("no vehicle has the input \"{}\"", crate::files::shown(role)));
+            return Err(error.help(advice(role, "inputs", &inputs)));
+        }
+    }
+    Ok(())
+}
+
+/// Each name once, those that most vehicles have first.
+fn common(names: impl Iterator<Item = Symbol>) -> Vec<Symbol> {
+    let mut counts: BTreeMap<Symbol, usize> = BTreeMap::new();
+    names.for_each(|n| *counts.entry(n).or_default() += 1);
+    let mut found: Vec<_> = counts.into_iter().collect();
+    found.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    found.into_iter().map(|(n, _)| n).collect()
+}
+
+fn check_formula(own: &OwnEffect, formula: &FormulaText, known: &[Symbol], is_change: bool) -> Result<()> {
+    for s in formula.formula.symbols() {
+        let name = s.as_str();
+        if name == "it" && !is_change {
+            let error = formula.error_at(&s, "a rate has no `it`");
+            return Err(error.help("`it` is a definition as it was, in a formula below [effect.changes]"));
+        }
+        if name == "it" || own.names.contains_key(name) || known.contains(&s) {
+            continue;
+        }
+        let candidates: Vec<&str> =
+            own.names.keys().map(String::as_str).chain(known.iter().map(Symbol::as_str)).collect();
+        let error = formula.error_at(&s, format!("no vehicle knows the name \"{}\"", crate::files::shown(name)));
+        return Err(error.help(advice(name, "there are", &candidates)));
+    }
+    Ok(())
+}
+
+/// That no parameter or state hides a name of a vehicle.
+pub(crate) fn check_clash(own: &OwnEffect, place: &Place) -> Result<()> {
+    for (name, spot) in &own.names {
+        if place.machine.units.contains_key(&Symbol::new(name)) {
+            let error = spot.error(format!("{name} is also a name of the vehicle {}", place.machine.label));
+            return Err(error.help("give the parameter or state another name"));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,92 @@
+//! A vehicle that effects are held against.
+
+use crate::describe::Symbols;
+use crate::error::Result;
+use crate::formula::{Symbol, Unit};
+use crate::mechanism::Definitions;
+use crate::model::{Model, Trailer, WITH_TRAILERS};
+use crate::vehicles::Vehicle;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A model without effects, with the unit of every name that a formula may speak of.
+pub(crate) struct Machine {
+    /// What a user calls it.
+    pub label: String,
+    pub model: Model,
+    pub definitions: Definitions,
+    pub units: BTreeMap<Symbol, Unit>,
+}
+
+impl Machine {
+    /// Every vehicle, once for each column that may stand for an input; then each that pulls, with two trailers.
+    pub fn all(vehicles: &[Vehicle]) -> Result<Vec<Self>> {
+        let each: Vec<Vec<Self>> = vehicles.iter().map(Self::alone).collect::<Result<_>>()?;
+        let pulling = vehicles.iter().filter(|v| v.pulls());
+        let trains: Vec<Self> = pulling.map(Self::train).collect::<Result<_>>()?;
+        Ok(each.into_iter().flatten().chain(trains).collect())
+    }
+
+    /// One vehicle in all these ways.
+    pub fn of_vehicle(vehicle: &Vehicle) -> Result<Vec<Self>> {
+        Self::all(std::slice::from_ref(vehicle))
+    }
+
+    fn alone(vehicle: &Vehicle) -> Result<Vec<Self>> {
+        let alone = Model::sample(vehicle)?;
+        let mut found = vec![Self::of(vehicle.id.clone(), alone.clone())?];
+        for (role, input) in &vehicle.inputs {
+            if let Some(other) = &input.instead {
+                let mut logged = alone.clone();
+                logged.inputs.iter_mut().filter(|i| *i == role).for_each(|i| i.clone_from(&other.role));
+                found.push(Self::of(format!("{} logged by {}", vehicle.id, other.role), logged)?);
+            }
+        }
+        Ok(found)
+    }
+
+    fn train(vehicle: &Vehicle) -> Result<Self> {
+        let train = Model::sample(vehicle)?.with_trailers(&[Trailer { length: 1.0, hitch: 1.0 }; 2]);
+        Self::of(format!("{WITH_TRAILERS} behind {}", vehicle.id), train)
+    }
+
+    fn of(label: String, model: Model) -> Result<Self> {
+        let definitions = model.bare_definitions();
+        let mut used: BTreeSet<Symbol> = definitions.iter().map(|(n, _)| n.clone()).collect();
+        used.extend(model.values().into_keys().chain(model.states()));
+        used.extend(model.inputs.iter().map(|i| Symbol::new(i)));
+        let symbols = Symbols::of(&model, &definitions, &used)?;
+        let unit = |s: &Symbol| Unit::parse(&symbols.get(s)?.unit);
+        let units = used.iter().filter_map(|s| Some((s.clone(), unit(s)?))).collect();
+        Ok(Self { label, model, definitions, units })
+    }
+
+    /// The names that an effect may rewrite.
+    pub fn defined(&self) -> Vec<Symbol> {
+        self.definitions.iter().map(|(n, _)| n.clone()).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vehicles;
+
+    /// A column that may stand for an input stands in its place, and leaves the others where they are.
+    #[test]
+    fn one_input_is_logged_by_another_column() {
+        let mut seen = 0;
+        for vehicle in vehicles::all() {
+            let machines = Machine::of_vehicle(vehicle).unwrap();
+            let plain = &machines[0].model.inputs;
+            for machine in machines.iter().filter(|m| m.label.contains(" logged by ")) {
+                let (_, column) = machine.label.split_once(" logged by ").unwrap();
+                let changed: Vec<usize> = (0..plain.len()).filter(|i| plain[*i] != machine.model.inputs[*i]).collect();
+                let [i] = changed[..] else { panic!("{}: {:?}", machine.label, machine.model.inputs) };
+                assert_eq!(machine.model.inputs[i], column);
+                assert_eq!(vehicle.inputs[&plain[i]].instead.as_ref().unwrap().role, column);
+                seen += 1;
+            }
+        }
+        assert!(seen > 0);
+    }
+}

@@ -1,0 +1,27 @@
+//! Places of wheels and hitches: they stay where they are on the body.
+
+use crate::error::Result;
+use crate::files::{FormulaText, OwnVehicle};
+use crate::formula::Symbol;
+use std::collections::BTreeSet;
+
+/// That no length depends on an input: a place that moves on the body would have a velocity there.
+pub(crate) fn check(own: &OwnVehicle) -> Result<()> {
+    own.wheels.iter().chain(&own.trailers).flat_map(|p| p.lengths.values()).try_for_each(|f| constant(own, f))
+}
+
+fn constant(own: &OwnVehicle, f: &FormulaText) -> Result<()> {
+    let mut seen = BTreeSet::new();
+    for part in f.formula.symbols() {
+        let mut waiting = vec![part.clone()];
+        while let Some(s) = waiting.pop() {
+            if own.vehicle.inputs.contains_key(s.as_str()) {
+                let error = f.error_at(&part, format!("a place on the body would move with the input {s}"));
+                return Err(error.help("use parameters only, by themselves or through defined symbols"));
+            }
+            let parts = own.vehicle.define.get(&s).map(|d| d.formula.symbols()).unwrap_or_default();
+            waiting.extend(parts.into_iter().filter(|s: &Symbol| seen.insert(s.clone())));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,10 @@
+//! A user's own effects, vehicles and claims.
+
+pub(crate) mod claims;
+pub(crate) mod constraint_types;
+pub(crate) mod effect_parameter;
+pub(crate) mod effects;
+pub(crate) mod vehicle_constraints;
+pub(crate) mod vehicle_parts;
+pub(crate) mod vehicle_quantities;
+pub(crate) mod vehicles;

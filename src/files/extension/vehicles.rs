@@ -1,0 +1,187 @@
+//! A user's own vehicles: wheels, trailers, parameters and inputs, from which everything else is derived.
+
+use super::vehicle_constraints::{read_constraints, read_coordinates};
+use super::vehicle_parts::{read_trailers, read_wheels};
+use super::vehicle_quantities::{read_definitions, read_inputs, read_quantities};
+use crate::error::Result;
+use crate::files::toml::formula_text::FormulaText;
+use crate::files::toml::location::Spot;
+use crate::files::toml::spanned_table::{Section, Source, Value};
+use crate::files::toml::user_file::{at_most, read_id, read_own};
+use crate::formula::Symbol;
+use crate::provenance::Origin;
+use crate::vehicles::Vehicle;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The most vehicles of a file; effects are held against each of them.
+const MOST_VEHICLES: usize = 20;
+
+/// The vehicles of a file, read but not yet asked how they move.
+#[derive(Clone, Debug)]
+pub struct VehiclesFile {
+    /// The vehicles, in the order of the file.
+    pub vehicles: Vec<OwnVehicle>,
+}
+
+/// A vehicle and the places of its parts.
+#[derive(Clone, Debug)]
+pub struct OwnVehicle {
+    /// The vehicle.
+    pub vehicle: Vehicle,
+    /// Where its id stands.
+    pub id: Spot,
+    /// Where it says what to use instead.
+    pub instead: Option<Spot>,
+    /// Where each parameter, input, replacement of an input and defined symbol is named.
+    pub names: BTreeMap<Symbol, Spot>,
+    /// The formulas of the defined symbols.
+    pub define: BTreeMap<Symbol, FormulaText>,
+    /// The formulas of inputs from the columns logged in their place, by input.
+    pub replaced: BTreeMap<String, FormulaText>,
+    /// The wheels.
+    pub wheels: Vec<OwnPart>,
+    /// The trailers.
+    pub trailers: Vec<OwnPart>,
+    /// Where each coordinate of its own is named.
+    pub coordinates: Vec<Spot>,
+    /// Its constraints beside those of wheels.
+    pub constraints: Vec<OwnConstraint>,
+    /// Where each held name stands.
+    pub held: Vec<Spot>,
+}
+
+/// The places of a wheel or a trailer.
+#[derive(Clone, Debug)]
+pub struct OwnPart {
+    /// Where it is named.
+    pub name: Spot,
+    /// Its lengths by key.
+    pub lengths: BTreeMap<&'static str, FormulaText>,
+    /// Where its symbols stand, by key.
+    pub symbols: BTreeMap<&'static str, Spot>,
+}
+
+/// The places of a constraint.
+#[derive(Clone, Debug)]
+pub struct OwnConstraint {
+    /// Where it is named.
+    pub name: Spot,
+    /// Where its coefficient stands.
+    pub creep: Spot,
+    /// What stands in its slots, or the energy and the generator it is derived from.
+    pub formulas: Vec<FormulaText>,
+}
+
+impl VehiclesFile {
+    /// Reads a file of vehicles.
+    ///
+    /// # Errors
+    /// With file, line and column, inside a formula too: a file that cannot be read, a key that is missing or unknown,
+    /// a name or formula that is malformed, a wheel that constrains nothing, two parts of one name.
+    pub fn read(path: &Path) -> Result<Self> {
+        Self::parse(&read_own(path, "vehicles")?)
+    }
+
+    fn parse(origin: &Arc<Origin>) -> Result<Self> {
+        let source = Source { path: &origin.path, text: &origin.text };
+        let document = source.parse_as(
+            "a file of vehicles holds [[vehicle]], lines like id = \"my-robot\", and below [vehicle.define] lines like \
+             \"theta'\" = { formula = \"wheel_rate\", … }, where a name with ' stands in quotes",
+        )?;
+        let top = Section::top(source, &document);
+        top.only(&["vehicle"])?;
+        let example = "[[vehicle]], with double brackets, before each vehicle";
+        let list = top.need("vehicle", example)?;
+        let elements = list.list(example)?;
+        at_most(&list, elements.len(), MOST_VEHICLES)?;
+        if elements.is_empty() {
+            return Err(list.error("the file holds no vehicle").help(format!("write {example}")));
+        }
+        let mut vehicles: Vec<OwnVehicle> = Vec::new();
+        for element in elements {
+            let own = read_vehicle(&element.section("[[vehicle]]".into())?, origin)?;
+            if vehicles.iter().any(|v| v.vehicle.id == own.vehicle.id) {
+                let error = own.id.error(format!("two vehicles are called \"{}\"", own.vehicle.id));
+                return Err(error.help("give one another id"));
+            }
+            vehicles.push(own);
+        }
+        Ok(Self { vehicles })
+    }
+}
+
+const KEYS: [&str; 13] = [
+    "id",
+    "title",
+    "parameters",
+    "inputs",
+    "define",
+    "wheels",
+    "trailers",
+    "line",
+    "held",
+    "instead",
+    "coordinates",
+    "heading",
+    "constraints",
+];
+
+fn read_vehicle(section: &Section, origin: &Arc<Origin>) -> Result<OwnVehicle> {
+    section.only(&KEYS)?;
+    let id = section.need("id", "id = \"my-robot\"")?;
+    let instead = section.get("instead");
+    let mut own = OwnVehicle {
+        vehicle: Vehicle {
+            id: read_id(&id, "a vehicle", &[])?,
+            title: section.need("title", "title = \"what it is, in a line\"")?.text()?.into(),
+            line: section.get("line").map_or(Ok(false), |v| v.truth())?,
+            instead: instead.as_ref().map(|v| v.text().map(str::to_string)).transpose()?,
+            origin: Some(origin.clone()),
+            ..Vehicle::default()
+        },
+        id: Spot::at(section.source, id.span().start),
+        instead: instead.map(|v| Spot::at(section.source, v.key_at)),
+        names: BTreeMap::new(),
+        define: BTreeMap::new(),
+        replaced: BTreeMap::new(),
+        wheels: vec![],
+        trailers: vec![],
+        coordinates: vec![],
+        constraints: vec![],
+        held: vec![],
+    };
+    read_quantities(&mut own, section)?;
+    read_inputs(&mut own, section)?;
+    read_definitions(&mut own, section)?;
+    read_coordinates(&mut own, section)?;
+    read_constraints(&mut own, section)?;
+    read_trailers(&mut own, section)?;
+    read_wheels(&mut own, section)?;
+    read_held(&mut own, section)?;
+    Ok(own)
+}
+
+fn read_held(own: &mut OwnVehicle, section: &Section) -> Result<()> {
+    let Some(value) = section.get("held") else { return Ok(()) };
+    let list = value.list("held = [\"v_t\"]")?;
+    at_most(&value, list.len(), 40)?;
+    for name in list {
+        own.vehicle.held.push(Symbol::new(name.text()?));
+        own.held.push(Spot::at(section.source, name.span().start));
+    }
+    Ok(())
+}
+
+impl OwnVehicle {
+    /// Takes down a name that a formula or a model file may use.
+    pub(crate) fn declare(&mut self, symbol: Symbol, value: &Value) -> Result<()> {
+        match self.names.insert(symbol.clone(), Spot::at(value.source, value.key_at)) {
+            None => Ok(()),
+            Some(first) => Err(value
+                .key_error(format!("{symbol} is declared twice, first at line {}", first.line()))
+                .help("parameters, inputs and defined symbols share one set of names; give one of them another")),
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! A log of whatever format: columns by name, rows of numbers.
+
+use super::csv_table::{Numbers, Sheet};
+#[cfg(feature = "mcap")]
+use super::mcap::Bag;
+#[cfg(feature = "parquet")]
+use super::parquet::ParquetLog;
+use crate::error::{Error, Result};
+use crate::files::toml::text::open;
+use std::io::Read;
+use std::path::Path;
+
+/// An open log whose columns are known.
+pub(crate) enum Log {
+    /// Comma-separated values.
+    Csv(Box<Sheet>),
+    /// Apache Parquet.
+    #[cfg(feature = "parquet")]
+    Parquet(Box<ParquetLog>),
+    /// A bag of ROS 2 messages in an MCAP file.
+    #[cfg(feature = "mcap")]
+    Bag(Bag),
+}
+
+/// What a file is, by its first bytes or its name.
+#[derive(Clone, Copy, PartialEq)]
+enum Format {
+    Csv,
+    Parquet,
+    Mcap,
+}
+
+/// What files begin with.
+const PARQUET: &[u8] = b"PAR1";
+const MCAP: &[u8] = b"\x89MCAP";
+
+impl Log {
+    /// Opens a log and reads the names of its columns.
+    pub fn open(path: &Path) -> Result<Self> {
+        match format(path)? {
+            Format::Csv => Ok(Self::Csv(Box::new(Sheet::open(path)?))),
+            Format::Parquet => parquet(path),
+            Format::Mcap => bag(path),
+        }
+    }
+
+    /// The names of the columns.
+    pub fn header(&self) -> &[String] {
+        match self {
+            Self::Csv(sheet) => &sheet.header,
+            #[cfg(feature = "parquet")]
+            Self::Parquet(log) => &log.header,
+            #[cfg(feature = "mcap")]
+            Self::Bag(bag) => &bag.header,
+        }
+    }
+
+    /// An error about the header.
+    pub fn at_header(&self, error: Error) -> Error {
+        match self {
+            Self::Csv(sheet) => sheet.at_header(error),
+            #[cfg(feature = "parquet")]
+            Self::Parquet(log) => error.at_file(&log.path),
+            #[cfg(feature = "mcap")]
+            Self::Bag(bag) => error.at_file(&bag.path),
+        }
+    }
+
+    /// Whether columns come from topics that have times of their own.
+    pub fn has_topics(&self) -> bool {
+        #[cfg(feature = "mcap")]
+        if matches!(self, Self::Bag(_)) {
+            return true;
+        }
+        false
+    }
+
+    /// Reads all rows; `wanted` are places in the header, the time first.
+    pub fn numbers(self, wanted: &[usize]) -> Result<Numbers> {
+        self.numbers_and(wanted, &[])
+    }
+
+    /// Reads all rows, and with them columns for which no row is left out; topics, with times of their own, have none.
+    pub fn numbers_and(self, wanted: &[usize], more: &[usize]) -> Result<Numbers> {
+        match self {
+            Self::Csv(sheet) => sheet.numbers_and(wanted, more),
+            #[cfg(feature = "parquet")]
+            Self::Parquet(log) => log.numbers_and(wanted, more),
+            #[cfg(feature = "mcap")]
+            Self::Bag(bag) => bag.numbers(wanted),
+        }
+    }
+}
+
+fn format(path: &Path) -> Result<Format> {
+    // What stands in a pipe can be read once.
+    if std::fs::metadata(path).is_ok_and(|m| !m.is_file() && !m.is_dir()) {
+        return Ok(Format::Csv);
+    }
+    let mut file = open(path)?;
+    let mut start = [0; 5];
+    // A pipe gives its bytes once, so only a file is looked into.
+    let known = file.metadata().is_ok_and(|m| m.is_file()).then(|| file.read(&mut start).unwrap_or(0));
+    let begins = |magic: &[u8]| known.is_some_and(|n| n >= magic.len() && start.starts_with(magic));
+    let ends = |name: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(name));
+    Ok(match () {
+        () if begins(PARQUET) || ends("parquet") => Format::Parquet,
+        () if begins(MCAP) || ends("mcap") => Format::Mcap,
+        () => Format::Csv,
+    })
+}
+
+#[cfg(feature = "parquet")]
+fn parquet(path: &Path) -> Result<Log> {
+    Ok(Log::Parquet(Box::new(ParquetLog::open(path)?)))
+}
+
+#[cfg(not(feature = "parquet"))]
+fn parquet(path: &Path) -> Result<Log> {
+    Err(without("a Parquet file", "parquet", path))
+}
+
+#[cfg(feature = "mcap")]
+fn bag(path: &Path) -> Result<Log> {
+    Ok(Log::Bag(Bag::open(path)?))
+}
+
+#[cfg(not(feature = "mcap"))]
+fn bag(path: &Path) -> Result<Log> {
+    Err(without("an MCAP file", "mcap", path))
+}
+
+/// The error of a format that was left out of this build.
+#[cfg(not(all(feature = "parquet", feature = "mcap")))]
+fn without(what: &str, feature: &str, path: &Path) -> Error {
+    Error::input(format!("is {what}, which this build of creepage does not read"))
+        .at_file(path)
+        .help(format!("build it with `cargo install --path . --features {feature}`, or save the log as CSV"))
+}

@@ -1,0 +1,174 @@
+//! The messages that are known, as data.
+
+use super::cdr::{Cdr, Read};
+use mcap::Channel;
+
+/// A piece of a message.
+#[derive(Clone, Copy)]
+pub(crate) enum Part {
+    /// A text that is of no interest.
+    Text,
+    /// A number and its name.
+    Number(&'static str),
+    /// Numbers that are of no interest.
+    Skip(usize),
+    /// A quaternion x, y, z, w; its turn about z is `yaw`.
+    Turn,
+}
+
+use Part::{Number, Skip, Text, Turn};
+
+/// How a message is laid out behind its header's stamp.
+#[derive(Clone, Copy)]
+pub(crate) enum Layout {
+    /// Piece by piece.
+    Parts(&'static [Part]),
+    /// Names of joints, then positions, velocities and efforts.
+    Joints,
+}
+
+const ODOMETRY: &[Part] = &[
+    Text,
+    Text,
+    Number("pose.pose.position.x"),
+    Number("pose.pose.position.y"),
+    Number("pose.pose.position.z"),
+    Turn,
+    Skip(36),
+    Number("twist.twist.linear.x"),
+    Number("twist.twist.linear.y"),
+    Number("twist.twist.linear.z"),
+    Number("twist.twist.angular.x"),
+    Number("twist.twist.angular.y"),
+    Number("twist.twist.angular.z"),
+    Skip(36),
+];
+const IMU: &[Part] = &[
+    Text,
+    Turn,
+    Skip(9),
+    Number("angular_velocity.x"),
+    Number("angular_velocity.y"),
+    Number("angular_velocity.z"),
+    Skip(9),
+    Number("linear_acceleration.x"),
+    Number("linear_acceleration.y"),
+    Number("linear_acceleration.z"),
+    Skip(9),
+];
+const POSE: &[Part] = &[Text, Number("pose.position.x"), Number("pose.position.y"), Number("pose.position.z"), Turn];
+const POSE_WITH_COVARIANCE: &[Part] = &[
+    Text,
+    Number("pose.pose.position.x"),
+    Number("pose.pose.position.y"),
+    Number("pose.pose.position.z"),
+    Turn,
+    Skip(36),
+];
+
+/// The types of messages that are read.
+pub(crate) const NAMES: [&str; 5] = [
+    "nav_msgs/Odometry",
+    "sensor_msgs/JointState",
+    "sensor_msgs/Imu",
+    "geometry_msgs/PoseStamped",
+    "geometry_msgs/PoseWithCovarianceStamped",
+];
+
+/// What joints say, each with its name behind.
+const JOINT: [&str; 3] = ["position", "velocity", "effort"];
+
+impl Layout {
+    /// The layout of a channel's messages, if it is known.
+    pub fn of(channel: &Channel) -> Option<Self> {
+        let schema = channel.schema.as_ref().filter(|_| channel.message_encoding == "cdr")?;
+        let name = schema.name.replace("/msg/", "/");
+        Some(match NAMES.iter().position(|n| *n == name)? {
+            0 => Self::Parts(ODOMETRY),
+            1 => Self::Joints,
+            2 => Self::Parts(IMU),
+            3 => Self::Parts(POSE),
+            _ => Self::Parts(POSE_WITH_COVARIANCE),
+        })
+    }
+
+    /// Whether one message may have other fields than the next.
+    pub fn varies(self) -> bool {
+        matches!(self, Self::Joints)
+    }
+
+    /// The names of a message's fields.
+    pub fn fields(self, message: &[u8]) -> Read<Vec<String>> {
+        let found = self.all(message)?.1;
+        Ok(found.into_iter().map(|(name, _)| name).collect())
+    }
+
+    /// The time of a message's header, s, and some of its fields; NaN where there is none.
+    pub fn values(self, message: &[u8], wanted: &[&str]) -> Read<(f64, Vec<f64>)> {
+        let (stamp, all) = self.all(message)?;
+        let value = |w: &&str| all.iter().find(|(name, _)| name == w).map_or(f64::NAN, |(_, v)| *v);
+        Ok((stamp, wanted.iter().map(value).collect()))
+    }
+
+    fn all(self, message: &[u8]) -> Read<(f64, Vec<(String, f64)>)> {
+        let mut cdr = Cdr::new(message)?;
+        let stamp = cdr.stamp()?;
+        let found = match self {
+            Self::Parts(parts) => piecewise(&mut cdr, parts)?,
+            Self::Joints => joints(&mut cdr)?,
+        };
+        Ok((stamp, found))
+    }
+}
+
+fn piecewise(cdr: &mut Cdr, parts: &[Part]) -> Read<Vec<(String, f64)>> {
+    let mut found = Vec::new();
+    for part in parts {
+        match part {
+            Text => drop(cdr.text()?),
+            Number(name) => found.push(((*name).to_string(), cdr.f64()?)),
+            Skip(n) => (0..*n).try_for_each(|_| cdr.f64().map(drop))?,
+            Turn => {
+                let (x, y, z, w) = (cdr.f64()?, cdr.f64()?, cdr.f64()?, cdr.f64()?);
+                found.push(("yaw".into(), yaw([x, y, z, w])));
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// The turn about z, rad; NaN for a quaternion that was never set.
+fn yaw([x, y, z, w]: [f64; 4]) -> f64 {
+    let square = x * x + y * y + z * z + w * w;
+    if square < 0.5 { f64::NAN } else { (2.0 * (w * z + x * y)).atan2(w * w + x * x - y * y - z * z) }
+}
+
+fn joints(cdr: &mut Cdr) -> Read<Vec<(String, f64)>> {
+    cdr.text()?;
+    let names = cdr.texts()?;
+    let mut found = Vec::new();
+    for what in JOINT {
+        let numbers = cdr.numbers()?;
+        found.extend(names.iter().zip(numbers).map(|(name, v)| (format!("{what}.{name}"), v)));
+    }
+    Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn yaw_is_the_turn_about_z() {
+        for turn in [-3.0f64, -0.4, 0.0, 1.2, 3.1] {
+            let (s, c) = (0.5 * turn).sin_cos();
+            assert!((yaw([0.0, 0.0, s, c]) - turn).abs() < 1e-12);
+            // Half a turn about x first, by hand: q = qz·qx.
+            let rolled = [0.1f64.sin() * c, 0.1f64.sin() * s, s * 0.1f64.cos(), c * 0.1f64.cos()];
+            assert!((yaw(rolled) - turn).abs() < 1e-12, "roll leaves it");
+        }
+        // On its back, about one axis and the other.
+        assert_eq!([yaw([1.0, 0.0, 0.0, 0.0]), yaw([0.0, 1.0, 0.0, 0.0]).abs()], [0.0, std::f64::consts::PI]);
+        assert!(yaw([0.0; 4]).is_nan());
+    }
+}

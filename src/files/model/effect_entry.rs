@@ -1,0 +1,113 @@
+//! `[[effects]]`: what the model already includes.
+
+use super::known::{Known, KnownEffect, KnownParameter};
+use crate::error::{Error, Result};
+use crate::files::toml::spanned_table::{Section, Value};
+use crate::files::toml::suggestions;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// An effect with its values, as one entry of a model file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EffectEntry {
+    /// Which effect.
+    pub id: String,
+    /// The trailer it acts on, 1 = nearest the tractor, for an effect that acts on one.
+    pub trailer: Option<usize>,
+    /// Its parameters, in their own units.
+    pub parameters: BTreeMap<String, f64>,
+    /// The line of the model file where the entry begins; 0 for one that is not in a file.
+    pub line: usize,
+    /// The file of effects that defines it, for an effect of a user's own that is to be written into a model file.
+    pub defined_in: Option<PathBuf>,
+}
+
+impl EffectEntry {
+    /// Both say something of the same target, so that a model file may hold only one of them.
+    pub fn same_target(&self, other: &EffectEntry) -> bool {
+        self.id == other.id && self.trailer == other.trailer
+    }
+
+    /// Id and target in words.
+    pub fn title(&self) -> String {
+        match self.trailer {
+            Some(trailer) => format!("\"{}\" on trailer {trailer}", self.id),
+            None => format!("\"{}\"", self.id),
+        }
+    }
+}
+
+/// Reads all entries of a model file.
+pub(crate) fn read_effects(top: &Section, known: &Known, trailers: usize) -> Result<Vec<EffectEntry>> {
+    let Some(value) = top.get("effects") else { return Ok(Vec::new()) };
+    let mut entries: Vec<EffectEntry> = Vec::new();
+    for element in value.list("[[effects]], with double brackets, before each effect")? {
+        let section = element.section("[[effects]]".into())?;
+        let entry = read_entry(&section, known, trailers)?;
+        if let Some(first) = entries.iter().find(|e| e.same_target(&entry)) {
+            return Err(section
+                .error(format!("effect {} is listed twice, first at line {}", entry.title(), first.line))
+                .help("merge the two entries into one"));
+        }
+        entries.push(entry);
+    }
+    Ok(entries)
+}
+
+fn read_entry(section: &Section, known: &Known, trailers: usize) -> Result<EffectEntry> {
+    let id = section.need("id", "id = \"…\"; `creepage effects` lists the ids")?;
+    let effect = find(&id, known)?;
+    let mut keys = vec!["id"];
+    keys.extend(effect.per_trailer.then_some("trailer"));
+    keys.extend(effect.parameters.iter().map(|p| p.name.as_str()));
+    section.only(&keys)?;
+    let trailer = if effect.per_trailer { Some(read_trailer(section, &id, trailers)?) } else { None };
+    let mut parameters = BTreeMap::new();
+    for parameter in &effect.parameters {
+        parameters.insert(parameter.name.clone(), read_parameter(section, effect, parameter)?);
+    }
+    Ok(EffectEntry {
+        id: effect.id.clone(),
+        trailer,
+        parameters,
+        line: section.source.line(section.at),
+        defined_in: None,
+    })
+}
+
+fn find<'k>(id: &Value, known: &'k Known) -> Result<&'k KnownEffect> {
+    let name = id.text()?;
+    known.effect(name).ok_or_else(|| {
+        let ids: Vec<&str> = known.effects.iter().map(|e| e.id.as_str()).collect();
+        id.error(format!("unknown effect \"{}\"", suggestions::shown(name))).help(format!(
+            "if it is your own, give its file with --effects; {}",
+            suggestions::advice(name, "known effects", &ids)
+        ))
+    })
+}
+
+fn read_trailer(section: &Section, id: &Value, trailers: usize) -> Result<usize> {
+    if trailers == 0 {
+        return Err(id
+            .error(format!("{} acts on a trailer, but this vehicle has none", id.text()?))
+            .help("remove the entry, or use a vehicle with trailers"));
+    }
+    let value = section.need("trailer", "trailer = 1 for the trailer nearest the tractor")?;
+    match value.count()? {
+        trailer if trailer <= trailers => Ok(trailer),
+        trailer => Err(out_of_range(&value, &trailer.to_string(), &format!("1 to {trailers}"))),
+    }
+}
+
+fn read_parameter(section: &Section, effect: &KnownEffect, parameter: &KnownParameter) -> Result<f64> {
+    let KnownParameter { name, min, max } = parameter;
+    let value = section.need(name, &format!("{name} = … below id = \"{}\"", effect.id))?;
+    match value.number()? {
+        number if (*min..=*max).contains(&number) => Ok(number),
+        number => Err(out_of_range(&value, &format!("{number:?}"), &format!("{min:?} to {max:?}"))),
+    }
+}
+
+fn out_of_range(value: &Value, found: &str, range: &str) -> Error {
+    value.error(format!("{} = {found} is out of range", value.name)).help(format!("it must lie within {range}"))
+}

@@ -1,0 +1,4 @@
+//! Sweep files.
+
+pub(crate) mod axis;
+pub(crate) mod sweep_file;

@@ -1,0 +1,45 @@
+//! What files of a user's own effects and vehicles have in common.
+
+use super::spanned_table::Value;
+use super::suggestions::shown;
+use super::text::read_hashed;
+use crate::error::{Error, Result};
+use crate::provenance::Origin;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The largest file, in bytes; a vehicle has some dozens of lines, an effect a few.
+const LARGEST: usize = 256 << 10;
+
+/// A file's text, kept as the origin of what it defines.
+pub(crate) fn read_own(path: &Path, what: &str) -> Result<Arc<Origin>> {
+    let (text, sha256) = read_hashed(path)?;
+    if text.len() > LARGEST {
+        return Err(Error::input("is larger than 256 KiB")
+            .at_file(path)
+            .help(format!("check that this is the file of {what} you meant")));
+    }
+    Ok(Arc::new(Origin { path: path.into(), sha256, text }))
+}
+
+/// A name for model files, which becomes part of symbols: letters, digits and hyphens, and none that is reserved.
+pub(crate) fn read_id(value: &Value, of: &str, reserved: &[&str]) -> Result<String> {
+    let id = value.text()?;
+    let good = id.starts_with(|c: char| c.is_ascii_alphabetic())
+        && id.len() <= 60
+        && id.chars().all(|c| c.is_ascii_alphanumeric() || c == '-');
+    match good && !reserved.contains(&id) {
+        true => Ok(id.to_string()),
+        false => Err(value
+            .error(format!("\"{}\" cannot be the id of {of}", shown(id)))
+            .help("begin with a letter, go on with letters, digits and hyphens, at most 60")),
+    }
+}
+
+/// Refuses more entries than anything could be done with.
+pub(crate) fn at_most(value: &Value, found: usize, most: usize) -> Result<()> {
+    match found <= most {
+        true => Ok(()),
+        false => Err(value.error(format!("{} has {found} entries", value.name)).help(format!("give at most {most}"))),
+    }
+}

@@ -1,0 +1,383 @@
+//! Fixed steps with exact sensitivities along several arcs side by side.
+
+use super::exponential_stepper::{Forgetting, Spans};
+use super::states::{Arcs, add, sum, take};
+use super::variational_equations::Motion;
+use crate::formula::{Isa, Kernel};
+use crate::model::Equations;
+use crate::motion::Signals;
+use std::ops::Range;
+
+/// Largest angle the vehicle may turn within one step, rad.
+const TURN_PER_STEP: f64 = 0.1;
+/// Largest step in units of the shortest time constant.
+const STEP_PER_TIME_CONSTANT: f64 = 0.35;
+/// Most equal steps between two rows for the sake of a time constant; of a shorter one the limit is followed.
+const MAX_STEPS: f64 = 64.0;
+/// The longest steps that follow a limit, as a share of the time between two rows.
+const LONGEST: f64 = 1.0 / 32.0;
+/// How many of the steps for the sake of turning are one of those that follow a limit, which take thrice the rates.
+const TURNS_PER_STEP: f64 = 3.0;
+/// Most steps between two rows for the sake of turning.
+const MAX_TURNS: f64 = 4096.0;
+
+/// Integrates [`Equations`] along [`Signals`] by the classical Runge–Kutta scheme of order four, L states beside their
+/// sensitivities S = ∂z/∂(visible start, p) by the variational equations.
+///
+/// S′ = J_z·S + [0 | J_p − J_u·u̇·∂delay/∂p], one compiled evaluation a stage. The step adapts to the yaw rate
+/// and to the shortest time constant of the states; where that is far shorter than the span, exponential steps of the same
+/// order follow its limit. So the same code serves 10 Hz logs, stiff hidden states and rows an hour apart. Every
+/// arc has steps of its own: the results are those of one arc alone, bit for bit.
+pub(crate) struct LaneStepper<'a, const L: usize> {
+    motion: Motion<'a, L>,
+    rate: Arcs<L>,
+    total: Arcs<L>,
+    at: Arcs<L>,
+    forgetting: Forgetting<L>,
+    /// Of each arc the knot of the signals that it comes to next.
+    ahead: [usize; L],
+    isa: Isa,
+}
+
+/// A knot so near to the beginning or the end of a span, as a share of the interval before it, lies there.
+const SAME: f64 = 1e-6;
+
+/// How spans are divided.
+struct Steps<const L: usize> {
+    /// How many equal steps; none where there is no way to go, or where steps follow a limit.
+    equal: [f64; L],
+    /// The spans whose steps follow a limit.
+    forgotten: Option<Spans<L>>,
+}
+
+impl<'a, const L: usize> LaneStepper<'a, L> {
+    /// Equations along signals, each arc at its own parameters.
+    pub fn new(equations: &'a Equations, signals: &'a Signals, p: [&[f64]; L]) -> Self {
+        Self {
+            motion: Motion::new(equations, signals, p),
+            rate: Arcs::default(),
+            total: Arcs::default(),
+            at: Arcs::default(),
+            forgetting: Forgetting::default(),
+            ahead: [0; L],
+            isa: Isa::best(),
+        }
+    }
+
+    /// Columns of the sensitivities.
+    pub fn columns(&self) -> usize {
+        self.motion.columns()
+    }
+
+    /// The instructions that kernels of a caller are to use.
+    pub fn isa(&self) -> Isa {
+        self.isa
+    }
+
+    /// The inputs that act at some times.
+    pub fn inputs(&mut self, t: &[f64; L]) -> &[[f64; L]] {
+        self.motion.inputs(t)
+    }
+
+    /// Advances arcs from some times to others; where both are the same an arc stays as it is.
+    pub fn advance(&mut self, z: &mut [[f64; L]], s: &mut [[f64; L]], from: &[f64; L], to: &[f64; L]) {
+        // One state alone fills no vector.
+        let isa = if L == 1 && s.is_empty() { Isa::default() } else { self.isa };
+        isa.dispatch(Advance { stepper: self, z, s, from, to });
+    }
+
+    /// Advances arcs through rows of a log, each from its first row to the one behind its last.
+    pub fn through(&mut self, arcs: &mut Arcs<L>, time: &[f64], rows: &[Range<usize>; L]) {
+        for r in 0..rows.iter().map(Range::len).max().unwrap_or(0) {
+            let at = |r: usize| rows.each_ref().map(|rows| time[(rows.start + r).min(rows.end)]);
+            self.advance(&mut arcs.z, &mut arcs.s, &at(r), &at(r + 1));
+        }
+    }
+
+    /// As [`LaneStepper::advance`], inlined into a kernel of the caller.
+    ///
+    /// Between two rows of poses there may be many of the inputs: each of their intervals has steps of its own, for what
+    /// a step does not look at would not have happened.
+    #[inline(always)]
+    pub fn advance_here(&mut self, z: &mut [[f64; L]], s: &mut [[f64; L]], from: &[f64; L], to: &[f64; L]) {
+        let mut at = *from;
+        loop {
+            let until = self.next_knots(&at, to);
+            self.advance_between(z, s, &at, &until);
+            if until == *to {
+                return;
+            }
+            at = until;
+        }
+    }
+
+    /// The knots of the signals that lie between, the next one of each arc, or the end where there are none. Spans that go
+    /// back in time are not divided.
+    #[inline(always)]
+    fn next_knots(&mut self, at: &[f64; L], to: &[f64; L]) -> [f64; L] {
+        let mut until = *to;
+        for l in 0..L {
+            if at[l] < to[l] {
+                until[l] = self.next_knot(l, at[l], to[l]);
+            }
+        }
+        until
+    }
+
+    #[inline(never)]
+    fn next_knot(&mut self, l: usize, at: f64, to: f64) -> f64 {
+        let knots = self.motion.signals.knots();
+        let i = self.ahead[l];
+        let stands = i > 0 && knots[i - 1] <= at && knots.get(i).is_none_or(|k| at < *k);
+        let mut i = if stands { i } else { knots.partition_point(|k| *k <= at) };
+        let interval = |i: usize| if i > 0 { knots[i] - knots[i - 1] } else { f64::INFINITY };
+        if knots.get(i).is_some_and(|k| k - at < SAME * interval(i)) {
+            i += 1;
+        }
+        self.ahead[l] = i;
+        knots.get(i).copied().filter(|k| to - k > SAME * interval(i)).unwrap_or(to)
+    }
+
+    #[inline(always)]
+    fn advance_between(&mut self, z: &mut [[f64; L]], s: &mut [[f64; L]], from: &[f64; L], to: &[f64; L]) {
+        let Self { motion, rate, total, at, .. } = self;
+        for arcs in [&mut *rate, &mut *total, &mut *at] {
+            arcs.make_room(z.len(), s.len());
+        }
+        let still = motion.still_entries(s);
+        at.s[..still].copy_from_slice(&s[..still]);
+        motion.rate(z, s, from, rate);
+        let Steps { equal, forgotten } = steps(motion, z, s, &rate.z, from, to);
+        let (mut h, mut most) = ([0.0; L], 0.0);
+        for l in 0..L {
+            h[l] = (to[l] - from[l]) / if equal[l] == 0.0 { 1.0 } else { equal[l] };
+            most = if equal[l] > most { equal[l] } else { most };
+        }
+        for i in 0..most as usize {
+            let mut t = [0.0; L];
+            for l in 0..L {
+                t[l] = from[l] + h[l] * i as f64;
+            }
+            if i > 0 {
+                motion.rate(z, s, &t, rate);
+            }
+            step(motion, z, s, (&t, &h), rate, total, at);
+            let mut wanted = [false; L];
+            for l in 0..L {
+                wanted[l] = (i as f64) < equal[l];
+            }
+            take(z, &total.z, &wanted);
+            take(&mut s[still..], &total.s[still..], &wanted);
+        }
+        if let Some(spans) = forgotten {
+            self.isa.dispatch(Forget { stepper: self, z, s, spans });
+        }
+    }
+
+    /// What the sensor measures at some states, and the rows of its derivatives with respect to (visible z, p).
+    #[inline(always)]
+    pub fn outputs_here(&mut self, z: &[[f64; L]]) -> &[[f64; L]] {
+        self.motion.outputs(z)
+    }
+}
+
+struct Advance<'s, 'a, const L: usize> {
+    stepper: &'s mut LaneStepper<'a, L>,
+    z: &'s mut [[f64; L]],
+    s: &'s mut [[f64; L]],
+    from: &'s [f64; L],
+    to: &'s [f64; L],
+}
+
+impl<const L: usize> Kernel for Advance<'_, '_, L> {
+    #[inline(always)]
+    fn run(self) {
+        self.stepper.advance_here(self.z, self.s, self.from, self.to);
+    }
+}
+
+/// Not inlined into the kernels of callers: it is rarely asked for.
+struct Forget<'s, 'a, const L: usize> {
+    stepper: &'s mut LaneStepper<'a, L>,
+    z: &'s mut [[f64; L]],
+    s: &'s mut [[f64; L]],
+    spans: Spans<L>,
+}
+
+impl<const L: usize> Kernel for Forget<'_, '_, L> {
+    #[inline(always)]
+    fn run(self) {
+        let LaneStepper { motion, forgetting, .. } = self.stepper;
+        forgetting.advance(motion, self.z, self.s, &self.spans);
+    }
+}
+
+/// How the motion asks for spans to be divided, by the rate at their beginning.
+#[inline(always)]
+fn steps<const L: usize>(
+    motion: &mut Motion<L>,
+    z: &[[f64; L]],
+    s: &[[f64; L]],
+    rate: &[[f64; L]],
+    from: &[f64; L],
+    to: &[f64; L],
+) -> Steps<L> {
+    let mut fastest = [0.0; L];
+    for own in motion.own_slopes(z, !s.is_empty()) {
+        for l in 0..L {
+            fastest[l] = if own[l].abs() > fastest[l] { own[l].abs() } else { fastest[l] };
+        }
+    }
+    let mut steps = Steps { equal: [0.0; L], forgotten: None };
+    for l in 0..L {
+        let span = to[l] - from[l];
+        let turning = (span.abs() * (rate[2][l].abs() / TURN_PER_STEP)).ceil();
+        let forgetting = (span.abs() * (fastest[l] / STEP_PER_TIME_CONSTANT)).ceil();
+        if span == 0.0 {
+            continue;
+        }
+        if forgetting > MAX_STEPS {
+            let spans = steps.forgotten.get_or_insert_with(|| Spans::none(from));
+            spans.length[l] = span;
+            spans.first[l] = STEP_PER_TIME_CONSTANT / fastest[l];
+            spans.longest[l] = span.abs() * LONGEST.min(TURNS_PER_STEP / turning.clamp(1.0, MAX_TURNS));
+        } else {
+            steps.equal[l] = if turning > forgetting { turning } else { forgetting }.clamp(1.0, MAX_TURNS);
+        }
+    }
+    steps
+}
+
+/// One step into `total`; the rate at its beginning is known.
+#[inline(always)]
+fn step<const L: usize>(
+    motion: &mut Motion<L>,
+    z: &[[f64; L]],
+    s: &[[f64; L]],
+    (t, h): (&[f64; L], &[f64; L]),
+    rate: &mut Arcs<L>,
+    total: &mut Arcs<L>,
+    at: &mut Arcs<L>,
+) {
+    let (still, from, width) = (motion.still_entries(s), motion.first, motion.columns());
+    total.z.copy_from_slice(z);
+    total.s[still..].copy_from_slice(&s[still..]);
+    for (advance, weight, next) in [(0.5, 1.0, 0.5), (0.5, 2.0, 0.5), (1.0, 2.0, 1.0), (0.0, 1.0, 0.0)] {
+        let (mut share, mut ahead, mut then) = ([0.0; L], [0.0; L], [0.0; L]);
+        for l in 0..L {
+            share[l] = weight * h[l] / 6.0;
+            ahead[l] = advance * h[l];
+            then[l] = t[l] + next * h[l];
+        }
+        add(&mut total.z, &share, &rate.z);
+        for (total, rate) in total.s[still..].chunks_exact_mut(width).zip(rate.s[still..].chunks_exact(width)) {
+            add(&mut total[from..], &share, &rate[from..]);
+        }
+        if advance > 0.0 {
+            sum(&mut at.z, z, &ahead, &rate.z);
+            let rows = s[still..].chunks_exact(width).zip(rate.s[still..].chunks_exact(width));
+            for (at, (s, rate)) in at.s[still..].chunks_exact_mut(width).zip(rows) {
+                sum(&mut at[from..], &s[from..], &ahead, &rate[from..]);
+            }
+            motion.rate(&at.z, &at.s, &then, rate);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects;
+    use crate::effects::Applied;
+    use crate::model::Model;
+    use crate::motion::Timing;
+
+    /// How two spans are divided: at each arc's own yaw rate, with a slide that forgets in so many seconds, if any.
+    fn divided(yaw_rate: [f64; 2], forgets_in: Option<f64>, span: [f64; 2]) -> Steps<2> {
+        let mut model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+        if let Some(tau) = forgets_in {
+            model = model.with_effect(Applied::new(effects::named("cornering-creep").unwrap(), None, vec![tau]));
+        }
+        let equations = model.equations(&[]).unwrap();
+        // A rate for each of the arcs, which begin at 0 and at 1 s.
+        let columns: Vec<Vec<f64>> = equations
+            .inputs
+            .iter()
+            .map(|name| if name.as_str() == "yaw_rate" { yaw_rate.to_vec() } else { vec![2.0; 2] })
+            .collect();
+        let signals = Signals::new(&[0.0, 1.0], &columns, Timing::Sample);
+        let (z, from) = (vec![[0.0; 2]; equations.n()], [0.0, 1.0]);
+        let mut motion = Motion::new(&equations, &signals, [&[], &[]]);
+        let mut rate = Arcs::default();
+        rate.make_room(z.len(), 0);
+        motion.rate(&z, &[], &from, &mut rate);
+        steps(&mut motion, &z, &[], &rate.z, &from, &[from[0] + span[0], from[1] + span[1]])
+    }
+
+    /// Steps of a tenth of a radian, either way, one at least and 4096 at most; none where there is no way to go.
+    #[test]
+    fn steps_follow_the_yaw_rate() {
+        let equal = |yaw_rate, span| divided(yaw_rate, None, span).equal;
+        assert_eq!(equal([2.04, -0.51], [1.0, 1.0]), [21.0, 6.0]);
+        assert_eq!(equal([2.04, -0.51], [-0.1, 3.0]), [3.0, 16.0]);
+        assert_eq!(equal([0.0, 1e9], [1.0, 1.0]), [1.0, 4096.0]);
+        assert_eq!(equal([3.0, 3.0], [0.0, 0.01]), [0.0, 1.0]);
+    }
+
+    /// 0.35 of a time constant at most, or a tenth of a radian where that is shorter.
+    #[test]
+    fn steps_follow_a_time_constant() {
+        let divided = divided([1.0, 9.3], Some(0.1), [1.0, 1.0]);
+        assert_eq!(divided.equal, [29.0, 93.0]);
+        assert!(divided.forgotten.is_none());
+    }
+
+    /// Sixty-four steps are the most that are made for a time constant; beyond, its limit is followed in steps of a
+    /// thirty-second of the span or of three tenths of a radian.
+    #[test]
+    fn a_limit_is_followed_where_a_time_constant_is_short() {
+        // 63.5 steps, and 64.4.
+        let divided_at = |yaw_rate, tau: f64| divided([1.0, yaw_rate], Some(tau), [0.2, -0.2]);
+        let divided = divided_at(800.0, 0.009);
+        assert_eq!(divided.equal, [64.0, 1600.0]);
+        assert!(divided.forgotten.is_none());
+        for (yaw_rate, turns) in [(800.0, 1600.0), (1e9, 4096.0)] {
+            let divided = divided_at(yaw_rate, 0.00887);
+            assert_eq!(divided.equal, [0.0; 2]);
+            let spans = divided.forgotten.unwrap();
+            assert_eq!((spans.from, spans.length), ([0.0, 1.0], [0.2, 0.8 - 1.0]));
+            let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-12 * b, "{a} {b}");
+            spans.first.into_iter().for_each(|first| near(first, 0.35 * 0.00887));
+            near(spans.longest[0], 0.2 / 32.0);
+            near(spans.longest[1], 0.2 * 3.0 / turns);
+        }
+    }
+
+    /// A delay that is free moves what acts, and S says so as differences of the motion do.
+    #[test]
+    fn a_delay_moves_what_the_inputs_do() {
+        let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+        let model = model.with_effect(Applied::new(effects::named("input-delay").unwrap(), None, vec![0.1]));
+        let equations = model.equations(&["input_delay.delay".into()]).unwrap();
+        let time: Vec<f64> = (0..=40).map(|i| 0.05 * f64::from(i)).collect();
+        let of = |f: fn(f64) -> f64| time.iter().map(|t| f(*t)).collect::<Vec<f64>>();
+        let signals =
+            Signals::new(&time, &[of(|t| 3.0 + 2.0 * (2.0 * t).sin()), of(|t| (3.0 * t).cos())], Timing::Sample);
+        let end = |delay: f64| {
+            let p = [delay];
+            let mut stepper = crate::motion::Stepper::new(&equations, &signals, &p);
+            let mut arc = stepper.start(&[0.0, 0.0, 0.2], None);
+            stepper.advance(&mut arc, 0.2, 1.7);
+            arc
+        };
+        let (here, more, less) = (end(0.1), end(0.1001), end(0.0999));
+        for i in 0..3 {
+            let slope = (more.z[i] - less.z[i]) / 2e-4;
+            assert!(
+                slope.abs() > 0.1 && (here.s[4 * i + 3] - slope).abs() < 5e-3,
+                "{i}: {} {slope}",
+                here.s[4 * i + 3]
+            );
+        }
+    }
+}

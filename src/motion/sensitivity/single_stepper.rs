@@ -1,0 +1,86 @@
+//! One arc at a time.
+
+use super::lane_stepper::LaneStepper;
+use crate::model::Equations;
+use crate::motion::Signals;
+
+/// Advances a state and its sensitivities S = ∂z/∂(visible start, p) along [`Signals`] in fixed steps of order four that
+/// adapt to the motion.
+///
+/// S′ = J_z·S + [0 | J_p − J_u·u̇·∂delay/∂p]
+///
+/// | symbol | meaning |
+/// |---|---|
+/// | J_z, J_u, J_p | derivatives of the rates z′ = f(z, u, p) of [`Equations`] by states, inputs and free parameters |
+/// | u̇ | slopes of the inputs, s⁻¹; a delay that is free moves the time at which they are looked up |
+pub struct Stepper<'a> {
+    equations: &'a Equations,
+    lanes: LaneStepper<'a, 1>,
+}
+
+/// State and sensitivities at a time; S is stored row by row, with [`Equations::visible`] + p columns.
+#[derive(Clone, Debug, Default)]
+pub struct Arc {
+    /// State.
+    pub z: Vec<f64>,
+    /// Sensitivities, or empty when they are not wanted.
+    pub s: Vec<f64>,
+}
+
+impl Arc {
+    /// What is to be carried on: the hidden states, and all sensitivities.
+    pub(crate) fn hidden(self, visible: usize) -> Self {
+        Self { z: self.z[visible..].to_vec(), s: self.s }
+    }
+
+    /// Whether the hidden states and their sensitivities to parameters are the same bits.
+    pub(crate) fn is_same(&self, other: &Self, visible: usize) -> bool {
+        let k = self.s.len() / (visible + self.z.len());
+        let rows = |a: &Self| a.s[visible * k..].chunks(k).map(|r| bits(&r[visible..])).collect::<Vec<_>>();
+        bits(&self.z) == bits(&other.z) && rows(self) == rows(other)
+    }
+}
+
+fn bits(values: &[f64]) -> Vec<u64> {
+    values.iter().map(|v| v.to_bits()).collect()
+}
+
+impl<'a> Stepper<'a> {
+    /// Equations at parameters p along signals.
+    pub fn new(equations: &'a Equations, signals: &'a Signals, p: &[f64]) -> Self {
+        Self { equations, lanes: LaneStepper::new(equations, signals, [p]) }
+    }
+
+    /// Columns of the sensitivities.
+    pub fn columns(&self) -> usize {
+        self.lanes.columns()
+    }
+
+    /// The inputs that act at a time.
+    pub fn inputs(&mut self, t: f64) -> &[f64] {
+        self.lanes.inputs(&[t]).as_flattened()
+    }
+
+    /// An arc that starts at a state; the sensitivities of hidden states with respect to p are carried over.
+    pub fn start(&self, z: &[f64], hidden_s: Option<&[f64]>) -> Arc {
+        let (n, k, visible) = (self.equations.n(), self.columns(), self.equations.visible);
+        let mut s = vec![0.0; n * k];
+        (0..visible).for_each(|i| s[i * k + i] = 1.0);
+        if let Some(old) = hidden_s {
+            for i in visible..n {
+                s[i * k + visible..(i + 1) * k].copy_from_slice(&old[i * k + visible..(i + 1) * k]);
+            }
+        }
+        Arc { z: z.to_vec(), s }
+    }
+
+    /// Advances an arc from one time to another.
+    pub fn advance(&mut self, arc: &mut Arc, from: f64, to: f64) {
+        self.lanes.advance(arc.z.as_chunks_mut().0, arc.s.as_chunks_mut().0, &[from], &[to]);
+    }
+
+    /// What the sensor measures at a state, and the rows of its derivatives with respect to (visible z, p).
+    pub fn outputs(&mut self, z: &[f64]) -> &[f64] {
+        self.lanes.outputs_here(z.as_chunks().0).as_flattened()
+    }
+}

@@ -3,7 +3,7 @@
 /// A number with so many significant digits, in powers of ten where it is very large or very small.
 ///
 /// ```
-/// use creepage::picture::number::significant;
+/// use creepage::number_format::significant;
 /// assert_eq!(significant(0.20149, 3), "0.201");
 /// assert_eq!(significant(-12345.6, 2), "−12000");
 /// assert_eq!(significant(3.21e-7, 2), "3.2·10⁻⁷");
@@ -30,7 +30,7 @@ pub fn significant(x: f64, digits: usize) -> String {
 /// A number a person chose, such as a horizon: three significant digits at most, no zeros at the end.
 ///
 /// ```
-/// use creepage::picture::number::plain;
+/// use creepage::number_format::plain;
 /// assert_eq!([plain(30.0), plain(0.25)], ["30", "0.25"]);
 /// ```
 pub fn plain(x: f64) -> String {
@@ -44,7 +44,7 @@ pub fn plain(x: f64) -> String {
 /// A value and its standard deviation, both rounded to the deviation's second digit.
 ///
 /// ```
-/// use creepage::picture::number::with_error;
+/// use creepage::number_format::with_error;
 /// assert_eq!(with_error(0.10987, Some(0.00213)), "0.1099 ± 0.0021");
 /// assert_eq!(with_error(3.0e-6, Some(1.2e-7)), "(3.00 ± 0.12)·10⁻⁶");
 /// assert_eq!(with_error(0.11, None), "0.110");
@@ -72,7 +72,7 @@ fn places_for(std: f64) -> usize {
 /// A number with a fixed count of decimals and a true minus sign.
 ///
 /// ```
-/// use creepage::picture::number::decimals;
+/// use creepage::number_format::decimals;
 /// assert_eq!([decimals(-0.126, 2), decimals(-0.001, 2), decimals(f64::NAN, 2)], ["−0.13", "0.00", "–"]);
 /// ```
 pub fn decimals(x: f64, places: usize) -> String {
@@ -118,7 +118,7 @@ pub fn probability(p: f64) -> String {
 /// A unit with a prefix that keeps the values readable: the factor from the base unit and the name.
 ///
 /// ```
-/// use creepage::picture::number::prefixed;
+/// use creepage::number_format::prefixed;
 /// assert_eq!(prefixed(0.2, "m"), (1000.0, "mm".to_string()));
 /// assert_eq!(prefixed(20.0, "m"), (1.0, "m".to_string()));
 /// ```

@@ -12,8 +12,9 @@ mod vehicle;
 
 use creepage::claims::{self, Domain, Options, Status, ledger, verify};
 use creepage::describe::{self, Description, vehicle_effects_text};
-use creepage::discrepancy::pipeline::{Request, discover};
+use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::report::{Report, Verdict};
+use creepage::discrepancy::request::Request;
 use creepage::effects::{self, Applied, Effect};
 use creepage::files::{ModelFile, Run};
 use creepage::model::{Model, known_on};

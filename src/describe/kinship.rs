@@ -2,11 +2,11 @@
 
 use super::page::Page;
 use super::vehicles::{sample_train, tractors};
-use crate::discrepancy::rendering::figure_data::equation;
 use crate::effects::{Applied, Effect};
 use crate::equivalence::{Change, Measured, Relation, relation};
 use crate::error::{Error, Result};
 use crate::files::advice;
+use crate::model::effect_equation::equation;
 use crate::model::{Model, WITH_TRAILERS};
 use crate::vehicles::Vehicle;
 use rayon::prelude::*;

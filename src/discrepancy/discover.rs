@@ -3,28 +3,17 @@
 use super::clock_alignment::aligned_run::{Aligned, aligned};
 use super::clock_alignment::refinement::refined;
 use super::estimation::problem::Problem;
-use super::identifiability::{Check, Checked, Finding, check};
 use super::localisation::clock_drift::DELAY;
-use super::pipeline::{Discovery, Request, common_roles, cut_short, discover};
+use super::pipeline::discover;
 use super::preprocessing::dataset::{Data, FITTED_SHARE};
 use super::selection::select::choose;
+use crate::discrepancy::clock_alignment::aligned_run::{is_aligned, without_delay};
+use crate::discrepancy::discovery::{Discovery, cut_short};
+use crate::discrepancy::request::{Request, common_roles};
 use crate::effects::Effect;
 use crate::error::{Error, Result};
-use crate::files::{ModelFile, Run};
+use crate::files::Run;
 use crate::model::Model;
-
-/// Whether inputs and poses have one clock.
-fn is_aligned(run: &Run) -> bool {
-    run.apart.as_ref().is_none_or(|a| a.one_clock)
-}
-
-/// A model file without a delay of its inputs, which is one with the offset of the clocks; and a word where it has one.
-fn without_delay(file: &ModelFile) -> (ModelFile, Option<String>) {
-    let has_one = file.effects.iter().any(|e| e.id == DELAY);
-    let effects = file.effects.iter().filter(|e| e.id != DELAY).cloned().collect();
-    let says = "the model's input-delay is left out: it is one with the offset of the clocks, which has it";
-    (ModelFile { effects, ..file.clone() }, has_one.then(|| says.into()))
-}
 
 /// As [`discover`], the clocks of inputs and poses estimated first where they stand in files of their own.
 ///
@@ -75,35 +64,6 @@ pub fn discover_aligned(request: &Request, near: Option<f64>, progress: &dyn Fn(
     Ok(found)
 }
 
-/// As [`check`](crate::discrepancy::identifiability::check), the clocks of inputs and poses estimated first where they
-/// stand in files of their own.
-///
-/// # Errors
-/// As [`discover_aligned`].
-pub fn check_aligned(of: &Checked, near: Option<f64>, progress: &dyn Fn(&str)) -> Result<Check> {
-    if of.runs.iter().all(is_aligned) {
-        return check(of, progress);
-    }
-    let Checked { file, runs, library } = *of;
-    let (file, delay) = without_delay(file);
-    let file = &file;
-    let roles = common_roles(runs, &[])?;
-    let model = Model::from_file(file, library, &roles)?;
-    progress("aligning the clocks");
-    let request = Request { file, runs, held_out: &[], library, horizons: &[], seed: 0 };
-    let by_one = match aligned(runs, 1.0, &request, &model, near)? {
-        Ok(by_one) => by_one,
-        Err(obstacle) => return Ok(Check::cut_short(obstacle.outcome())),
-    };
-    let library: Vec<Effect> = library.iter().filter(|e| e.id != DELAY).cloned().collect();
-    let runs: Vec<Run> = by_one.iter().map(|a| a.run.clone()).collect();
-    let mut found = check(&Checked { file, runs: &runs, library: &library }, progress)?;
-    found.data.clocks = by_one.iter().map(|a| a.clock(false)).collect();
-    let doubts = by_one.iter().filter_map(Aligned::doubt).chain(delay);
-    found.data.findings.extend(doubts.map(|says| Finding { id: "clock-offset".into(), says }));
-    Ok(found)
-}
-
 /// The model with the effects that the aligned runs ask for, free; the delay they ask for goes into the clocks.
 fn with_effects(request: &Request, model: &Model, first: &[Aligned], progress: &dyn Fn(&str)) -> Result<Model> {
     let runs: Vec<Run> = first.iter().map(|a| a.run.clone()).collect();
@@ -127,22 +87,4 @@ fn beside(a: &Aligned, request: &Request, model: &Model, progress: &dyn Fn(&str)
     let fitted = refined(&original.until(a.until), model, request.file, a.fitted.clock)?;
     let Some(fitted) = fitted else { return Ok(a.clone()) };
     Ok(Aligned { run: original.aligned(&fitted.clock), fitted, ..a.clone() })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::discrepancy::fixtures::unicycle_file;
-
-    #[test]
-    fn a_delay_of_the_model_is_left_out_and_told() {
-        let (creep, delay) =
-            ("[[effects]]\nid = \"traverse-creep\"\ne_tc = 0.1\n", "[[effects]]\nid = \"input-delay\"\ndelay = 0.1\n");
-        let ids = |file: &ModelFile| file.effects.iter().map(|e| e.id.clone()).collect::<Vec<_>>();
-        let (file, says) = without_delay(&unicycle_file(creep));
-        assert_eq!((ids(&file), says), (vec!["traverse-creep".to_string()], None));
-        let (file, says) = without_delay(&unicycle_file(&[creep, delay].concat()));
-        assert_eq!(ids(&file), ["traverse-creep"]);
-        assert!(says.unwrap().starts_with("the model's input-delay is left out"));
-    }
 }

@@ -12,9 +12,11 @@
 //! traverse constraint, and the third is yaw. With q = 0 a run is one trajectory; with large q windows stand
 //! alone. q and σ are estimated with the parameters, so noise, unexplained motion and effects are told apart.
 
+pub mod check;
 pub mod clock_alignment;
 pub mod diagnosis;
 pub mod discover;
+pub mod discovery;
 pub mod estimation;
 pub mod evidence;
 pub mod experiment;
@@ -28,5 +30,6 @@ pub mod preprocessing;
 pub mod record;
 pub mod rendering;
 pub mod report;
+pub mod request;
 pub mod selection;
 pub mod shooting;

@@ -341,3 +341,14 @@ pub struct Candidate {
     /// Whether it is listed as indistinguishable from a chosen one.
     pub rival: bool,
 }
+
+/// The gap at the middle horizon; of two horizons the longer.
+pub fn middle(gaps: &[Gap]) -> Option<&Gap> {
+    gaps.get(gaps.len() / 2)
+}
+
+/// The numbers a gap is judged by, held out where there are such, and what they are called.
+pub fn judged(gap: &Gap) -> Option<(&'static str, &BeforeAfter)> {
+    let held_out = gap.held_out.as_ref().map(|g| ("held-out", g));
+    held_out.or_else(|| gap.fit.as_ref().map(|g| ("fitted", g)))
+}

@@ -88,7 +88,7 @@ impl Relation {
 /// for all parameters of the vehicle.
 ///
 /// ```
-/// use creepage::discrepancy::identity::{Measured, Relation, relation};
+/// use creepage::equivalence::{Measured, Relation, relation};
 /// use creepage::{effects::{self, Applied}, model::Model};
 /// let car = Model::new("car", &[("wheel_radius", 0.3), ("wheelbase", 2.6)]).unwrap();
 /// let effect = |id: &str| [Applied::new(effects::named(id).unwrap(), None, vec![0.0])];

@@ -45,7 +45,7 @@ use test_vehicle::Machine;
 /// to a vehicle, have units, vanish where its parameters are neutral.
 ///
 /// ```
-/// use creepage::library;
+/// use creepage::extensions;
 /// let own = library::with_own("examples/effects/my_effects.toml").unwrap();
 /// assert!(own.iter().any(|e| e.id == "yaw-slip") && own.iter().any(|e| e.id == "rotation-creep"));
 /// ```

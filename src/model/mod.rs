@@ -6,6 +6,7 @@
 mod body;
 mod build;
 mod constraints;
+pub mod effect_equation;
 mod equations;
 mod file;
 mod free;

@@ -51,7 +51,7 @@ impl Starter {
     /// A model file for a vehicle.
     ///
     /// ```
-    /// use creepage::starter::{Starter, Wanted};
+    /// use creepage::scaffold::{Starter, Wanted};
     /// let log = Some(("run.csv".into(), ["t", "x", "y", "yaw", "v", "gyro_z"].map(String::from).to_vec()));
     /// let starter = Starter::new(&Wanted { vehicle: "unicycle".into(), log, ..Wanted::default() }).unwrap();
     /// assert!(starter.text.contains("speed = \"v\""));

@@ -1,10 +1,11 @@
 //! Inputs and poses in files of their own: their clocks are found, with honest deviations, and no effect hides in them.
 
 use crate::simulator::{Hidden, Log, Noise, Profile, Scenario, Signal, Timing, Tractor};
-use creepage::discrepancy::clock_alignment::{check_aligned, discover_aligned};
+use creepage::discrepancy::check::check_aligned;
+use creepage::discrepancy::discover::discover_aligned;
 use creepage::discrepancy::identifiability::Checked;
-use creepage::discrepancy::pipeline::Request;
 use creepage::discrepancy::report::{Report, RunClock, Verdict};
+use creepage::discrepancy::request::Request;
 use creepage::files::{ModelFile, Run};
 use creepage::{effects, model};
 use std::path::Path;

@@ -1,8 +1,9 @@
 //! States that no sensor sees, at the start of a log: nobody knows how they began, and what the poses show is enough.
 
 use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
-use creepage::discrepancy::pipeline::{Request, discover};
+use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::report::{Report, Verdict};
+use creepage::discrepancy::request::Request;
 use creepage::effects;
 use creepage::files::{ModelFile, Run};
 use creepage::model;

@@ -4,8 +4,9 @@
 use crate::read_back::read_back;
 use crate::simulator::{Hidden, Noise, Scenario, Tractor};
 use creepage::discrepancy::identifiability::{Checked, check};
-use creepage::discrepancy::pipeline::{Request, discover};
+use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::report::{Report, Verdict};
+use creepage::discrepancy::request::Request;
 use creepage::effects;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;

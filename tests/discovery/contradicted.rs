@@ -1,8 +1,9 @@
 //! Runs in which more is amiss than the library can say: what all of their parts share is named, and nothing else.
 
 use crate::read_back::read_back;
-use creepage::discrepancy::pipeline::{Request, discover};
+use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::report::{Report, Verdict};
+use creepage::discrepancy::request::Request;
 use creepage::effects::{self, Effect};
 use creepage::files::Run;
 use rand::SeedableRng;

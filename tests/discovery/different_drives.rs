@@ -4,9 +4,10 @@
 use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
 use creepage::discrepancy::estimation::fit::Effort;
 use creepage::discrepancy::estimation::problem::Problem;
-use creepage::discrepancy::pipeline::{Request, discover};
+use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::record::record::Record;
 use creepage::discrepancy::report::{Named, Report, Verdict};
+use creepage::discrepancy::request::Request;
 use creepage::effects::{self, Applied};
 use creepage::files::{ModelFile, Run};
 use creepage::model::{self, Model};

@@ -2,8 +2,9 @@
 
 use crate::forced::{Body, Forced};
 use crate::read_back::read_back;
-use creepage::discrepancy::pipeline::{Request, discover};
+use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::report::Report;
+use creepage::discrepancy::request::Request;
 use creepage::effects;
 
 /// What `discover` says of two runs of one kind.

@@ -2,8 +2,10 @@
 
 use crate::read_back::read_back;
 use crate::simulator::{Hidden, Noise, Scenario, Tractor};
-use creepage::discrepancy::pipeline::{Discovery, Request, discover};
+use creepage::discrepancy::discovery::Discovery;
+use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::report::{Report, Verdict};
+use creepage::discrepancy::request::Request;
 use creepage::effects;
 use std::cell::RefCell;
 

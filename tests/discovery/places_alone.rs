@@ -2,8 +2,9 @@
 //! there is none.
 
 use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
-use creepage::discrepancy::pipeline::{Request, discover};
+use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::report::{Report, Verdict};
+use creepage::discrepancy::request::Request;
 use creepage::effects;
 use creepage::files::{ModelFile, Run};
 use creepage::model;

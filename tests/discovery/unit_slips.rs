@@ -2,11 +2,13 @@
 //! like.
 
 use crate::simulator::{Hidden, Log, Noise, Profile, Scenario, Signal, Tractor};
-use creepage::discrepancy::clock_alignment::{check_aligned, discover_aligned};
+use creepage::discrepancy::check::check_aligned;
+use creepage::discrepancy::discover::discover_aligned;
 use creepage::discrepancy::identifiability::{Checked, Standing, check};
-use creepage::discrepancy::pipeline::{Request, discover};
+use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::rendering::html::html;
 use creepage::discrepancy::report::{Report, Verdict};
+use creepage::discrepancy::request::Request;
 use creepage::effects;
 use creepage::files::{ModelFile, Run};
 use creepage::model;

@@ -2,8 +2,10 @@
 
 use crate::read_back::read_back;
 use crate::simulator::{self, Hidden, Log, Noise, Scenario, Tractor};
-use creepage::discrepancy::pipeline::{Discovery, Request, discover};
+use creepage::discrepancy::discovery::Discovery;
+use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::report::Verdict;
+use creepage::discrepancy::request::Request;
 use creepage::files::ModelFile;
 use creepage::formula::Unit;
 use creepage::model::Model;

@@ -232,8 +232,8 @@ mod bags {
 
     #[test]
     fn discover_names_what_hides_in_a_bag() {
-        use creepage::discrepancy::clock_alignment::discover_aligned;
-        use creepage::discrepancy::pipeline::Request;
+        use creepage::discrepancy::discover::discover_aligned;
+        use creepage::discrepancy::request::Request;
         let folder = tempfile::tempdir().unwrap();
         let path = written(&folder, "eights.mcap", &to_bag::bag(&rows()).unwrap());
         let file = bag_model(|t| t);

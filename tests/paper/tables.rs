@@ -3,7 +3,7 @@
 use super::cornering;
 use super::ledger::said;
 use super::markup::{formula, head, rows, string};
-use creepage::discrepancy::pipeline::Discovery;
+use creepage::discrepancy::discovery::Discovery;
 use creepage::effects::{self, Applied};
 use creepage::equivalence::{Measured, Relation, relation};
 use creepage::figures::readings;

@@ -4,11 +4,14 @@
 use crate::reviewed::reviewed;
 use crate::rounded::rounded;
 use crate::simulator::{Hidden, Mounting, Noise, Profile, Scenario, Signal, Timing, Tractor, Vehicle};
-use creepage::discrepancy::identifiability::{Checked, check, check_text};
-use creepage::discrepancy::pipeline::{Discovery, Request, discover};
+use creepage::discrepancy::discovery::Discovery;
+use creepage::discrepancy::identifiability::{Checked, check};
+use creepage::discrepancy::pipeline::discover;
+use creepage::discrepancy::rendering::check_text::check_text;
 use creepage::discrepancy::rendering::html::html;
 use creepage::discrepancy::rendering::summary::summary_text;
 use creepage::discrepancy::report::Pictures;
+use creepage::discrepancy::request::Request;
 use creepage::effects;
 use creepage::files::{ModelFile, Run};
 use creepage::model;

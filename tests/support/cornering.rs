@@ -1,6 +1,8 @@
 //! The example `cornering` through the whole workflow: what `creepage discover` does.
 
-use creepage::discrepancy::pipeline::{Discovery, Request, discover};
+use creepage::discrepancy::discovery::Discovery;
+use creepage::discrepancy::pipeline::discover;
+use creepage::discrepancy::request::Request;
 use creepage::effects;
 use creepage::files::{ModelFile, Run};
 use creepage::model::known;

@@ -12,8 +12,9 @@ use creepage::claims::{self, ledger};
 use creepage::describe::{
     Description, effects_json, effects_text, json, latex, text, vehicle_effects_text, vehicles_json, vehicles_text,
 };
-use creepage::discrepancy::pipeline::{Request, discover};
+use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::rendering::html::{gap_svg, html};
+use creepage::discrepancy::request::Request;
 use creepage::dynamics::{self, Dynamics, simulate_file};
 use creepage::files::{EffectsFile, Initial, Inputs, Known, ModelFile, Run, read_claims};
 use creepage::formula::Expr;

@@ -1,8 +1,9 @@
 //! A case put before `discover`, by way of real files.
 
 use super::case::Case;
-use creepage::discrepancy::pipeline::{Request, discover};
+use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::report::Report;
+use creepage::discrepancy::request::Request;
 use creepage::files::{ModelFile, Run};
 use creepage::{Result, effects, model};
 use std::panic::{AssertUnwindSafe, catch_unwind};

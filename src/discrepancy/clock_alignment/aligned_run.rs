@@ -1,14 +1,17 @@
 //! A run whose inputs and poses have clocks of their own, by one clock.
 
 use super::cross_correlation::{Found, SHORTEST, search};
-use super::refinement::{Fitted, refined};
+use super::refinement::Fitted;
+use super::refinement::refined;
 use super::speed_profile::{Driven, Measured};
 use crate::discrepancy::diagnosis::verdict::Outcome;
-use crate::discrepancy::pipeline::Request;
+use crate::discrepancy::localisation::clock_drift::DELAY;
 use crate::discrepancy::preprocessing::unit_errors::too_sparse;
 use crate::discrepancy::report::{Estimate, RunClock, Verdict};
+use crate::discrepancy::request::Request;
 use crate::error::Result;
-use crate::files::{Clock, Run};
+use crate::files::Clock;
+use crate::files::{ModelFile, Run};
 use crate::model::Model;
 use crate::number_format::significant;
 use rayon::prelude::*;
@@ -201,9 +204,23 @@ fn file_name(path: &std::path::Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
+/// Whether inputs and poses have one clock.
+pub(crate) fn is_aligned(run: &Run) -> bool {
+    run.apart.as_ref().is_none_or(|a| a.one_clock)
+}
+
+/// A model file without a delay of its inputs, which is one with the offset of the clocks; and a word where it has one.
+pub(crate) fn without_delay(file: &ModelFile) -> (ModelFile, Option<String>) {
+    let has_one = file.effects.iter().any(|e| e.id == DELAY);
+    let effects = file.effects.iter().filter(|e| e.id != DELAY).cloned().collect();
+    let says = "the model's input-delay is left out: it is one with the offset of the clocks, which has it";
+    (ModelFile { effects, ..file.clone() }, has_one.then(|| says.into()))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::discrepancy::fixtures::unicycle_file;
 
     /// A clock whose fit misses so much a value, of so many values that begin at a time and last 100 s.
     fn clock(offset: f64, misfit: f64, rows: f64, from: f64, dependence: f64) -> Fitted {
@@ -234,5 +251,17 @@ mod tests {
         }
         let (alone, other) = settled(clock(3.0, 9.0, 10.0, 0.0, 1.0), None);
         assert_eq!((alone.clock.offset, other), (3.0, None));
+    }
+
+    #[test]
+    fn a_delay_of_the_model_is_left_out_and_told() {
+        let (creep, delay) =
+            ("[[effects]]\nid = \"traverse-creep\"\ne_tc = 0.1\n", "[[effects]]\nid = \"input-delay\"\ndelay = 0.1\n");
+        let ids = |file: &ModelFile| file.effects.iter().map(|e| e.id.clone()).collect::<Vec<_>>();
+        let (file, says) = without_delay(&unicycle_file(creep));
+        assert_eq!((ids(&file), says), (vec!["traverse-creep".to_string()], None));
+        let (file, says) = without_delay(&unicycle_file(&[creep, delay].concat()));
+        assert_eq!(ids(&file), ["traverse-creep"]);
+        assert!(says.unwrap().starts_with("the model's input-delay is left out"));
     }
 }

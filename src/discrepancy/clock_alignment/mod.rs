@@ -14,6 +14,5 @@ pub(crate) mod cross_correlation;
 pub(crate) mod refinement;
 pub(crate) mod speed_profile;
 
-pub use super::discover::{check_aligned, discover_aligned};
 pub use aligned_run::Aligned;
 pub use refinement::{Fitted, refined};

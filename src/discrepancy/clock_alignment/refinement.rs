@@ -5,7 +5,6 @@ use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::localisation::clock_drift::DELAY;
 use crate::discrepancy::preprocessing::outliers::without_gross_errors;
 use crate::discrepancy::record::record::Record;
-use crate::discrepancy::selection::search::FULL;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::files::{Clock, ModelFile, Run};
@@ -128,7 +127,7 @@ impl<'a> Round<'a> {
             return Ok(None);
         }
         let starts = problem.starts(model)?;
-        let Some(fit) = problem.fit(model, &starts, &problem.variances, FULL)? else { return Ok(None) };
+        let Some(fit) = problem.fit(model, &starts, &problem.variances, Effort::FULL)? else { return Ok(None) };
         let Some(at) = place(model) else { return Ok(None) };
         let variance = fit.covariance.as_ref().map(|c| c[(at, at)] * fit.dependence());
         let time = &problem.records[0].time;

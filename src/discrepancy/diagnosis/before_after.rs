@@ -3,9 +3,8 @@
 use crate::discrepancy::preprocessing::dataset::Data;
 use crate::discrepancy::record::record::Record;
 use crate::discrepancy::record::sensor_noise::Noise;
-use crate::discrepancy::rendering::summary;
 use crate::discrepancy::report::{BeforeAfter, Floor, Gap, GapCurve, Step};
-use crate::discrepancy::selection::select::Choice;
+use crate::discrepancy::selection::choice::Choice;
 use crate::discrepancy::shooting::rollout::{Errors, Predictor};
 use crate::error::Result;
 use crate::model::Model;
@@ -125,7 +124,7 @@ impl<'a> Judged<'a> {
     /// When a model's formulas are malformed.
     pub fn steps(&self, choice: &Choice, gaps: &[Gap]) -> Result<Vec<Step>> {
         let fitted: Vec<Gap> = gaps.iter().filter(|g| g.fit.is_some()).cloned().collect();
-        let Some(horizon) = summary::middle(&fitted).map(|g| g.horizon_s) else { return Ok(vec![]) };
+        let Some(horizon) = crate::discrepancy::report::middle(&fitted).map(|g| g.horizon_s) else { return Ok(vec![]) };
         let step = |(added, model): &(String, Model)| {
             let gap_after = Predictors::new(model, &self.data.fitted)?.errors(horizon).position_rms();
             Ok(Step { added: added.clone(), gap_after })

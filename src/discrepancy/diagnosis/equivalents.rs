@@ -1,8 +1,7 @@
 //! Effects that are listed beside a chosen one, and why.
 
 use crate::discrepancy::record::record::Record;
-use crate::discrepancy::selection::select::{Choice, Chosen};
-use crate::discrepancy::selection::unnamed_terms;
+use crate::discrepancy::selection::choice::{Choice, Chosen};
 use crate::effects::{Applied, Effect};
 use crate::equivalence::{Measured, relation};
 use crate::model::Model;
@@ -39,7 +38,7 @@ pub fn relatives(choice: &Choice, library: &[Effect], measured: Measured) -> Vec
 }
 
 fn of_one(chosen: &Chosen, after: &Model, library: &[Effect], measured: Measured) -> Vec<Relative> {
-    if unnamed_terms::is_term(&chosen.applied) {
+    if crate::model::effect_equation::is_term(&chosen.applied) {
         return vec![];
     }
     let mut rest = after.clone();

@@ -4,10 +4,8 @@ use super::equivalents::Relative;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::localisation::constraint_residuals;
 use crate::discrepancy::preprocessing::dataset::Data;
-use crate::discrepancy::rendering::figure_data;
 use crate::discrepancy::report::{Estimate, Evidence, Named, Rival, Unnamed};
-use crate::discrepancy::selection::select::Chosen;
-use crate::discrepancy::selection::unnamed_terms;
+use crate::discrepancy::selection::choice::Chosen;
 use crate::error::Result;
 use crate::model::Model;
 use std::collections::BTreeMap;
@@ -30,7 +28,7 @@ pub(crate) fn named(chosen: &Chosen, relatives: &[Relative], model: &Model) -> N
         parameters,
         evidence: Evidence { delta_bic: chosen.delta_bic, p_value: chosen.p_value },
         indistinguishable_from: relatives.iter().map(rival).collect(),
-        equation: figure_data::equation(a, model),
+        equation: crate::model::effect_equation::equation(a, model),
     }
 }
 
@@ -41,15 +39,19 @@ pub(crate) fn without_name(terms: &[&Chosen], data: &Data, after: &Fit, model: &
     }
     let judged = if data.held_out.is_empty() { &data.fitted } else { &data.held_out };
     let mut bare = after.model.clone();
-    bare.effects.retain(|e| !unnamed_terms::is_term(e));
+    bare.effects.retain(|e| !crate::model::effect_equation::is_term(e));
     let violations = |m: &Model| -> Result<Vec<_>> {
         judged.iter().map(|r| constraint_residuals::Violation::of(m, r, &after.noise())).collect()
     };
     let (without, with) = (violations(&bare)?, violations(&after.model)?);
     let one = |c: &&Chosen| Unnamed {
         place: c.applied.effect.place.clone(),
-        equation: unnamed_terms::equation(&c.applied, model),
-        held_out_reduction: unnamed_terms::reduction(&c.applied.effect.place, &without, &with),
+        equation: crate::model::effect_equation::equation(&c.applied, model),
+        held_out_reduction: crate::discrepancy::localisation::constraint_residuals::reduction(
+            &c.applied.effect.place,
+            &without,
+            &with,
+        ),
         parameters: named(c, &[], model).parameters,
     };
     Ok(terms.iter().map(one).collect())

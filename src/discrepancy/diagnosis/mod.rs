@@ -1,5 +1,6 @@
 //! The meaning of a fit: verdict, equivalent effects, plausibility, contradictions, gaps before and after.
 
+pub mod advice;
 pub(crate) mod before_after;
 pub(crate) mod contradictions;
 pub mod equivalents;

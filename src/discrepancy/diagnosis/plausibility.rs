@@ -2,7 +2,7 @@
 
 use crate::discrepancy::preprocessing::unit_errors;
 use crate::discrepancy::record::record::Record;
-use crate::discrepancy::selection::select::Choice;
+use crate::discrepancy::selection::choice::Choice;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::number_format::significant;

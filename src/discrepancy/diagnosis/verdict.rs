@@ -1,6 +1,8 @@
 //! The verdict: the first of the contract's five that holds.
 
-use super::contradictions::{oftener, partly, settling, too_seldom};
+use super::contradictions::{partly, too_seldom};
+use crate::discrepancy::diagnosis::advice::drive;
+use crate::discrepancy::diagnosis::advice::{oftener, settling};
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::localisation::clock_drift::Drift;
@@ -8,9 +10,9 @@ use crate::discrepancy::localisation::constraint_residuals::{CONSTRAINTS, Violat
 use crate::discrepancy::preprocessing::unit_errors;
 use crate::discrepancy::rendering::summary::listed;
 use crate::discrepancy::report::{NextExperiment, Verdict};
+use crate::discrepancy::selection::choice::Choice;
 use crate::discrepancy::selection::search::find;
-use crate::discrepancy::selection::select::{Choice, Scored};
-use crate::discrepancy::selection::unnamed_terms;
+use crate::discrepancy::selection::select::Scored;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
@@ -95,13 +97,6 @@ fn outcome(verdict: Verdict, sentence: &str, next_experiment: Option<NextExperim
     Outcome { verdict, sentence: Some(sentence.into()), next_experiment }
 }
 
-pub(crate) fn drive(why: &str) -> NextExperiment {
-    NextExperiment {
-        why: why.into(),
-        manoeuvre: "drive at least 60 s at changing speed with turns to both sides, such as figures of eight".into(),
-    }
-}
-
 /// Whether any run leaves its place by more than its noise.
 fn moves(problem: &Problem) -> bool {
     let noise = problem.variances.noise.map(f64::sqrt);
@@ -145,7 +140,7 @@ fn fitted(choice: &Choice, after: &[Violation], clocks: &[Drift]) -> Outcome {
     if let Some(sentence) = sliding(after).or_else(|| mismatched(clocks)) {
         return outcome(Verdict::UnusableData, &sentence, None);
     }
-    let without_name = choice.chosen.iter().any(|c| unnamed_terms::is_term(&c.applied));
+    let without_name = choice.chosen.iter().any(|c| crate::model::effect_equation::is_term(&c.applied));
     let contradicted = !choice.unshared.is_empty();
     if !choice.chosen.is_empty() {
         let verdict = if without_name { Verdict::UnnamedEffect } else { Verdict::MissingEffect };
@@ -182,7 +177,8 @@ fn fitted(choice: &Choice, after: &[Violation], clocks: &[Drift]) -> Outcome {
 
 /// What a model leaves beyond chance without standing out of the noise to the eye; `None` where it leaves nothing.
 fn trace(after: &Fit) -> Option<String> {
-    let places: Vec<&str> = unnamed_terms::remaining(after).map(|c| CONSTRAINTS[c].0).collect();
+    let places: Vec<&str> =
+        crate::discrepancy::estimation::unexplained::remaining(after).map(|c| CONSTRAINTS[c].0).collect();
     (!places.is_empty()).then(|| {
         format!(
             "No effect is missing that can be named: the model explains these runs but for a trace at the {}, more than \
@@ -209,7 +205,7 @@ pub(crate) fn restated(choice: &Choice) -> Vec<String> {
 /// Whether what a fit leaves of a constraint is more than chance, and stands out of the noise to the eye.
 fn disagrees(fit: &Fit, after: &[Violation]) -> bool {
     let visible = |c: usize| Violation::rms(after, c).is_some_and(|(rms, noise)| rms > VISIBLE * noise);
-    unnamed_terms::remaining(fit).any(visible)
+    crate::discrepancy::estimation::unexplained::remaining(fit).any(visible)
 }
 
 /// A model that misses most of the motion or of the turning, whatever is added to it.

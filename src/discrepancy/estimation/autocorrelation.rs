@@ -8,7 +8,8 @@
 //!
 //! and a gain of deviance counts for its τ-th part. With nothing unexplained there is nothing to hang together: τ = 1.
 
-use crate::discrepancy::shooting::windows::Linear;
+use crate::discrepancy::shooting::block_sums::SCALES;
+use crate::discrepancy::shooting::linearised_window::Linear;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// Deviance from which on unexplained motion is more than chance.
@@ -22,7 +23,7 @@ const LONGEST: usize = 3;
 /// Lags are summed in pairs as long as a pair's sum is positive: what a sum of all lags adds beyond that is noise.
 ///
 /// ```
-/// use creepage::discrepancy::whiteness::integrated_correlation;
+/// use creepage::discrepancy::estimation::autocorrelation::integrated_correlation;
 /// let alternating = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
 /// assert_eq!(integrated_correlation(&[alternating.to_vec()]), 1.0);
 /// let standing = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0];
@@ -66,37 +67,6 @@ pub fn of_what_remains(linear: &[Vec<Linear>], unexplained: &[f64; 4]) -> f64 {
 
 /// Probability that white noise is taken for coloured, at each scale.
 const BY_CHANCE: f64 = 5e-4;
-/// Rows in a block: two, four, … two to this power.
-const SCALES: usize = 6;
-
-/// Squared sums of residuals over blocks of neighbouring rows, for blocks of two, four, eight … rows.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Blocks {
-    squares: [f64; SCALES],
-    count: [usize; SCALES],
-}
-
-/// The blocks of one column that are not full yet.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Run {
-    open: [f64; SCALES],
-    rows: usize,
-}
-
-impl Run {
-    /// Takes the next row's residual and hands over the blocks that it fills.
-    pub fn push(&mut self, residual: f64, to: &mut Blocks) {
-        self.rows += 1;
-        for k in 0..SCALES {
-            self.open[k] += residual;
-            if self.rows.is_multiple_of(2 << k) {
-                to.squares[k] += self.open[k].powi(2);
-                to.count[k] += 1;
-                self.open[k] = 0.0;
-            }
-        }
-    }
-}
 
 /// How many rows in a row the noise of a fit is alike: over blocks of two rows, of four …
 ///

@@ -1,6 +1,6 @@
 //! The windows of a run joined: poses and jumps eliminated one window at a time.
 
-use crate::discrepancy::shooting::windows::Linear;
+use crate::discrepancy::shooting::linearised_window::Linear;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// Variances of the statistical model.

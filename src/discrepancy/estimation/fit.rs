@@ -8,7 +8,9 @@ use super::problem::Problem;
 use super::variance_components;
 use crate::discrepancy::initial_state::hidden_states;
 use crate::discrepancy::record::sensor_noise::Noise;
-use crate::discrepancy::shooting::windows::{Linear, Segment, Starts, linearise};
+use crate::discrepancy::shooting::linearised_window::Linear;
+use crate::discrepancy::shooting::window_integration::linearise;
+use crate::discrepancy::shooting::windows::{Segment, Starts};
 use crate::error::Result;
 use crate::model::{Equations, Model};
 use nalgebra::{DMatrix, DVector};
@@ -59,6 +61,13 @@ pub struct Effort {
     pub enough: f64,
     /// Whether the variances are estimated anew.
     pub variances: bool,
+}
+
+impl Effort {
+    /// The effort of a fit whose values are reported: variances are estimated with the parameters.
+    pub const FULL: Self = Self { passes: 15, enough: 1e-4, variances: true };
+    /// The effort of a fit by which candidates are compared: at the variances of the fit they begin with.
+    pub const SCREENING: Self = Self { passes: 5, enough: 0.05, variances: false };
 }
 
 /// Parameters that are damped so much hardly move.
@@ -312,7 +321,7 @@ fn moved(starts: &Starts, by: &[Vec<DVector<f64>>], share: f64) -> Starts {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::discrepancy::estimation::autocorrelation::Blocks;
+    use crate::discrepancy::shooting::block_sums::Blocks;
 
     /// A window with two trailers, and others without a jump behind them.
     #[test]

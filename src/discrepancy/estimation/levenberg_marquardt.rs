@@ -17,7 +17,7 @@ use nalgebra::{DMatrix, DVector};
 /// in J. J. Moré, *The Levenberg–Marquardt algorithm: implementation and theory* (1978).
 ///
 /// ```
-/// use creepage::discrepancy::damped::damped_step;
+/// use creepage::discrepancy::estimation::levenberg_marquardt::damped_step;
 /// use nalgebra::{dmatrix, dvector};
 /// // y = 2 b and y = 4 at b = 1: the residual is −2, the minimum lies one further.
 /// let step = damped_step(dmatrix![4.0], &dvector![-4.0], 0.0, &dvector![0.0]).unwrap();

@@ -7,4 +7,5 @@ pub mod fit;
 pub mod levenberg_marquardt;
 pub mod problem;
 pub mod rate_regression;
+pub mod unexplained;
 pub mod variance_components;

@@ -5,10 +5,10 @@ use super::variance_components::Free;
 use crate::discrepancy::initial_state::heading_from_path;
 use crate::discrepancy::record::local_polynomial;
 use crate::discrepancy::record::record::{Channel, Record};
+use crate::discrepancy::shooting::windows::has_windows;
 use crate::discrepancy::shooting::windows::{Segment, Starts};
 use crate::error::Result;
-use crate::model::{Equations, Model};
-use crate::motion::visible_state;
+use crate::model::Model;
 
 /// Runs cut into windows, with what is known of their noise.
 #[derive(Clone, Debug)]
@@ -73,11 +73,6 @@ pub(crate) fn starts(model: &Model, records: &[Record], plan: &[Segment]) -> Res
     Ok(plan.iter().map(|s| heading_from_path::starts(&equations, &records[s.record], &s.windows)).collect())
 }
 
-/// Whether a run is long enough to be cut into windows.
-pub(crate) fn has_windows(record: &Record) -> bool {
-    !crate::discrepancy::shooting::windows::plan(std::slice::from_ref(record)).is_empty()
-}
-
 /// The median noise of a channel over the runs.
 fn noise_of(records: &[Record], channel: Channel) -> f64 {
     let mut found: Vec<f64> = Vec::new();
@@ -88,10 +83,4 @@ fn noise_of(records: &[Record], channel: Channel) -> f64 {
     found.sort_by(f64::total_cmp);
     // A column without any noise still has its last digit.
     found.get(found.len() / 2).copied().unwrap_or(1e-3).max(1e-9)
-}
-
-/// The pose that a measurement says, or the measurement itself where the sensor's formulas cannot be undone.
-pub fn pose_of(equations: &Equations, measured: &[f64]) -> Vec<f64> {
-    let p = vec![0.0; equations.free.len()];
-    visible_state(equations, &p, measured).unwrap_or_else(|_| measured.to_vec())
 }

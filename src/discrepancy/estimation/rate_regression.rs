@@ -57,7 +57,7 @@ pub struct RateSamples {
 /// Source: equations (22)–(25) for f; J. Nocedal, S. J. Wright, *Numerical Optimization*, 10.3.
 ///
 /// ```
-/// use creepage::discrepancy::rates::{RateFit, RateSamples};
+/// use creepage::discrepancy::estimation::rate_regression::{RateFit, RateSamples};
 /// use creepage::effects::{self, Applied};
 /// use creepage::model::Model;
 /// let creep = Applied::new(effects::named("rotation-creep").unwrap(), None, vec![0.0]).freed();

@@ -1,7 +1,7 @@
 //! Noise and unexplained motion, estimated together with the parameters by restricted maximum likelihood.
 
 use super::elimination::{Eliminated, Variances, eliminate};
-use crate::discrepancy::shooting::windows::Linear;
+use crate::discrepancy::shooting::linearised_window::Linear;
 
 /// Smallest jump that is told from none, as a share of the noise: below it the likelihood is flat.
 const LEAST_JUMP: f64 = 1e-3;

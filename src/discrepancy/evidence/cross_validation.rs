@@ -4,7 +4,8 @@ use crate::discrepancy::estimation::elimination::{Variances, eliminate};
 use crate::discrepancy::estimation::fit::{FEWEST_RUNS, Fit};
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::estimation::variance_components::noise_determinant;
-use crate::discrepancy::shooting::windows::{Linear, linearise};
+use crate::discrepancy::shooting::linearised_window::Linear;
+use crate::discrepancy::shooting::window_integration::linearise;
 use crate::error::Result;
 use nalgebra::{DMatrix, DVector};
 

@@ -1,6 +1,8 @@
 //! Whether an effect is real: information criterion, score test, Wald test, cross-validation, bootstrap, jackknife.
 
 pub mod cross_validation;
+pub mod information_criterion;
+pub mod jackknife;
 pub mod parametric_bootstrap;
 pub mod score_test;
 pub(crate) mod wald_test;

@@ -3,7 +3,8 @@
 use crate::discrepancy::estimation::elimination::{Chain, Eliminated};
 use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::estimation::problem::Problem;
-use crate::discrepancy::shooting::windows::{Segment, each_window};
+use crate::discrepancy::shooting::window_integration::each_window;
+use crate::discrepancy::shooting::windows::Segment;
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::{Equations, Model};

@@ -8,13 +8,16 @@ use super::manoeuvre::{LENGTH, Manoeuvre, library};
 use crate::discrepancy::diagnosis::equivalents::Relative;
 use crate::discrepancy::diagnosis::verdict::{Outcome, missed};
 use crate::discrepancy::estimation::elimination::{Variances, eliminate};
+use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::{Problem, starts};
 use crate::discrepancy::record::record::Record;
 use crate::discrepancy::report::{NextExperiment, Verdict};
-use crate::discrepancy::selection::search::{SCREEN, without};
-use crate::discrepancy::selection::select::{Choice, Scored};
-use crate::discrepancy::shooting::windows::{linearise, plan};
+use crate::discrepancy::selection::choice::Choice;
+use crate::discrepancy::selection::search::without;
+use crate::discrepancy::selection::select::Scored;
+use crate::discrepancy::shooting::window_integration::linearise;
+use crate::discrepancy::shooting::windows::plan;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
@@ -103,7 +106,7 @@ fn between(problem: &Problem, choice: &Choice, relatives: &[Vec<Relative>]) -> R
     let after = &choice.after;
     let fitted = |r: &&Relative| {
         let model = without(&after.model, &chosen.applied, &choice.before.model).with_effect(r.applied.clone().freed());
-        problem.fit(&model, &after.starts, &after.variances, SCREEN)
+        problem.fit(&model, &after.starts, &after.variances, Effort::SCREENING)
     };
     let fits: Vec<Fit> =
         rivals.iter().take(MOST_RIVALS).map(fitted).collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();

@@ -10,6 +10,7 @@ use super::fisher_information::Driven;
 use crate::discrepancy::diagnosis::equivalents::measured;
 use crate::discrepancy::diagnosis::verdict;
 use crate::discrepancy::diagnosis::verdict::BASIC;
+use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::estimation::variance_components::without_jump;
 use crate::discrepancy::preprocessing::outliers::without_gross_errors;
@@ -17,7 +18,6 @@ use crate::discrepancy::preprocessing::unit_errors::too_sparse;
 use crate::discrepancy::record::record::Record;
 use crate::discrepancy::rendering::summary::listed;
 use crate::discrepancy::report::Verdict;
-use crate::discrepancy::selection::search::FULL;
 use crate::effects::Effect;
 use crate::error::Result;
 use crate::files::{ModelFile, Run};
@@ -40,7 +40,7 @@ const NAMED: usize = 4;
 /// Says what runs can tell of a model.
 ///
 /// ```no_run
-/// use creepage::discrepancy::identifiable::{Checked, check};
+/// use creepage::discrepancy::identifiability::{Checked, check};
 /// use creepage::files::{ModelFile, Run};
 /// use creepage::{effects, model};
 /// let file = ModelFile::read("model.toml", &model::known(effects::all())).unwrap();
@@ -52,7 +52,7 @@ const NAMED: usize = 4;
 /// # Errors
 /// When runs log different inputs, or the model file's effects do not apply to its vehicle.
 pub fn check(of: &Checked, progress: &dyn Fn(&str)) -> Result<Check> {
-    let roles = crate::discrepancy::pipeline::common_roles(of.runs, &[])?;
+    let roles = crate::discrepancy::request::common_roles(of.runs, &[])?;
     let model = Model::from_file(of.file, of.library, &roles)?;
     progress("looking at the rows");
     let sparse = too_sparse(&model, of.runs)?;
@@ -72,7 +72,7 @@ pub fn check(of: &Checked, progress: &dyn Fn(&str)) -> Result<Check> {
     }
     progress("fitting the model as it is");
     let starts = problem.starts(&model)?;
-    let fit = problem.fit(&model, &starts, &problem.variances, FULL)?;
+    let fit = problem.fit(&model, &starts, &problem.variances, Effort::FULL)?;
     let Some(fit) = fit else { return Ok(without_fit(data, verdict::undefined_motion())) };
     let data = data.with_fit(&problem.variances.noise, &fit, problem.records[0].has_heading);
     progress("weighing what each effect would leave in these runs");

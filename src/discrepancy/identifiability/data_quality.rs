@@ -4,7 +4,7 @@ use super::check_report::{Finding, Health, RunHealth};
 use super::driving_statistics::{driving, quantile};
 use crate::discrepancy::estimation::autocorrelation::NOTICEABLE;
 use crate::discrepancy::estimation::fit::Fit;
-use crate::discrepancy::pipeline::GROSS;
+use crate::discrepancy::preprocessing::outliers::GROSS;
 use crate::discrepancy::preprocessing::quantisation;
 use crate::discrepancy::preprocessing::unit_errors::{SPARSE, wrong_turn, wrong_way};
 use crate::discrepancy::record::record::Record;

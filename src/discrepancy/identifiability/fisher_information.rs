@@ -2,7 +2,8 @@
 
 use crate::discrepancy::estimation::elimination::{Chain, Eliminated, Variances};
 use crate::discrepancy::record::record::Record;
-use crate::discrepancy::shooting::windows::{Segment, Starts, each_window};
+use crate::discrepancy::shooting::window_integration::each_window;
+use crate::discrepancy::shooting::windows::{Segment, Starts};
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;

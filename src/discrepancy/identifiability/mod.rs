@@ -21,8 +21,6 @@ pub(crate) mod detection_power;
 pub(crate) mod driving_statistics;
 pub(crate) mod expected_gain;
 pub(crate) mod fisher_information;
-mod text;
 
 pub use check::{Checked, check};
 pub use check_report::{Check, Finding, Health, Pair, Parameter, Prospect, RunHealth, Seen, Standing};
-pub use text::check_text;

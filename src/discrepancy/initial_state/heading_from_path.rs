@@ -1,7 +1,7 @@
 //! The heading of a vehicle whose heading nothing measures, from where its model says it went.
 
 use super::hidden_states;
-use crate::discrepancy::estimation::problem::pose_of;
+use crate::discrepancy::initial_state::pose::pose_of;
 use crate::discrepancy::record::angle::wrapped;
 use crate::discrepancy::record::record::Record;
 use crate::model::Equations;

@@ -4,3 +4,4 @@ pub(crate) mod first_rows;
 pub mod heading_from_path;
 pub(crate) mod hidden_state_fit;
 pub mod hidden_states;
+pub mod pose;

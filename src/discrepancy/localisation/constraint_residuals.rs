@@ -1,13 +1,15 @@
 //! Where model and measurement disagree: constraint by constraint, window by window.
 
-use crate::discrepancy::estimation::problem::{Problem, pose_of};
+use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::initial_state::heading_from_path::{Course, Placed};
+use crate::discrepancy::initial_state::pose::pose_of;
 use crate::discrepancy::record::angle::wrapped;
 use crate::discrepancy::record::record::Record;
 use crate::discrepancy::record::sensor_noise::Noise;
 use crate::discrepancy::report::ResidualPicture;
+use crate::discrepancy::shooting::linearised_window::Linear;
 use crate::discrepancy::shooting::windows;
-use crate::discrepancy::shooting::windows::{Linear, Segment};
+use crate::discrepancy::shooting::windows::Segment;
 use crate::error::Result;
 use crate::model::Model;
 
@@ -59,7 +61,13 @@ impl Violation {
         let at = |s: &Segment| s.windows.iter().map(|w| Placed::at(&equations, record, w.start)).collect();
         let placed: Vec<Vec<Placed>> = plan.iter().map(at).collect();
         let starts = placed.iter().map(|s| s.iter().map(|p| pose_of(&equations, &p.measured)).collect()).collect();
-        let linear = windows::linearise(&equations, &[], std::slice::from_ref(record), &plan, &starts);
+        let linear = crate::discrepancy::shooting::window_integration::linearise(
+            &equations,
+            &[],
+            std::slice::from_ref(record),
+            &plan,
+            &starts,
+        );
         let mut found = Self { run: record.name.clone(), ..Self::default() };
         let Some(linear) = linear else { return Ok(found) };
         let far = placed.iter().flatten().map(Placed::reach).fold(0.0, f64::max);
@@ -257,6 +265,14 @@ impl Violation {
         };
         Self { run: run.into(), windows: missed.iter().enumerate().map(window).collect(), noise: [0.0; 4] }
     }
+}
+
+/// The share of a constraint's violation on some data that is gone, noise apart and in the windows that both models
+/// have: at most one, negative where it grew.
+pub fn reduction(place: &str, before: &[Violation], after: &[Violation]) -> f64 {
+    let both = before.iter().zip(after).map(|(before, after)| before.in_common(after).map(|v| v.excess(place)));
+    let [before, after] = both.fold([0.0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]]);
+    if before > 0.0 { (1.0 - after / before).clamp(-1.0, 1.0) } else { 0.0 }
 }
 
 #[cfg(test)]

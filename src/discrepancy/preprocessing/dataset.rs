@@ -1,9 +1,9 @@
 //! What a request gives: the records to fit and those to judge by.
 
 use super::outliers;
-use crate::discrepancy::estimation::problem::has_windows;
-use crate::discrepancy::pipeline::Request;
 use crate::discrepancy::record::record::Record;
+use crate::discrepancy::request::Request;
+use crate::discrepancy::shooting::windows::has_windows;
 use crate::error::Result;
 use crate::files::Run;
 use crate::model::Model;

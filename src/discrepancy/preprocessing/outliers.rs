@@ -11,7 +11,7 @@ use std::ops::Range;
 /// Windows over which the model takes the motion's own curvature out, s.
 const WINDOW: f64 = 2.0;
 /// How many of the usual errors a gross one is: noise that is normal gives one in 10¹⁵.
-const GROSS: f64 = 8.0;
+const GROSS_DEVIATIONS: f64 = 8.0;
 /// More than this share of a column is no gross error but its noise.
 const MOST: f64 = 0.05;
 /// Rounds in which the largest errors are taken out; a gross error hides its neighbours.
@@ -114,7 +114,10 @@ fn mark(time: &[f64], column: &[f64], windows: &[Window], gross: &mut [bool]) {
         let is_gross = |k: usize| {
             let near = k.saturating_sub(NEAR)..(k + NEAR + 1).min(rows.len());
             let is_largest = errors[near].iter().all(|e| e.is_nan() || *e <= errors[k]);
-            errors[k] > GROSS * usual && is_largest && stands_out(&errors, k) && !beside_restart(windows, &rows, k)
+            errors[k] > GROSS_DEVIATIONS * usual
+                && is_largest
+                && stands_out(&errors, k)
+                && !beside_restart(windows, &rows, k)
         };
         let found: Vec<usize> = (0..rows.len()).filter(|k| is_gross(*k)).map(|k| rows[k]).collect();
         if found.is_empty() {
@@ -141,7 +144,7 @@ fn readmit(time: &[f64], column: &[f64], windows: &[Window], before: &[bool], ow
         let k = rows.len();
         rows.push(i);
         rows.extend((i + 1..column.len()).filter(|j| is_good(own, *j)).take(EDGE));
-        let fits = |near| error(time, column, &rows, near, k) <= GROSS * usual;
+        let fits = |near| error(time, column, &rows, near, k) <= GROSS_DEVIATIONS * usual;
         if around(windows, &rows, k).is_some_and(|(_, near)| fits(near)) {
             own[i] = false;
         }
@@ -188,7 +191,7 @@ fn beside_restart(windows: &[Window], rows: &[usize], k: usize) -> bool {
 /// Whether an error is gross beside those around it.
 fn stands_out(errors: &[f64], k: usize) -> bool {
     let around = &errors[k.saturating_sub(AROUND)..(k + AROUND + 1).min(errors.len())];
-    usual(around).is_none_or(|usual| errors[k] > GROSS * usual)
+    usual(around).is_none_or(|usual| errors[k] > GROSS_DEVIATIONS * usual)
 }
 
 /// The usual error, as a standard deviation; `None` with too few errors or none at all.
@@ -199,6 +202,9 @@ fn usual(errors: &[f64]) -> Option<f64> {
     }
     local_polynomial::deviation(&mut known).filter(|usual| *usual > 0.0)
 }
+
+/// Why a row whose pose no smooth motion passes through is left out.
+pub(crate) const GROSS: &str = "gross error of the measured pose";
 
 #[cfg(test)]
 mod tests {

@@ -1,7 +1,6 @@
 //! Inputs that were rounded before they were logged: an encoder's ticks in a row, a message with few digits.
 
 use crate::discrepancy::record::local_polynomial::median;
-use crate::discrepancy::report::NextExperiment;
 use crate::files::Run;
 use crate::model::Model;
 use crate::number_format::significant;
@@ -41,16 +40,6 @@ pub(crate) fn says(model: &Model, run: &Run) -> Vec<String> {
         Some(format!("{}: {role} comes in steps of {step} {unit}; what it does within one is not logged", run.name))
     };
     run.roles.iter().zip(&run.inputs).filter_map(of).collect()
-}
-
-/// What mends inputs that come in steps.
-pub(crate) fn finer(why: &str) -> NextExperiment {
-    NextExperiment {
-        why: why.into(),
-        manoeuvre: "log the inputs in finer steps: more ticks a turn, more digits, or ticks counted over longer rows and given \
-                    as means over them (input_timing = \"interval-mean\")"
-            .into(),
-    }
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use crate::discrepancy::diagnosis::before_after::{Judged, Predictors};
 use crate::discrepancy::preprocessing::dataset::Data;
 use crate::discrepancy::record::record::Record;
 use crate::discrepancy::report::{Candidate, PathPicture, Pictures, Report};
-use crate::discrepancy::selection::select::Choice;
+use crate::discrepancy::selection::choice::Choice;
 use crate::discrepancy::shooting::rollout::Predictor;
 use crate::effects::Applied;
 use crate::error::Result;
@@ -12,8 +12,6 @@ use crate::model::Model;
 
 /// Runs that are drawn.
 const MOST_RUNS: usize = 6;
-/// The definition by which inputs lag.
-const DELAY: &str = "delay";
 
 pub(crate) fn pictures(data: &Data, choice: &Choice, report: &Report, judged: &Judged) -> Pictures {
     let drawn = |records: &[Record], [before, after]: &[Predictors; 2], held_out: bool| -> Vec<PathPicture> {
@@ -68,51 +66,4 @@ fn pieces(record: &Record, predictor: &Predictor) -> Vec<Vec<[f64; 2]>> {
     let xy = |y: Vec<f64>| [y[0], y[1]];
     let piece = |(from, to): (usize, usize)| predictor.outputs(from, to).into_iter().map(xy).collect();
     predictor.windows(horizon).into_iter().map(piece).collect()
-}
-
-/// What an effect says, as equations: each definition it rewrites, and the rates of its states.
-pub fn equation(applied: &Applied, model: &Model) -> String {
-    let Ok(definitions) = model.definitions() else { return String::new() };
-    let names: Vec<_> = definitions.iter().map(|(n, _)| n.clone()).collect();
-    let targets = applied.effect.targets(&names, applied.trailer).unwrap_or_default();
-    let mut lines = Vec::new();
-    for (name, formula) in targets {
-        let old = definitions.get(&name).cloned();
-        let short = old.filter(|f| f.to_string().len() <= 24);
-        let shown = formula.substitute(&|s| match (s.as_str(), &short) {
-            ("it", Some(f)) => Some(f.clone()),
-            ("it", None) => Some(crate::formula::Expr::sym(name.clone())),
-            _ => None,
-        });
-        let verb = if short.is_some() { "=" } else { "becomes" };
-        lines.push(match name.as_str() {
-            n if shown.to_string() == n => constraint_of(n, model),
-            n => format!("{n} {verb} {}", shown),
-        });
-    }
-    lines.extend(applied.effect.states.iter().map(|(name, s)| format!("{name}' = {}", s.rate)));
-    lines.join("; ")
-}
-
-/// The constraint whose creep coefficient a name is; of the time that inputs lag, what it does to them.
-fn constraint_of(name: &str, model: &Model) -> String {
-    match model.constraints().into_iter().find(|c| c.creep.as_str() == name) {
-        Some(constraint) => format!("{} = 0", constraint.row()),
-        None if name == DELAY => format!("u(t) becomes u(t - {DELAY})"),
-        None => name.to_string(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A definition that is zero in the model is a coefficient of a constraint, the inputs' delay, or a name of a user's.
-    #[test]
-    fn what_was_zero_is_told_by_what_it_is() {
-        let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
-        assert!(constraint_of("e_rc", &model).ends_with(" = 0"), "{}", constraint_of("e_rc", &model));
-        assert_eq!(constraint_of(DELAY, &model), "u(t) becomes u(t - delay)");
-        assert_eq!(constraint_of("w_x", &model), "w_x");
-    }
 }

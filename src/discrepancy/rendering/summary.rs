@@ -1,5 +1,6 @@
 //! The report on one screen of a terminal, and the sentences every form of the report shares.
 
+use crate::discrepancy::report::judged;
 use crate::discrepancy::report::{BeforeAfter, Estimate, Gap, Named, Report, Rival, RunClock, Verdict};
 use crate::number_format::{decimals, plain, prefixed, significant, with_error};
 use crate::picture::svg::cut;
@@ -60,17 +61,6 @@ pub(crate) fn listed_to(names: &[String], most: usize) -> String {
     let more = names.len().saturating_sub(most);
     let rest = (more > 0).then(|| format!("{more} more"));
     listed(names.iter().take(most).chain(&rest).map(String::as_str))
-}
-
-/// The gap at the middle horizon; of two horizons the longer.
-pub fn middle(gaps: &[Gap]) -> Option<&Gap> {
-    gaps.get(gaps.len() / 2)
-}
-
-/// The numbers a gap is judged by, held out where there are such, and what they are called.
-pub fn judged(gap: &Gap) -> Option<(&'static str, &BeforeAfter)> {
-    let held_out = gap.held_out.as_ref().map(|g| ("held-out", g));
-    held_out.or_else(|| gap.fit.as_ref().map(|g| ("fitted", g)))
 }
 
 /// Why a rival cannot be told apart, for a person.

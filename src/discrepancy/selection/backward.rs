@@ -1,8 +1,10 @@
 //! Effects of a search that are dropped again, or put in the place of others.
 
-use super::search::{FULL, SCREEN, Selection, bic, find, without, worth};
+use super::search::{Selection, find, without};
 use crate::discrepancy::estimation::bounds::vanishes;
+use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
+use crate::discrepancy::evidence::information_criterion::{bic, worth};
 use crate::discrepancy::evidence::wald_test::wald;
 use crate::effects::Applied;
 use crate::error::Result;
@@ -13,7 +15,7 @@ impl Selection<'_> {
         // From the jumps of the model as given: what an effect leaves unexplained is not found from zero jumps,
         // where the likelihood is flat.
         let smaller = without(&fit.model, effect, &self.before.model);
-        self.problem.fit(&smaller, &fit.starts, &self.before.variances, FULL)
+        self.problem.fit(&smaller, &fit.starts, &self.before.variances, Effort::FULL)
     }
 
     /// Drops what is no longer needed: what is worth no more than a bar beyond BIC.
@@ -72,7 +74,9 @@ impl Selection<'_> {
     /// that promise a good part of what the chosen one gives.
     pub fn in_place_of(&self, fit: &Fit, effect: &Applied) -> Result<Vec<(Applied, Fit)>> {
         let smaller = without(&fit.model, effect, &self.before.model);
-        let Some(bare) = self.problem.fit(&smaller, &fit.starts, &fit.variances, SCREEN)? else { return Ok(vec![]) };
+        let Some(bare) = self.problem.fit(&smaller, &fit.starts, &fit.variances, Effort::SCREENING)? else {
+            return Ok(vec![]);
+        };
         let lost = bare.deviance - fit.deviance;
         let found =
             self.screen(&Fit { variances: fit.variances, ..bare.clone() }, &smaller, bare.deviance, 0.3 * lost)?;

@@ -1,8 +1,10 @@
 //! Candidates of a search, screened by what they promise and ranked by their evidence.
 
-use super::search::{Addition, SCREEN, Scored, Selection, bic, find, worth};
+use super::search::{Addition, Scored, Selection, find};
 use crate::discrepancy::estimation::bounds::{is_at_an_end, vanishes};
+use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
+use crate::discrepancy::evidence::information_criterion::{bic, worth};
 use crate::discrepancy::evidence::score_test;
 use crate::discrepancy::evidence::score_test::{Promise, Promises};
 use crate::discrepancy::evidence::wald_test::repeats;
@@ -52,7 +54,11 @@ impl Selection<'_> {
         let wanted = promises.iter().map(gain).fold(floor, |m, g| m.max(FAINT * g));
         let settled = |(i, p): (usize, Promise)| -> Result<_> {
             let worthwhile = i < SHORTLIST && gain(&p) >= wanted;
-            let fit = if worthwhile { score_test::settled(self.problem, base, model, &[&p], SCREEN)? } else { None };
+            let fit = if worthwhile {
+                score_test::settled(self.problem, base, model, &[&p], Effort::SCREENING)?
+            } else {
+                None
+            };
             Ok((p, fit))
         };
         let mut found: Vec<(Promise, Option<Fit>)> =
@@ -109,7 +115,9 @@ impl Selection<'_> {
             if a.deviance + k as f64 * n.ln() > bar {
                 continue;
             }
-            let Some(rough) = score_test::settled(self.problem, base, &base.model, &[a, b], SCREEN)? else { continue };
+            let Some(rough) = score_test::settled(self.problem, base, &base.model, &[a, b], Effort::SCREENING)? else {
+                continue;
+            };
             if rough.model.free_effects().any(vanishes) {
                 continue;
             }

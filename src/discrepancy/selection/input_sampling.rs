@@ -4,7 +4,8 @@
 //! misses looks like an effect. It grows at least with the square of the time between rows; what is there keeps its value.
 //! So of what a value moves by when the time between rows is doubled, a third is missed at most before.
 
-use super::search::{FULL, Grown, Selection};
+use super::search::{Grown, Selection};
+use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::evidence::wald_test::distance_of;
@@ -37,7 +38,9 @@ pub(crate) fn keep_sampled(selection: &Selection, grown: &mut Grown, progress: &
     let Some(coarse) = with_half_the_inputs(selection.problem) else { return Ok(found) };
     while !grown.fit.p.is_empty() {
         progress("asking every second row of the inputs for the same effects");
-        let Some(half) = coarse.fit(&grown.fit.model, &grown.fit.starts, &grown.fit.variances, FULL)? else { break };
+        let Some(half) = coarse.fit(&grown.fit.model, &grown.fit.starts, &grown.fit.variances, Effort::FULL)? else {
+            break;
+        };
         let moved = grown.fit.model.free_effects().map(|e| (share_missed(&grown.fit, &half, e), e));
         let Some((share, worst)) = moved.max_by(|a, b| a.0.total_cmp(&b.0)) else { break };
         if share <= MOST {

@@ -2,9 +2,11 @@
 
 pub(crate) mod backward;
 pub(crate) mod candidates;
+pub mod choice;
 pub(crate) mod input_sampling;
 pub(crate) mod search;
 pub mod select;
 pub(crate) mod stability;
+pub(crate) mod stepwise;
 pub(crate) mod transients;
 pub mod unnamed_terms;

@@ -1,11 +1,8 @@
 //! Effects added to a model one or two at a time, each asked whether it predicts.
 
-use super::candidates::Ranked;
-use super::unnamed_terms::is_term;
-use crate::discrepancy::estimation::bounds::{is_at_an_end, vanishes};
-use crate::discrepancy::estimation::fit::{Effort, Fit};
+use crate::discrepancy::estimation::fit::Effort;
+use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
-use crate::discrepancy::evidence::wald_test::repeats;
 use crate::discrepancy::rendering::summary::listed;
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
@@ -24,9 +21,6 @@ pub struct Scored {
     /// BIC without minus BIC with the effect.
     pub delta_bic: f64,
 }
-
-pub(crate) const SCREEN: Effort = Effort { passes: 5, enough: 0.05, variances: false };
-pub(crate) const FULL: Effort = Effort { passes: 15, enough: 1e-4, variances: true };
 
 /// What a search ends with.
 pub(crate) struct Grown {
@@ -82,91 +76,7 @@ pub(crate) fn without(model: &Model, effect: &Applied, given: &Model) -> Model {
     smaller
 }
 
-pub(crate) fn bic(fit: &Fit, sample_size: f64) -> f64 {
-    fit.deviance + fit.size() * sample_size.ln()
-}
-
-/// ΔBIC of a model against a smaller one, its gain of deviance as far as rows are independent.
-pub(crate) fn worth(larger: &Fit, smaller: &Fit, sample_size: f64) -> f64 {
-    let more = larger.size() - smaller.size();
-    (smaller.deviance - larger.deviance) / larger.dependence() - more * sample_size.ln()
-}
-
 impl Selection<'_> {
-    /// Adds effects until nothing is left above the noise.
-    pub fn grown(&self, before: &Fit, progress: &dyn Fn(&str)) -> Result<Grown> {
-        let mut found = Grown::from(before);
-        while found.steps.len() < self.most {
-            progress(&format!("weighing {} candidates, {} chosen", self.size, found.steps.len()));
-            let ranked = self.ranked(&found.fit)?;
-            if found.steps.is_empty() {
-                found.candidates = ranked.single.iter().map(|(s, _)| s.clone()).collect();
-            }
-            let (next, refused) = self.next(&found.fit, ranked)?;
-            let Some((added, fit)) = next else {
-                found.refused = refused;
-                break;
-            };
-            let model = fit.model.clone();
-            let mut next = if self.drops { self.pruned(fit, self.margin())? } else { fit };
-            if self.exchanges {
-                next = self.exchanged(next)?;
-            }
-            if same_effects(&next.model, &found.fit.model) {
-                // Added only to be dropped: round and round would lead nowhere.
-                break;
-            }
-            found.steps.push((listed(added.iter().map(Applied::label)), model));
-            found.fit = next;
-        }
-        Ok(found)
-    }
-
-    /// The next effect to add, or two of them that are needed together; and what was refused before it.
-    fn next(&self, base: &Fit, ranked: Ranked) -> Result<(Option<Addition>, Vec<Applied>)> {
-        let fitted = ranked.single.into_iter().filter_map(|(s, fit)| Some((s, fit?)));
-        let bar = |s: &Scored| if is_term(&s.applied) { 2.0 * self.margin() } else { self.margin() };
-        // A gain must be large, and large still when what hangs together counts once.
-        let independent = |fit: &Fit| worth(fit, base, base.sample_size.max(fit.sample_size)) > self.margin();
-        let counts = |s: &Scored, fit: &Fit| s.delta_bic > bar(s) && independent(fit);
-        let inside = |s: &Scored| !vanishes(&s.applied) && !is_at_an_end(&s.applied);
-        let good = fitted.filter(|(s, fit)| counts(s, fit) && inside(s) && repeats(fit, &s.applied));
-        let singles: Vec<(Scored, Fit)> = good.collect();
-        let pair = self.pair(base, &ranked.pairs, singles.first().map(|(_, f)| f))?;
-        let singles = singles.into_iter().map(|(s, fit)| (vec![s.applied], fit));
-        self.predicting(base, pair.into_iter().chain(singles))
-    }
-
-    /// The first candidate that predicts the data it was not fitted to: what does not is no finding. Of terms the one
-    /// that misses them least: each stands for a law that it is not, and which of them comes closest along all the data
-    /// says little of other data.
-    fn predicting(
-        &self,
-        base: &Fit,
-        candidates: impl Iterator<Item = Addition>,
-    ) -> Result<(Option<Addition>, Vec<Applied>)> {
-        let mut best: Option<(f64, Addition)> = None;
-        let mut refused = Vec::new();
-        for (added, fit) in candidates {
-            let is_term = matches!(&added[..], [one] if is_term(one));
-            if best.is_some() && !is_term {
-                continue;
-            }
-            if !self.problem.predicts_better(&fit, base)? {
-                refused.extend(added);
-                continue;
-            }
-            if !is_term {
-                return Ok((Some((added, fit)), refused));
-            }
-            let gain = self.problem.missed_less(&fit, base)?;
-            if best.as_ref().is_none_or(|(most, _)| gain > *most) {
-                best = Some((gain, (added, fit)));
-            }
-        }
-        Ok((best.map(|(_, found)| found), refused))
-    }
-
     /// What a candidate must gain beyond BIC because the library is large.
     pub fn margin(&self) -> f64 {
         2.0 * self.size.ln()
@@ -174,7 +84,7 @@ impl Selection<'_> {
 
     /// A fit with noise and jumps of its own.
     pub fn refined(&self, fit: &Fit) -> Result<Option<Fit>> {
-        self.problem.fit(&fit.model, &fit.starts, &fit.variances, FULL)
+        self.problem.fit(&fit.model, &fit.starts, &fit.variances, Effort::FULL)
     }
 }
 
@@ -183,8 +93,8 @@ pub(crate) fn find(model: &Model, like: &Applied) -> Option<Applied> {
     model.effects.iter().find(|e| e.same_as(like)).cloned()
 }
 
-/// Whether two models have the same effects free, whatever their values.
-fn same_effects(a: &Model, b: &Model) -> bool {
-    let within = |a: &Model, b: &Model| a.free_effects().all(|e| b.free_effects().any(|o| o.same_as(e)));
-    within(a, b) && within(b, a)
+/// The effects of a library without those that were given up.
+pub(crate) fn still_open<'e>(library: impl IntoIterator<Item = &'e Effect>, given_up: &[Applied]) -> Vec<Effect> {
+    let is_open = |e: &&Effect| given_up.iter().all(|g| g.effect.id != e.id);
+    library.into_iter().filter(is_open).cloned().collect()
 }

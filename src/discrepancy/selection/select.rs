@@ -2,16 +2,20 @@
 
 use super::candidates::FINALISTS;
 use super::input_sampling::{Sampled, keep_sampled};
-use super::search::{FULL, Grown, MOST, Selection, bic, find, worth};
+use super::search::{Grown, MOST, Selection, find};
 use super::stability;
-use super::stability::{Scatter, Stable};
+use super::stability::Stable;
 use super::transients;
 use super::unnamed_terms;
 use crate::discrepancy::estimation::bounds::is_at_an_end;
+use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
+use crate::discrepancy::evidence::information_criterion::{bic, worth};
+use crate::discrepancy::evidence::jackknife::Scatter;
 use crate::discrepancy::evidence::parametric_bootstrap;
 use crate::discrepancy::evidence::wald_test::tail;
+use crate::discrepancy::selection::choice::{Choice, Chosen};
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::Model;
@@ -26,40 +30,6 @@ const BEYOND_DOUBT: f64 = 60.0;
 /// Data sets drawn for the law of chance gains.
 const DRAWS: usize = 99;
 
-/// An effect that was chosen.
-#[derive(Clone, Debug)]
-pub struct Chosen {
-    /// The effect at its fitted values.
-    pub applied: Applied,
-    /// Standard deviations of its values, where the data give them.
-    pub std: Vec<Option<f64>>,
-    /// BIC without minus BIC with the effect, beside all others.
-    pub delta_bic: f64,
-    /// Probability of so large an improvement where the effect is not there.
-    pub p_value: f64,
-    /// Effects that these data do not tell from it.
-    pub rivals: Vec<Applied>,
-}
-
-/// The outcome of the selection.
-#[derive(Clone, Debug)]
-pub struct Choice {
-    /// The model as given.
-    pub before: Fit,
-    /// The model with the chosen effects.
-    pub after: Fit,
-    /// The chosen effects, in the order of the model.
-    pub chosen: Vec<Chosen>,
-    /// The models on the way, after each addition.
-    pub steps: Vec<(String, Model)>,
-    /// All candidates as they stood against the model as given.
-    pub candidates: Vec<Scored>,
-    /// Effects and terms that the whole data ask for, and parts of them with other values, so that they are not kept.
-    pub unshared: Vec<Applied>,
-    /// Effects and terms that come and go with how often the inputs are logged, so that they are not kept.
-    pub unsampled: Vec<Applied>,
-}
-
 /// Adds effects of the library until nothing is left above the noise.
 ///
 /// A candidate must beat BIC = deviance + k·ln n by a margin of 2·ln M for a library of M candidates: with
@@ -68,7 +38,7 @@ pub struct Choice {
 pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &dyn Fn(&str)) -> Result<Option<Choice>> {
     progress("fitting the model as it is");
     let starts = problem.starts(model)?;
-    let Some(before) = problem.fit(model, &starts, &problem.variances, FULL)? else { return Ok(None) };
+    let Some(before) = problem.fit(model, &starts, &problem.variances, Effort::FULL)? else { return Ok(None) };
     let quick = transients::without_transients(library);
     let selection = Selection {
         problem,

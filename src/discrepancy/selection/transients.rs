@@ -1,7 +1,9 @@
 //! Effects whose quasi-static limit has been chosen, asked for where that limit does not explain everything.
 
-use super::search::{FULL, Grown, Selection, bic, find, without};
-use super::unnamed_terms::is_wanted;
+use super::search::{Grown, Selection, find, without};
+use crate::discrepancy::estimation::fit::Effort;
+use crate::discrepancy::estimation::unexplained::is_wanted;
+use crate::discrepancy::evidence::information_criterion::bic;
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 
@@ -34,7 +36,7 @@ fn in_place_of(selection: &Selection, named: &Grown, limit: &Applied, whole: &Ap
     }
     let model = without(&named.fit.model, limit, &selection.before.model).with_effect(whole.clone().freed());
     // From the jumps of the model as given, as where an effect is taken out.
-    let Some(fit) = selection.problem.fit(&model, &named.fit.starts, &selection.before.variances, FULL)? else {
+    let Some(fit) = selection.problem.fit(&model, &named.fit.starts, &selection.before.variances, Effort::FULL)? else {
         return Ok(None);
     };
     let fit = selection.pruned(fit, selection.margin())?;

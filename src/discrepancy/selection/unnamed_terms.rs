@@ -1,43 +1,20 @@
 //! Disagreement that no effect of the library explains: an equation for it, where one is repeatable.
 
-use super::search::{Grown, Selection, bic, worth};
-use crate::discrepancy::estimation::autocorrelation::NOTICEABLE;
+use super::search::{Grown, Selection};
 use crate::discrepancy::estimation::fit::Fit;
-use crate::discrepancy::localisation::constraint_residuals::Violation;
-use crate::discrepancy::rendering::figure_data;
-use crate::effects::{Applied, Effect};
+use crate::discrepancy::estimation::unexplained::{is_wanted, remains};
+use crate::discrepancy::evidence::information_criterion::{bic, worth};
+use crate::discrepancy::localisation::constraint_residuals::reduction;
+use crate::discrepancy::selection::search::still_open;
+use crate::effects::Applied;
 use crate::error::Result;
-use crate::model::{COEFFICIENT, Model, PREFIX};
-use crate::number_format::significant;
-
-/// Named effects from which on one simpler term is tried whatever remains.
-const MANY: usize = 2;
+use crate::model::effect_equation::is_term;
 
 /// Most terms that are added: an equation of more is no explanation.
 const MOST: usize = 2;
 
 /// Least share of the violation at its place that a term must remove.
 const MATERIAL: f64 = 0.3;
-
-/// Whether an effect is a term of the library without names.
-pub fn is_term(effect: &Applied) -> bool {
-    effect.effect.id.starts_with(PREFIX)
-}
-
-/// Whether motion remains that a fit does not explain.
-pub fn remains(fit: &Fit) -> bool {
-    remaining(fit).next().is_some()
-}
-
-/// The kinds of jumps that a fit needs beyond chance.
-pub(crate) fn remaining(fit: &Fit) -> impl Iterator<Item = usize> {
-    (0..fit.unexplained.len()).filter(|c| fit.unexplained[*c] / fit.dependence() > NOTICEABLE)
-}
-
-/// Whether a term may be asked for: something remains, or suspiciously much was needed.
-pub(crate) fn is_wanted(named: &Fit) -> bool {
-    remains(named) || named.model.free_effects().count() >= MANY
-}
 
 /// The search repeated with terms beside the named effects; `None` unless one of them earns its place.
 ///
@@ -85,12 +62,6 @@ pub(crate) fn search(
     Ok((better && predicts).then_some(found))
 }
 
-/// The effects of a library without those that were given up.
-pub(crate) fn still_open<'e>(library: impl IntoIterator<Item = &'e Effect>, given_up: &[Applied]) -> Vec<Effect> {
-    let is_open = |e: &&Effect| given_up.iter().all(|g| g.effect.id != e.id);
-    library.into_iter().filter(is_open).cloned().collect()
-}
-
 fn named_effects(fit: &Fit) -> usize {
     fit.model.free_effects().filter(|e| !is_term(e)).count()
 }
@@ -106,28 +77,6 @@ fn material(selection: &Selection, mut fit: Fit) -> Result<Fit> {
         }
     }
     Ok(fit)
-}
-
-/// A term with its number in place, such as `v_t = v_n - 0.1294*phi'*abs(phi')`.
-pub fn equation(term: &Applied, model: &Model) -> String {
-    let shown = figure_data::equation(term, model);
-    let Some(k) = term.values.first() else { return shown };
-    let number = significant(k.abs(), 5);
-    let sign = if *k < 0.0 { "-" } else { "+" };
-    let name = term.symbol(COEFFICIENT).to_string();
-    let shown = shown.replace(&name, COEFFICIENT);
-    match shown.rsplit_once(&format!("+ {COEFFICIENT}")) {
-        Some((before, after)) => format!("{before}{sign} {number}{after}"),
-        None => shown,
-    }
-}
-
-/// The share of a constraint's violation on some data that is gone, noise apart and in the windows that both models
-/// have: at most one, negative where it grew.
-pub fn reduction(place: &str, before: &[Violation], after: &[Violation]) -> f64 {
-    let both = before.iter().zip(after).map(|(before, after)| before.in_common(after).map(|v| v.excess(place)));
-    let [before, after] = both.fold([0.0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]]);
-    if before > 0.0 { (1.0 - after / before).clamp(-1.0, 1.0) } else { 0.0 }
 }
 
 #[cfg(test)]

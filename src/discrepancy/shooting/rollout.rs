@@ -1,9 +1,9 @@
 //! The gap: how far a model strays from the measurements after a horizon, and what noise alone would make of it.
 
 use super::windows::MARGIN;
-use crate::discrepancy::estimation::problem::pose_of;
 use crate::discrepancy::initial_state::heading_from_path::{Course, heading_at, measured_at};
 use crate::discrepancy::initial_state::hidden_states;
+use crate::discrepancy::initial_state::pose::pose_of;
 use crate::discrepancy::record::angle::wrapped;
 use crate::discrepancy::record::local_polynomial;
 use crate::discrepancy::record::record::Record;

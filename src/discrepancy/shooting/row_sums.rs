@@ -1,9 +1,9 @@
 //! Some windows row by row, and what is summed over their rows.
 
-use super::windows::Linear;
-use crate::discrepancy::estimation::autocorrelation::{Blocks, Run};
 use crate::discrepancy::record::angle::wrapped;
 use crate::discrepancy::record::record::{Channel, Record};
+use crate::discrepancy::shooting::block_sums::{Blocks, Run};
+use crate::discrepancy::shooting::linearised_window::Linear;
 use crate::formula::Kernel;
 use crate::motion::{Arc, Arcs, LaneStepper};
 use nalgebra::DMatrix;

@@ -1,10 +1,12 @@
 //! A model along the windows of a segment: side by side, though each as if it were alone.
 
 use super::row_sums::{Sums, Walk};
-use super::windows::{Linear, Segment};
 use crate::discrepancy::record::record::Record;
+use crate::discrepancy::shooting::linearised_window::Linear;
+use crate::discrepancy::shooting::windows::{Segment, Starts};
 use crate::model::Equations;
 use crate::motion::{Arc, Arcs, LaneStepper};
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// Windows that are integrated side by side: two vectors of AVX-512, so that one waits while the other works.
@@ -175,6 +177,25 @@ fn started<'z, const L: usize>(
         (visible..k).for_each(|c| s[i * k + c] = std::array::from_fn(|l| hidden(l).s[i * k + c]));
     }
     Arcs { z, s }
+}
+
+/// The model along all windows; `None` where it is undefined.
+pub fn linearise(
+    equations: &Equations,
+    p: &[f64],
+    records: &[Record],
+    plan: &[Segment],
+    starts: &Starts,
+) -> Option<Vec<Vec<Linear>>> {
+    let along = |(segment, starts): (&Segment, &Vec<Vec<f64>>)| {
+        let mut found = Vec::with_capacity(segment.windows.len());
+        each_window(equations, p, &records[segment.record], segment, starts, |window| {
+            found.push(window);
+            Some(())
+        })?;
+        Some(found)
+    };
+    plan.par_iter().zip(starts).map(along).collect()
 }
 
 #[cfg(test)]

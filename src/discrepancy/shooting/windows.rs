@@ -1,13 +1,7 @@
 //! Runs cut into windows, and the model linearised along each.
 
-use crate::discrepancy::estimation::autocorrelation::Blocks;
 use crate::discrepancy::record::record::Record;
-use crate::model::Equations;
-use nalgebra::DMatrix;
-use rayon::prelude::*;
 use std::ops::Range;
-
-pub use super::window_integration::each_window;
 
 /// Length of a window, s.
 pub const WINDOW: f64 = 1.0;
@@ -56,49 +50,7 @@ fn cut(record: &Record, rows: Range<usize>) -> Vec<Range<usize>> {
 /// Poses (and trailer headings) at the start of every window, segment by segment.
 pub type Starts = Vec<Vec<Vec<f64>>>;
 
-/// The model along one window: to first order in the start z and the parameters p,
-/// residuals r + J·(δz, δp) and end e + F·δz + B·δp.
-#[derive(Clone, Debug)]
-pub struct Linear {
-    /// Σ (J, r)ᵀ(J, r) for each [`Channel`](crate::discrepancy::record::record::Channel), columns (z, p, 1).
-    pub gram: [DMatrix<f64>; 3],
-    /// Number of values of each channel.
-    pub count: [usize; 3],
-    /// Residuals of neighbouring rows together, for each channel.
-    pub blocks: [Blocks; 3],
-    /// δz of this window's start as (δz̃, δp, 1)-columns, δz̃ being the end before the jump against the next start.
-    pub back: Option<DMatrix<f64>>,
-    /// Axes of the body at the window's end; columns along, across, yaw, trailers.
-    pub axes: DMatrix<f64>,
-    /// Duration, s.
-    pub duration: f64,
-    /// End of the window minus the next start, in the body's axes.
-    pub mismatch: Vec<f64>,
-}
-
-impl Linear {
-    /// Sum of the squared residuals of a channel.
-    pub fn square(&self, channel: usize) -> f64 {
-        let last = self.gram[channel].nrows() - 1;
-        self.gram[channel][(last, last)]
-    }
-}
-
-/// The model along all windows; `None` where it is undefined.
-pub fn linearise(
-    equations: &Equations,
-    p: &[f64],
-    records: &[Record],
-    plan: &[Segment],
-    starts: &Starts,
-) -> Option<Vec<Vec<Linear>>> {
-    let along = |(segment, starts): (&Segment, &Vec<Vec<f64>>)| {
-        let mut found = Vec::with_capacity(segment.windows.len());
-        each_window(equations, p, &records[segment.record], segment, starts, |window| {
-            found.push(window);
-            Some(())
-        })?;
-        Some(found)
-    };
-    plan.par_iter().zip(starts).map(along).collect()
+/// Whether a run is long enough to be cut into windows.
+pub(crate) fn has_windows(record: &Record) -> bool {
+    !plan(std::slice::from_ref(record)).is_empty()
 }

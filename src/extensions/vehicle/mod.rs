@@ -82,7 +82,7 @@ pub fn vehicles_with_own(path: impl AsRef<Path>) -> Result<Vec<Vehicle>> {
 /// As [`vehicles_with_own`], and where the model file cannot be read.
 ///
 /// ```
-/// let vehicles = creepage::library::vehicles_of("examples/bus/model.toml", None).unwrap();
+/// let vehicles = creepage::extensions::vehicles_of("examples/bus/model.toml", None).unwrap();
 /// assert!(vehicles.iter().any(|v| v.id == "articulated-bus"));
 /// ```
 pub fn vehicles_of(model: impl AsRef<Path>, given: Option<&Path>) -> Result<Vec<Vehicle>> {

@@ -2,8 +2,8 @@
 
 use super::head::shrinkage;
 use super::part;
-use crate::discrepancy::rendering::summary::{judged, middle};
 use crate::discrepancy::report::{BeforeAfter, GapCurve, Pictures, Report};
+use crate::discrepancy::report::{judged, middle};
 use crate::number_format::{plain, prefixed};
 use crate::picture::axis::{Axis, extent};
 use crate::picture::plot::{Marker, Panel, Size};

@@ -1,8 +1,9 @@
 //! The top of the page: verdict, headline numbers, what was found, what to drive next.
 
 use super::part::holding;
-use crate::discrepancy::rendering::summary::{judged, middle, verdict_name, verdict_sentence, why};
+use crate::discrepancy::rendering::summary::{verdict_name, verdict_sentence, why};
 use crate::discrepancy::report::{Estimate, Named, Report, Verdict};
+use crate::discrepancy::report::{judged, middle};
 use crate::number_format::{plain, prefixed, significant, with_error};
 use crate::picture::svg::Element;
 

@@ -2,8 +2,9 @@
 
 use super::paths;
 use super::{gap, part};
-use crate::discrepancy::rendering::summary::{judged, middle, verdict_sentence};
+use crate::discrepancy::rendering::summary::verdict_sentence;
 use crate::discrepancy::report::{PathPicture, Pictures, Report};
+use crate::discrepancy::report::{judged, middle};
 use crate::number_format::{plain, prefixed, significant};
 use crate::picture::plot::{Size, frame_svg, legend};
 use crate::picture::svg::{Element, cut, label, rect};

@@ -1,6 +1,8 @@
 //! The check as text.
 
-use super::check_report::{Check, Health, Parameter, Prospect, RunHealth, Seen, Standing};
+use crate::discrepancy::identifiability::check_report::{
+    Check, Health, Parameter, Prospect, RunHealth, Seen, Standing,
+};
 use crate::discrepancy::rendering::summary::clock_line;
 use crate::number_format::{prefixed, significant};
 use crate::picture::svg::cut;

@@ -1,0 +1,40 @@
+//! The outcome of the selection.
+
+use super::search::Scored;
+use crate::discrepancy::estimation::fit::Fit;
+use crate::effects::Applied;
+use crate::model::Model;
+
+/// An effect that was chosen.
+#[derive(Clone, Debug)]
+pub struct Chosen {
+    /// The effect at its fitted values.
+    pub applied: Applied,
+    /// Standard deviations of its values, where the data give them.
+    pub std: Vec<Option<f64>>,
+    /// BIC without minus BIC with the effect, beside all others.
+    pub delta_bic: f64,
+    /// Probability of so large an improvement where the effect is not there.
+    pub p_value: f64,
+    /// Effects that these data do not tell from it.
+    pub rivals: Vec<Applied>,
+}
+
+/// The outcome of the selection.
+#[derive(Clone, Debug)]
+pub struct Choice {
+    /// The model as given.
+    pub before: Fit,
+    /// The model with the chosen effects.
+    pub after: Fit,
+    /// The chosen effects, in the order of the model.
+    pub chosen: Vec<Chosen>,
+    /// The models on the way, after each addition.
+    pub steps: Vec<(String, Model)>,
+    /// All candidates as they stood against the model as given.
+    pub candidates: Vec<Scored>,
+    /// Effects and terms that the whole data ask for, and parts of them with other values, so that they are not kept.
+    pub unshared: Vec<Applied>,
+    /// Effects and terms that come and go with how often the inputs are logged, so that they are not kept.
+    pub unsampled: Vec<Applied>,
+}

@@ -1,8 +1,8 @@
 //! What tests of this layer begin with: a unicycle with effects, what it logs, a fit of it.
 
-use super::estimation::elimination::Variances;
 use super::estimation::fit::Fit;
 use super::record::record::Record;
+use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::effects::{Applied, all, named};
 use crate::files::ModelFile;
 use crate::model::{Equations, Model, known};
@@ -46,14 +46,14 @@ pub fn fit_of(model: Model) -> Fit {
         covariance: None,
         between_runs: None,
         runs: 1,
-        variances: Variances { noise: [1e-6; 3], jump: [1e-6; 4] },
+        variances: NoiseModel { measurement: [1e-6; 3], process: [1e-6; 4] },
         deviance: 0.0,
-        starts: vec![],
+        window_states: vec![],
         sample_size: 1000.0,
         unexplained: [0.0; 4],
-        correlation: 1.0,
-        colour: 1.0,
-        begun: 0.0,
+        residual_correlation_time: 1.0,
+        noise_correlation_time: 1.0,
+        initial_state_dof: 0.0,
     }
 }
 

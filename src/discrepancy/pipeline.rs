@@ -1,6 +1,6 @@
 //! The main job in one line: runs → choice → gap → report.
 
-use super::diagnosis::before_after::Judged;
+use super::diagnosis::before_after::ModelComparison;
 use super::diagnosis::equivalents;
 use super::diagnosis::equivalents::relatives;
 use super::diagnosis::findings::{named, without_name};
@@ -19,7 +19,7 @@ use crate::discrepancy::discovery::{
     Discovery, cut_short, empty_report, nothing_to_fit, told_of_steps, too_long, worse,
 };
 use crate::discrepancy::request::{Request, common_roles, horizons};
-use crate::discrepancy::selection::choice::Chosen;
+use crate::discrepancy::selection::choice::SelectedEffect;
 use crate::error::Result;
 use crate::model::Model;
 
@@ -67,12 +67,12 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
         let (terms, effects): (Vec<_>, Vec<_>) =
             each.partition(|(c, _)| crate::model::effect_equation::is_term(&c.applied));
         report.effects = effects.into_iter().map(|(c, relatives)| named(c, relatives, &model)).collect();
-        let terms: Vec<&Chosen> = terms.into_iter().map(|(c, _)| c).collect();
+        let terms: Vec<&SelectedEffect> = terms.into_iter().map(|(c, _)| c).collect();
         report.unnamed = without_name(&terms, &data, &choice.after, &model)?;
     }
     report.disagreement = driving_regimes::disagreements(&before);
     report.remaining = Some(remaining(&choice.after, data.fitted[0].has_heading, &after));
-    let judged = Judged::of(&data, &model, &choice, request.seed)?;
+    let judged = ModelComparison::of(&data, &model, &choice, request.seed)?;
     report.gap = judged.gaps(&horizons(request));
     report.data.warnings.extend(too_long(request, &report));
     if report.verdict != Verdict::UnusableData {

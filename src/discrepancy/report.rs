@@ -277,7 +277,7 @@ pub struct Pictures {
     /// Violation of each constraint over time.
     pub residuals: Vec<ResidualPicture>,
     /// The candidates by evidence, best first.
-    pub candidates: Vec<Candidate>,
+    pub candidates: Vec<CandidatePicture>,
     /// The patched constraints: name, text equation.
     pub equations: Vec<(String, String)>,
 }
@@ -331,7 +331,7 @@ pub struct ResidualPicture {
 
 /// One effect of the library as a candidate.
 #[derive(Clone, Debug, Default)]
-pub struct Candidate {
+pub struct CandidatePicture {
     /// Its id.
     pub id: String,
     /// Evidence on the fitting data, BIC without minus with; negative speaks against it.

@@ -4,7 +4,7 @@ use crate::read_back::read_back;
 use crate::simulator::{Noise, Scenario, Tractor};
 use creepage::discrepancy::estimation::fit::Effort;
 use creepage::discrepancy::estimation::problem::Problem;
-use creepage::discrepancy::evidence::parametric_bootstrap::{ChanceGains, is_regular};
+use creepage::discrepancy::evidence::parametric_bootstrap::{NullDistribution, is_regular};
 use creepage::discrepancy::record::record::Record;
 use creepage::effects::{self, Applied};
 use creepage::model::Model;
@@ -17,7 +17,7 @@ fn effect(id: &str) -> Applied {
 }
 
 /// Chance gains of an effect on a drive of a wheel that misses nothing.
-fn chance_gains(id: &str) -> ChanceGains {
+fn chance_gains(id: &str) -> NullDistribution {
     let scenario = Scenario { noise: Noise::MOCAP, duration: 20.0, rate: 10.0, ..Scenario::new(Tractor::Unicycle, 31) };
     let (file, run) = read_back(&scenario.model_toml(), &scenario.run().to_csv(9));
     let model = Model::from_file(&file, effects::all(), &run.roles).unwrap();
@@ -43,7 +43,7 @@ fn chance_gains_of_a_regular_effect_are_chi_squared() {
 #[test]
 fn where_a_parameter_cannot_change_its_sign_some_gains_are_none() {
     assert!(!is_regular(&effect("cornering-creep")));
-    let none = |g: &ChanceGains| g.gains.iter().filter(|g| **g == 0.0).count();
+    let none = |g: &NullDistribution| g.gains.iter().filter(|g| **g == 0.0).count();
     let (held, regular) = (chance_gains("cornering-creep"), chance_gains("yaw-rate-bias"));
     // Not half of them: of a lag the part that comes late may help where the part in time is of the wrong sign.
     assert!(none(&held) > 0 && none(&regular) == 0, "{held:?}");
@@ -61,7 +61,7 @@ fn a_slope_and_its_direction_are_two_ways_of_moving() {
 fn where_a_parameter_loses_its_meaning_gains_are_larger() {
     assert!(!is_regular(&effect("relaxation-length")));
     let (plain, with_length) = (chance_gains("traverse-creep"), chance_gains("relaxation-length"));
-    let mean = |g: &ChanceGains| g.gains.iter().sum::<f64>() / DRAWS as f64;
+    let mean = |g: &NullDistribution| g.gains.iter().sum::<f64>() / DRAWS as f64;
     // The length lets the creep be fitted in more ways than one: at most like a second parameter.
     assert!((mean(&plain) + 0.05..mean(&plain) + 2.0).contains(&mean(&with_length)), "{plain:?} {with_length:?}");
 }

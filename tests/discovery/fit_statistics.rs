@@ -2,16 +2,17 @@
 
 use crate::read_back::read_back;
 use crate::simulator::{Hidden, Noise, Scenario, Tractor};
-use creepage::discrepancy::estimation::elimination::{Variances, eliminate};
+use creepage::discrepancy::estimation::elimination::eliminate;
 use creepage::discrepancy::estimation::fit::Effort;
+use creepage::discrepancy::estimation::noise_model::NoiseModel;
 use creepage::discrepancy::estimation::problem::Problem;
 use creepage::discrepancy::estimation::variance_components;
 use creepage::discrepancy::initial_state::hidden_states;
 use creepage::discrepancy::initial_state::pose::pose_of;
 use creepage::discrepancy::record::record::{Channel, Record};
-use creepage::discrepancy::shooting::linearised_window::Linear;
+use creepage::discrepancy::shooting::linearised_window::LinearisedWindow;
 use creepage::discrepancy::shooting::window_integration::linearise;
-use creepage::discrepancy::shooting::windows::Starts;
+use creepage::discrepancy::shooting::windows::WindowStates;
 use creepage::effects::{self, Applied};
 use creepage::formula::{Expr, Symbol};
 use creepage::model::{Equations, Model};
@@ -25,7 +26,7 @@ struct Case {
     model: Model,
     equations: Equations,
     p: Vec<f64>,
-    starts: Starts,
+    starts: WindowStates,
 }
 
 impl Case {
@@ -55,7 +56,7 @@ impl Case {
         &self.problem.records[0]
     }
 
-    fn linear(&self) -> Vec<Vec<Linear>> {
+    fn linear(&self) -> Vec<Vec<LinearisedWindow>> {
         linearise(&self.equations, &self.p, &self.problem.records, &self.problem.plan, &self.starts).unwrap()
     }
 
@@ -130,7 +131,7 @@ struct Dense {
     corrections: Vec<DVector<f64>>,
 }
 
-fn dense(case: &Case, windows: &[Linear], v: &Variances, delta: &DVector<f64>) -> Dense {
+fn dense(case: &Case, windows: &[LinearisedWindow], v: &NoiseModel, delta: &DVector<f64>) -> Dense {
     let (p, jumps) = (delta.len(), windows.len() - 1);
     let poses = 3 + 3 * jumps;
     let size = poses + p + 1;
@@ -149,7 +150,7 @@ fn dense(case: &Case, windows: &[Linear], v: &Variances, delta: &DVector<f64>) -
             // Rows whose squares add up to the window's.
             let SymmetricEigen { eigenvectors, eigenvalues } = window.gram[channel].clone().symmetric_eigen();
             let root = DMatrix::from_diagonal(&eigenvalues.map(|e| e.max(0.0).sqrt())) * eigenvectors.transpose();
-            rows.push(root * &here / v.noise[channel].sqrt());
+            rows.push(root * &here / v.measurement[channel].sqrt());
         }
         let Some(back) = &window.back else { continue };
         // back = F⁻¹(1, −B, −c) is turned round: δz̃ = F·δz + B·δp + c.
@@ -166,7 +167,7 @@ fn dense(case: &Case, windows: &[Linear], v: &Variances, delta: &DVector<f64>) -
         let axes = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
         let (from, to) = case.span(k);
         for i in 0..3 {
-            let deviation = (v.jump[i] * (to - from)).sqrt();
+            let deviation = (v.process[i] * (to - from)).sqrt();
             let mut prior = DMatrix::zeros(1, size);
             prior[(0, 3 + 3 * k + i)] = 1.0;
             rows.push(prior);
@@ -202,11 +203,11 @@ fn near(what: &str, found: f64, expected: f64, scale: f64) {
 fn as_dense(case: &Case) {
     let linear = case.linear();
     assert!(linear.len() == 1 && linear[0].len() >= 6, "{} windows", linear[0].len());
-    let noise = case.problem.variances.noise;
+    let noise = case.problem.variances.measurement;
     let p = case.p.len();
     let delta = DVector::from_fn(p, |i, _| 0.01 * (i as f64 + 1.0));
     for size in [1e-12, 1e-6, 1e-2, 10.0] {
-        let v = Variances { noise, jump: [size, 0.3 * size, 2.0 * size, size] };
+        let v = NoiseModel { measurement: noise, process: [size, 0.3 * size, 2.0 * size, size] };
         let e = eliminate(&linear, &v, p).unwrap();
         let expected = dense(case, &linear[0], &v, &delta);
         near("cost", e.cost(), expected.cost, expected.cost);
@@ -381,7 +382,7 @@ fn variances_are_the_same_in_any_unit() {
     };
     let [usual, tiny] = [1.0, 1e-9].map(fitted);
     assert!((tiny.p[0] * 1e-9 / usual.p[0] - 1.0).abs() < 1e-4, "{:?} {:?}", usual.p, tiny.p);
-    let of = |v: &Variances| [v.noise[0], v.noise[1], v.jump[0], v.jump[1], v.jump[2]];
+    let of = |v: &NoiseModel| [v.measurement[0], v.measurement[1], v.process[0], v.process[1], v.process[2]];
     for (a, b) in of(&usual.variances).into_iter().zip(of(&tiny.variances)) {
         assert!((a / b - 1.0).abs() < 1e-4, "{:?} {:?}", usual.variances, tiny.variances);
     }

@@ -147,7 +147,11 @@ fn the_reason_for_no_answer_stands_at_the_top() {
 #[test]
 fn what_is_chosen_is_drawn_however_far_behind() {
     let mut pictures = pictures();
-    let one = |i: usize| Candidate { id: format!("effect-{i}"), delta_bic: 50.0 - i as f64, ..Candidate::default() };
+    let one = |i: usize| CandidatePicture {
+        id: format!("effect-{i}"),
+        delta_bic: 50.0 - i as f64,
+        ..CandidatePicture::default()
+    };
     pictures.candidates = (0..20).map(one).collect();
     pictures.candidates[0].chosen = true;
     pictures.candidates[16].chosen = true;

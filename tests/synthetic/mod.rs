@@ -104,7 +104,7 @@ pub fn pictures() -> Pictures {
     }
 }
 
-fn candidates() -> Vec<Candidate> {
+fn candidates() -> Vec<CandidatePicture> {
     let values = [
         ("cornering-creep", 8120.0),
         ("load-dependent-creep", 8090.0),
@@ -121,7 +121,7 @@ fn candidates() -> Vec<Candidate> {
         ("yaw-rate-bias", -7.6),
         ("wheel-radius-mismatch", -15.0),
     ];
-    let one = |(i, (id, delta_bic)): (usize, &(&str, f64))| Candidate {
+    let one = |(i, (id, delta_bic)): (usize, &(&str, f64))| CandidatePicture {
         id: (*id).into(),
         delta_bic: *delta_bic,
         chosen: i == 0,

@@ -156,9 +156,9 @@ fn settled(first: Fitted, rival: Option<Fitted>) -> (Fitted, Option<f64>) {
     let Some(rival) = rival else { return (first, None) };
     let (good, bad) = if rival.misfit < first.misfit { (rival, first) } else { (first, rival) };
     // Misfits are deviances a row; rows that are alike count once.
-    let apart = (bad.misfit - good.misfit) * good.rows / good.dependence;
+    let apart = (bad.misfit - good.misfit) * good.rows / good.variance_inflation;
     // Rows that only one of both has differ by chance, too: a value's deviance has a variance of two.
-    let chance = (2.0 * (good.alone(&bad) + bad.alone(&good)) / good.dependence).sqrt();
+    let chance = (2.0 * (good.alone(&bad) + bad.alone(&good)) / good.variance_inflation).sqrt();
     let told = apart > SURE + CHANCE * chance;
     (good, (!told).then_some(bad.clock.offset))
 }
@@ -223,17 +223,17 @@ mod tests {
     use crate::discrepancy::fixtures::unicycle_file;
 
     /// A clock whose fit misses so much a value, of so many values that begin at a time and last 100 s.
-    fn clock(offset: f64, misfit: f64, rows: f64, from: f64, dependence: f64) -> Fitted {
+    fn clock(offset: f64, misfit: f64, rows: f64, from: f64, variance_inflation: f64) -> Fitted {
         let clock = Clock { offset, drift: 0.0, at: 0.0 };
         let covers = [from, from + 100.0];
-        Fitted { clock, offset_std: None, drift_std: None, misfit, rows, covers, dependence }
+        Fitted { clock, offset_std: None, drift_std: None, misfit, rows, covers, variance_inflation }
     }
 
     /// Beyond doubt are 40, and five deviations of what the values make that only one of both has.
     #[test]
     fn a_rival_is_told_by_its_deviance_and_what_both_have() {
         // Rows of the rival, how much later it begins, how many rows are alike; the misfits a value that do and do not tell.
-        for (rows, later, dependence, told, open) in [
+        for (rows, later, variance_inflation, told, open) in [
             (1000.0, 0.0, 1.0, 0.0401, 0.0399),
             (1000.0, 0.0, 4.0, 0.1604, 0.1596),
             (1000.0, 20.0, 1.0, 0.1815, 0.1813),
@@ -241,8 +241,8 @@ mod tests {
             (1500.0, 20.0, 4.0, 0.4765, 0.4760),
         ] {
             for (more, is_told) in [(told, true), (open, false)] {
-                let good = clock(1.0, 1.0, 1000.0, 0.0, dependence);
-                let bad = clock(7.0, 1.0 + more, rows, later, dependence);
+                let good = clock(1.0, 1.0, 1000.0, 0.0, variance_inflation);
+                let bad = clock(7.0, 1.0 + more, rows, later, variance_inflation);
                 for (first, rival) in [(good, bad), (bad, good)] {
                     let (best, other) = settled(first, Some(rival));
                     assert_eq!((best.clock.offset, other), (1.0, (!is_told).then_some(7.0)), "{rows} {later} {more}");

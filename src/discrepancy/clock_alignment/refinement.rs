@@ -36,7 +36,7 @@ pub struct Fitted {
     /// The first and the last time of the poses that are in it, s.
     pub covers: [f64; 2],
     /// How many of them in a row are alike.
-    pub dependence: f64,
+    pub variance_inflation: f64,
 }
 
 /// The clock of a run by a fit of a model that begins at a clock; effects of the model that are free are fitted beside.
@@ -57,7 +57,7 @@ pub fn refined(run: &Run, model: &Model, file: &ModelFile, clock: Clock) -> Resu
         misfit: f64::INFINITY,
         rows: 0.0,
         covers: [0.0; 2],
-        dependence: 1.0,
+        variance_inflation: 1.0,
     };
     for _ in 0..ROUNDS {
         let Some(round) = Round::at(run, &model, file, found.clock)? else { return Ok(None) };
@@ -71,7 +71,7 @@ pub fn refined(run: &Run, model: &Model, file: &ModelFile, clock: Clock) -> Resu
         let time = &round.problem.records[0].time;
         found.covers = [time[0], time[time.len() - 1]];
         found.misfit = round.fit.deviance / found.rows;
-        found.dependence = round.fit.dependence();
+        found.variance_inflation = round.fit.variance_inflation();
         found.drift_std = drift.and_then(|(_, std)| std);
         let small = |step: f64, std: Option<f64>| std.is_none_or(|s| step.abs() < ARRIVED * s);
         if small(offset, found.offset_std) && small(step, found.drift_std) {
@@ -129,7 +129,7 @@ impl<'a> Round<'a> {
         let starts = problem.starts(model)?;
         let Some(fit) = problem.fit(model, &starts, &problem.variances, Effort::FULL)? else { return Ok(None) };
         let Some(at) = place(model) else { return Ok(None) };
-        let variance = fit.covariance.as_ref().map(|c| c[(at, at)] * fit.dependence());
+        let variance = fit.covariance.as_ref().map(|c| c[(at, at)] * fit.variance_inflation());
         let time = &problem.records[0].time;
         let reach = 0.5 * (time[time.len() - 1] - time[0]);
         Ok(Some(Self {
@@ -152,7 +152,7 @@ impl<'a> Round<'a> {
         let mut problem = self.problem.clone();
         let timing = self.file.input_timing.into();
         problem.records[0].signals = crate::motion::Signals::new(&time, &self.run.inputs, timing);
-        let fit = problem.fit(&self.fit.model, &self.fit.starts, &self.fit.variances, EFFORT)?;
+        let fit = problem.fit(&self.fit.model, &self.fit.window_states, &self.fit.variances, EFFORT)?;
         Ok(fit.map_or(f64::INFINITY, |f| f.deviance))
     }
 
@@ -170,7 +170,7 @@ impl<'a> Round<'a> {
                 at += vertex;
                 // Far beyond its own deviation a parabola says little of the lowest point.
                 if h <= 4.0 * std {
-                    return Ok(Some((at, Some(std * self.fit.dependence().sqrt()))));
+                    return Ok(Some((at, Some(std * self.fit.variance_inflation().sqrt()))));
                 }
                 h = 2.0 * std;
                 here = self.deviance(at)?;
@@ -224,7 +224,7 @@ mod tests {
             misfit: 1.0,
             rows: 600.0,
             covers,
-            dependence: 1.0,
+            variance_inflation: 1.0,
         };
         let own = covering([10.0, 40.0]);
         let cases = [

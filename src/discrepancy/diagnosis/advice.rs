@@ -2,7 +2,7 @@
 
 use crate::discrepancy::rendering::summary::listed_to;
 use crate::discrepancy::report::NextExperiment;
-use crate::discrepancy::selection::choice::Choice;
+use crate::discrepancy::selection::choice::Selected;
 use crate::effects::Applied;
 
 pub(crate) fn drive(why: &str) -> NextExperiment {
@@ -16,8 +16,8 @@ pub(crate) fn drive(why: &str) -> NextExperiment {
 pub(crate) const NAMED: usize = 3;
 
 /// That parts of the data ask for something differently; `None` where they agree.
-pub(crate) fn contradiction(choice: &Choice) -> Option<String> {
-    let names = named(&choice.unshared);
+pub(crate) fn contradiction(choice: &Selected) -> Option<String> {
+    let names = named(&choice.inconsistent);
     names.map(|names| format!("parts of these runs ask for other values of {names}"))
 }
 
@@ -40,7 +40,7 @@ pub(crate) fn named(effects: &[Applied]) -> Option<String> {
 
 /// What mends runs whose parts contradict each other: no manoeuvre can be thought through with a model that is wrong,
 /// but where speed and turn change by themselves a law shows as what it is.
-pub(crate) fn settling(choice: &Choice) -> NextExperiment {
+pub(crate) fn settling(choice: &Selected) -> NextExperiment {
     let asked = contradiction(choice).unwrap_or_else(|| "what disagrees in these runs has no name".into());
     drive(&format!("{asked}: where speed and turn vary together, one law imitates another"))
 }

@@ -4,8 +4,8 @@ use crate::discrepancy::preprocessing::dataset::Data;
 use crate::discrepancy::record::record::Record;
 use crate::discrepancy::record::sensor_noise::Noise;
 use crate::discrepancy::report::{BeforeAfter, Floor, Gap, GapCurve, Step};
-use crate::discrepancy::selection::choice::Choice;
-use crate::discrepancy::shooting::rollout::{Errors, Predictor};
+use crate::discrepancy::selection::choice::Selected;
+use crate::discrepancy::shooting::rollout::{PredictionError, Rollout};
 use crate::error::Result;
 use crate::model::Model;
 use rayon::prelude::*;
@@ -16,19 +16,19 @@ const CURVE: [f64; 12] = [0.2, 0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0, 15.0, 20.0, 3
 const FEWEST_WINDOWS: usize = 2;
 
 /// A model along all runs of a kind.
-pub struct Predictors<'a>(Vec<Predictor<'a>>);
+pub struct Rollouts<'a>(Vec<Rollout<'a>>);
 
-impl<'a> Predictors<'a> {
+impl<'a> Rollouts<'a> {
     /// A model along some runs.
     ///
     /// # Errors
     /// When the model's formulas are malformed.
     pub fn new(model: &Model, records: &'a [Record]) -> Result<Self> {
-        Ok(Self(records.par_iter().map(|r| Predictor::new(model, r)).collect::<Result<_>>()?))
+        Ok(Self(records.par_iter().map(|r| Rollout::new(model, r)).collect::<Result<_>>()?))
     }
 
     /// The predictor of each run.
-    pub fn each(&self) -> &[Predictor<'a>] {
+    pub fn each(&self) -> &[Rollout<'a>] {
         &self.0
     }
 
@@ -38,42 +38,42 @@ impl<'a> Predictors<'a> {
     }
 
     /// Errors after a horizon, over all runs.
-    fn errors(&self, horizon: f64) -> Errors {
-        let each: Vec<Errors> = self.0.par_iter().map(|p| p.errors(horizon)).collect();
-        each.into_iter().fold(Errors::default(), Errors::joined)
+    fn errors(&self, horizon: f64) -> PredictionError {
+        let each: Vec<PredictionError> = self.0.par_iter().map(|p| p.errors(horizon)).collect();
+        each.into_iter().fold(PredictionError::default(), PredictionError::joined)
     }
 
     /// The noise floor at some horizons, over all runs.
-    fn floors(&self, horizons: &[f64], noise: &Noise, seed: u64) -> Vec<Errors> {
+    fn floors(&self, horizons: &[f64], noise: &Noise, seed: u64) -> Vec<PredictionError> {
         // As often for every run, so that a window weighs in the floor what it weighs in the gap.
         let often = |h: &f64| (2000 / self.windows(*h).max(1)).clamp(4, 200);
         let draws: Vec<usize> = horizons.iter().map(often).collect();
-        let of = |(i, p): (usize, &Predictor)| p.floors(horizons, &draws, noise, seed.wrapping_add(i as u64));
-        let each: Vec<Vec<Errors>> = self.0.par_iter().enumerate().map(of).collect();
-        let zero = vec![Errors::default(); horizons.len()];
+        let of = |(i, p): (usize, &Rollout)| p.floors(horizons, &draws, noise, seed.wrapping_add(i as u64));
+        let each: Vec<Vec<PredictionError>> = self.0.par_iter().enumerate().map(of).collect();
+        let zero = vec![PredictionError::default(); horizons.len()];
         each.iter().fold(zero, |sum, floors| sum.into_iter().zip(floors).map(|(s, f)| s.joined(*f)).collect())
     }
 }
 
 /// The model as it was and with what was found, along the runs that were fitted and those that were held out.
-pub struct Judged<'a> {
+pub struct ModelComparison<'a> {
     data: &'a Data,
     /// Along the fitted runs, before and after.
-    pub fitted: [Predictors<'a>; 2],
+    pub fitted: [Rollouts<'a>; 2],
     /// Along the held-out runs, before and after.
-    pub held_out: [Predictors<'a>; 2],
+    pub held_out: [Rollouts<'a>; 2],
     noise: Noise,
     seed: u64,
 }
 
-impl<'a> Judged<'a> {
+impl<'a> ModelComparison<'a> {
     /// Both models along all data.
     ///
     /// # Errors
     /// When a model's formulas are malformed.
-    pub fn of(data: &'a Data, model: &Model, choice: &Choice, seed: u64) -> Result<Self> {
-        let both = |records: &'a [Record]| -> Result<[Predictors<'a>; 2]> {
-            Ok([Predictors::new(model, records)?, Predictors::new(&choice.after.model, records)?])
+    pub fn of(data: &'a Data, model: &Model, choice: &Selected, seed: u64) -> Result<Self> {
+        let both = |records: &'a [Record]| -> Result<[Rollouts<'a>; 2]> {
+            Ok([Rollouts::new(model, records)?, Rollouts::new(&choice.after.model, records)?])
         };
         let noise = choice.after.noise();
         Ok(Self { data, fitted: both(&data.fitted)?, held_out: both(&data.held_out)?, noise, seed })
@@ -82,7 +82,7 @@ impl<'a> Judged<'a> {
     /// The gap at each horizon that fits the data.
     pub fn gaps(&self, horizons: &[f64]) -> Vec<Gap> {
         let gap = |&horizon: &f64| {
-            let compare = |[before, after]: &[Predictors; 2]| {
+            let compare = |[before, after]: &[Rollouts; 2]| {
                 let (before, after) = (before.errors(horizon), after.errors(horizon));
                 (before.windows() > 0).then(|| BeforeAfter {
                     position_rms_before: before.position_rms(),
@@ -105,15 +105,15 @@ impl<'a> Judged<'a> {
 
     /// The gap over horizons as a curve: of the held-out runs where they are long enough.
     pub fn curve(&self) -> GapCurve {
-        let enough = |[before, _]: &[Predictors; 2], h: f64| before.windows(h) >= FEWEST_WINDOWS;
+        let enough = |[before, _]: &[Rollouts; 2], h: f64| before.windows(h) >= FEWEST_WINDOWS;
         let judged = if enough(&self.held_out, 1.0) { &self.held_out } else { &self.fitted };
         let horizon: Vec<f64> = CURVE.into_iter().filter(|h| enough(judged, *h)).collect();
-        let along = |p: &Predictors| horizon.iter().map(|h| p.errors(*h).position_rms()).collect();
+        let along = |p: &Rollouts| horizon.iter().map(|h| p.errors(*h).position_rms()).collect();
         let floor = judged[1].floors(&horizon, &self.noise, self.seed);
         GapCurve {
             before: along(&judged[0]),
             after: along(&judged[1]),
-            floor: floor.iter().map(Errors::position_rms).collect(),
+            floor: floor.iter().map(PredictionError::position_rms).collect(),
             horizon,
         }
     }
@@ -122,11 +122,11 @@ impl<'a> Judged<'a> {
     ///
     /// # Errors
     /// When a model's formulas are malformed.
-    pub fn steps(&self, choice: &Choice, gaps: &[Gap]) -> Result<Vec<Step>> {
+    pub fn steps(&self, choice: &Selected, gaps: &[Gap]) -> Result<Vec<Step>> {
         let fitted: Vec<Gap> = gaps.iter().filter(|g| g.fit.is_some()).cloned().collect();
         let Some(horizon) = crate::discrepancy::report::middle(&fitted).map(|g| g.horizon_s) else { return Ok(vec![]) };
         let step = |(added, model): &(String, Model)| {
-            let gap_after = Predictors::new(model, &self.data.fitted)?.errors(horizon).position_rms();
+            let gap_after = Rollouts::new(model, &self.data.fitted)?.errors(horizon).position_rms();
             Ok(Step { added: added.clone(), gap_after })
         };
         choice.steps.iter().map(step).collect()

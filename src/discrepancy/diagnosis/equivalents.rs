@@ -1,7 +1,7 @@
 //! Effects that are listed beside a chosen one, and why.
 
 use crate::discrepancy::record::record::Record;
-use crate::discrepancy::selection::choice::{Choice, Chosen};
+use crate::discrepancy::selection::choice::{Selected, SelectedEffect};
 use crate::effects::{Applied, Effect};
 use crate::equivalence::{Measured, relation};
 use crate::model::Model;
@@ -9,14 +9,14 @@ use rayon::prelude::*;
 
 /// Another effect that explains what a chosen one explains.
 #[derive(Clone, Debug)]
-pub struct Relative {
+pub struct EquivalentEffect {
     /// The effect; at its fitted values where the data were asked, else where a fit would begin.
     pub applied: Applied,
     /// `identical`, `first order` or `data`.
     pub why: &'static str,
 }
 
-impl Relative {
+impl EquivalentEffect {
     /// Whether some run could tell it from the chosen effect.
     pub fn differs(&self) -> bool {
         self.why != "identical"
@@ -33,11 +33,11 @@ pub fn measured(record: &Record) -> Measured {
 ///
 /// Those that are identical by their formulas are always listed, in the order of the library, whatever the data say;
 /// then those that the data do not separate, `first order` where the formulas agree that far.
-pub fn relatives(choice: &Choice, library: &[Effect], measured: Measured) -> Vec<Vec<Relative>> {
+pub fn relatives(choice: &Selected, library: &[Effect], measured: Measured) -> Vec<Vec<EquivalentEffect>> {
     choice.chosen.iter().map(|c| of_one(c, &choice.after.model, library, measured)).collect()
 }
 
-fn of_one(chosen: &Chosen, after: &Model, library: &[Effect], measured: Measured) -> Vec<Relative> {
+fn of_one(chosen: &SelectedEffect, after: &Model, library: &[Effect], measured: Measured) -> Vec<EquivalentEffect> {
     if crate::model::effect_equation::is_term(&chosen.applied) {
         return vec![];
     }
@@ -48,26 +48,26 @@ fn of_one(chosen: &Chosen, after: &Model, library: &[Effect], measured: Measured
         relation(&rest, &of(&chosen.applied), &of(other), measured)
     };
     let known = |other: &Applied| chosen.rivals.iter().find(|r| r.same_as(other)).cloned();
-    let identical: Vec<Relative> = candidates(after, library)
+    let identical: Vec<EquivalentEffect> = candidates(after, library)
         .into_par_iter()
         .filter(|other| related(other).replaces())
-        .map(|other| Relative { applied: known(&other).unwrap_or(other), why: "identical" })
+        .map(|other| EquivalentEffect { applied: known(&other).unwrap_or(other), why: "identical" })
         .collect();
     let listed = |r: &&Applied| !identical.iter().any(|i| i.applied.same_as(r));
     let by_data = chosen.rivals.iter().filter(listed);
-    let by_data: Vec<Relative> =
-        by_data.map(|r| Relative { applied: r.clone(), why: related(r).word().unwrap_or("data") }).collect();
-    let listed: Vec<Relative> = identical.into_iter().chain(by_data).collect();
+    let by_data: Vec<EquivalentEffect> =
+        by_data.map(|r| EquivalentEffect { applied: r.clone(), why: related(r).word().unwrap_or("data") }).collect();
+    let listed: Vec<EquivalentEffect> = identical.into_iter().chain(by_data).collect();
     let limit =
         quasi_static(&chosen.applied, library).filter(|l| !listed.iter().any(|r| r.applied.same_as(&l.applied)));
     listed.into_iter().chain(limit).collect()
 }
 
 /// What a chosen effect becomes where its states follow at once: the same to first order in the time they take.
-fn quasi_static(chosen: &Applied, library: &[Effect]) -> Option<Relative> {
+fn quasi_static(chosen: &Applied, library: &[Effect]) -> Option<EquivalentEffect> {
     let limit = library.iter().find(|e| chosen.effect.limit.as_ref() == Some(&e.id))?;
     let applied = Applied::new(limit, chosen.trailer, chosen.values.clone());
-    Some(Relative { applied, why: "first order" })
+    Some(EquivalentEffect { applied, why: "first order" })
 }
 
 /// The effects of a library that a model has not.

@@ -1,17 +1,17 @@
 //! What was found, as the report lists it.
 
-use super::equivalents::Relative;
+use super::equivalents::EquivalentEffect;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::localisation::constraint_residuals;
 use crate::discrepancy::preprocessing::dataset::Data;
 use crate::discrepancy::report::{Estimate, Evidence, Named, Rival, Unnamed};
-use crate::discrepancy::selection::choice::Chosen;
+use crate::discrepancy::selection::choice::SelectedEffect;
 use crate::error::Result;
 use crate::model::Model;
 use std::collections::BTreeMap;
 
 /// A chosen effect as the report lists it.
-pub(crate) fn named(chosen: &Chosen, relatives: &[Relative], model: &Model) -> Named {
+pub(crate) fn named(chosen: &SelectedEffect, relatives: &[EquivalentEffect], model: &Model) -> Named {
     let a = &chosen.applied;
     let values = a.effect.parameters.iter().zip(&a.values).zip(&chosen.std);
     let mut parameters: BTreeMap<String, Estimate> = values
@@ -20,7 +20,7 @@ pub(crate) fn named(chosen: &Chosen, relatives: &[Relative], model: &Model) -> N
     if let Some(i) = a.trailer {
         parameters.insert("trailer".into(), Estimate { value: i as f64, std: None, unit: "1".into() });
     }
-    let rival = |r: &Relative| Rival { id: r.applied.effect.id.clone(), why: r.why.into() };
+    let rival = |r: &EquivalentEffect| Rival { id: r.applied.effect.id.clone(), why: r.why.into() };
     Named {
         id: a.effect.id.clone(),
         says: a.effect.says.clone(),
@@ -33,7 +33,7 @@ pub(crate) fn named(chosen: &Chosen, relatives: &[Relative], model: &Model) -> N
 }
 
 /// Chosen terms as the report lists them, judged on the held-out data.
-pub(crate) fn without_name(terms: &[&Chosen], data: &Data, after: &Fit, model: &Model) -> Result<Vec<Unnamed>> {
+pub(crate) fn without_name(terms: &[&SelectedEffect], data: &Data, after: &Fit, model: &Model) -> Result<Vec<Unnamed>> {
     if terms.is_empty() {
         return Ok(vec![]);
     }
@@ -41,10 +41,10 @@ pub(crate) fn without_name(terms: &[&Chosen], data: &Data, after: &Fit, model: &
     let mut bare = after.model.clone();
     bare.effects.retain(|e| !crate::model::effect_equation::is_term(e));
     let violations = |m: &Model| -> Result<Vec<_>> {
-        judged.iter().map(|r| constraint_residuals::Violation::of(m, r, &after.noise())).collect()
+        judged.iter().map(|r| constraint_residuals::ConstraintResiduals::of(m, r, &after.noise())).collect()
     };
     let (without, with) = (violations(&bare)?, violations(&after.model)?);
-    let one = |c: &&Chosen| Unnamed {
+    let one = |c: &&SelectedEffect| Unnamed {
         place: c.applied.effect.place.clone(),
         equation: crate::model::effect_equation::equation(&c.applied, model),
         held_out_reduction: crate::discrepancy::localisation::constraint_residuals::reduction(

@@ -2,7 +2,7 @@
 
 use crate::discrepancy::preprocessing::unit_errors;
 use crate::discrepancy::record::record::Record;
-use crate::discrepancy::selection::choice::Choice;
+use crate::discrepancy::selection::choice::Selected;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::number_format::significant;
@@ -16,7 +16,7 @@ const FAR: f64 = 10.0;
 ///
 /// # Errors
 /// When the model's formulas are malformed.
-pub(crate) fn warnings(choice: &Choice, records: &[Record]) -> Result<Vec<String>> {
+pub(crate) fn warnings(choice: &Selected, records: &[Record]) -> Result<Vec<String>> {
     let far: Vec<String> = choice.chosen.iter().filter_map(|c| far_beyond(&c.applied)).collect();
     let slip = if far.is_empty() { None } else { unit_errors::suspected(&choice.before.model, records)? };
     let doubt = slip.map_or_else(

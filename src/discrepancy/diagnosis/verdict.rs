@@ -6,13 +6,13 @@ use crate::discrepancy::diagnosis::advice::{oftener, settling};
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::localisation::clock_drift::Drift;
-use crate::discrepancy::localisation::constraint_residuals::{CONSTRAINTS, Violation};
+use crate::discrepancy::localisation::constraint_residuals::{CONSTRAINTS, ConstraintResiduals};
 use crate::discrepancy::preprocessing::unit_errors;
 use crate::discrepancy::rendering::summary::listed;
 use crate::discrepancy::report::{NextExperiment, Verdict};
-use crate::discrepancy::selection::choice::Choice;
+use crate::discrepancy::selection::choice::Selected;
 use crate::discrepancy::selection::search::find;
-use crate::discrepancy::selection::select::Scored;
+use crate::discrepancy::selection::select::Candidate;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
@@ -99,7 +99,7 @@ fn outcome(verdict: Verdict, sentence: &str, next_experiment: Option<NextExperim
 
 /// Whether any run leaves its place by more than its noise.
 fn moves(problem: &Problem) -> bool {
-    let noise = problem.variances.noise.map(f64::sqrt);
+    let noise = problem.variances.measurement.map(f64::sqrt);
     let span = |column: &[f64]| {
         let (low, high) = column.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(*x), h.max(*x)));
         high - low
@@ -127,7 +127,12 @@ fn driven(problem: &Problem) -> bool {
 ///
 /// # Errors
 /// When the model's formulas are malformed.
-pub fn after_fitting(problem: &Problem, choice: &Choice, after: &[Violation], clocks: &[Drift]) -> Result<Outcome> {
+pub fn after_fitting(
+    problem: &Problem,
+    choice: &Selected,
+    after: &[ConstraintResiduals],
+    clocks: &[Drift],
+) -> Result<Outcome> {
     if let Some(missed) = hopeless(after) {
         let slip = unit_errors::suspected(&choice.before.model, &problem.records)?;
         let why = slip.unwrap_or_else(|| "clocks, columns or units do not match, or the wheels spin.".into());
@@ -136,12 +141,12 @@ pub fn after_fitting(problem: &Problem, choice: &Choice, after: &[Violation], cl
     Ok(fitted(choice, after, clocks))
 }
 
-fn fitted(choice: &Choice, after: &[Violation], clocks: &[Drift]) -> Outcome {
+fn fitted(choice: &Selected, after: &[ConstraintResiduals], clocks: &[Drift]) -> Outcome {
     if let Some(sentence) = sliding(after).or_else(|| mismatched(clocks)) {
         return outcome(Verdict::UnusableData, &sentence, None);
     }
     let without_name = choice.chosen.iter().any(|c| crate::model::effect_equation::is_term(&c.applied));
-    let contradicted = !choice.unshared.is_empty();
+    let contradicted = !choice.inconsistent.is_empty();
     if !choice.chosen.is_empty() {
         let verdict = if without_name { Verdict::UnnamedEffect } else { Verdict::MissingEffect };
         let sentence = (!without_name && contradicted).then(|| partly(choice));
@@ -160,7 +165,7 @@ fn fitted(choice: &Choice, after: &[Violation], clocks: &[Drift]) -> Outcome {
         let sentence = format!("Model and measurement disagree, {why}: nothing can be named.");
         return outcome(Verdict::NotIdentifiable, &sentence, Some(settling(choice)));
     }
-    match missed(&choice.candidates, choice.before.dependence()) {
+    match missed(&choice.candidates, choice.before.variance_inflation()) {
         Some(candidate) => {
             let label = candidate.applied.label();
             let sentence =
@@ -189,7 +194,7 @@ fn trace(after: &Fit) -> Option<String> {
 }
 
 /// Effects of the model file that the runs ask for with other values.
-pub(crate) fn restated(choice: &Choice) -> Vec<String> {
+pub(crate) fn restated(choice: &Selected) -> Vec<String> {
     let values = |a: &Applied| {
         let each = a.effect.parameters.keys().zip(&a.values);
         listed(each.map(|(name, v)| format!("{name} = {}", significant(*v, 3))))
@@ -203,18 +208,18 @@ pub(crate) fn restated(choice: &Choice) -> Vec<String> {
 }
 
 /// Whether what a fit leaves of a constraint is more than chance, and stands out of the noise to the eye.
-fn disagrees(fit: &Fit, after: &[Violation]) -> bool {
-    let visible = |c: usize| Violation::rms(after, c).is_some_and(|(rms, noise)| rms > VISIBLE * noise);
+fn disagrees(fit: &Fit, after: &[ConstraintResiduals]) -> bool {
+    let visible = |c: usize| ConstraintResiduals::rms(after, c).is_some_and(|(rms, noise)| rms > VISIBLE * noise);
     crate::discrepancy::estimation::unexplained::remaining(fit).any(visible)
 }
 
 /// A model that misses most of the motion or of the turning, whatever is added to it.
-fn hopeless(after: &[Violation]) -> Option<String> {
-    let squares = after.iter().map(Violation::against_motion);
+fn hopeless(after: &[ConstraintResiduals]) -> Option<String> {
+    let squares = after.iter().map(ConstraintResiduals::against_motion);
     let sums = squares.fold([[0.0; 3]; 2], |sum, of| [0, 1].map(|k| [0, 1, 2].map(|i| sum[k][i] + of[k][i])));
     // What turns on the spot goes no way of which a share could be missed.
     let moves = sums[0][1] > OUT_OF_NOISE.powi(2) * sums[0][2];
-    let turns = sums[1][1] > TURNING.powi(2) * after.iter().map(Violation::count).sum::<usize>() as f64;
+    let turns = sums[1][1] > TURNING.powi(2) * after.iter().map(ConstraintResiduals::count).sum::<usize>() as f64;
     let share = |[miss, motion, _]: [f64; 3]| (miss / motion.max(f64::MIN_POSITIVE)).sqrt();
     let asked = [("motion", moves, share(sums[0])), ("turning", turns, share(sums[1]))];
     let (what, _, share) = asked.into_iter().find(|(_, asked, share)| *asked && *share > HOPELESS)?;
@@ -222,7 +227,7 @@ fn hopeless(after: &[Violation]) -> Option<String> {
 }
 
 /// A vehicle that slides: no coefficient of creep describes slip angles of tens of degrees.
-fn sliding(after: &[Violation]) -> Option<String> {
+fn sliding(after: &[ConstraintResiduals]) -> Option<String> {
     let slides = after.iter().filter_map(|v| v.slide(SLIP_ANGLE.tan()));
     let (run, [from, to]) = slides.max_by(|(_, a), (_, b)| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
     (to - from >= LONG_SLIDE).then(|| {
@@ -257,10 +262,10 @@ pub(crate) const BASIC: [&str; 7] = [
 ];
 
 /// A basic effect that would not have stood out at its plausible size, where so many values say what one would.
-pub(crate) fn missed(candidates: &[Scored], dependence: f64) -> Option<&Scored> {
+pub(crate) fn missed(candidates: &[Candidate], variance_inflation: f64) -> Option<&Candidate> {
     candidates.iter().find(|c| {
         let sizes = c.applied.effect.parameters.values().map(|p| p.size);
-        let hides = |(size, std): (f64, &f64)| 4.0 * std * dependence.sqrt() > size;
+        let hides = |(size, std): (f64, &f64)| 4.0 * std * variance_inflation.sqrt() > size;
         BASIC.contains(&c.applied.effect.id.as_str()) && sizes.zip(&c.std).any(hides)
     })
 }
@@ -275,7 +280,7 @@ mod tests {
         let scored = |id: &str, share: f64| {
             let effect = effects::named(id).unwrap();
             let std = effect.parameters.values().map(|p| share * p.size).collect();
-            Scored { applied: Applied::new(effect, None, vec![0.0]), std, delta_bic: 0.0 }
+            Candidate { applied: Applied::new(effect, None, vec![0.0]), std, delta_bic: 0.0 }
         };
         let known = [scored("rotation-creep", 0.2), scored("yaw-rate-bias", 0.01), scored("wheel-radius", 9.0)];
         assert!(missed(&known, 1.0).is_none(), "what is known to a quarter of its size would have been seen");
@@ -287,15 +292,15 @@ mod tests {
 
     #[test]
     fn the_longest_slide_of_all_runs_is_told() {
-        let first = Violation::across("first", &[0.0, 0.5, 0.5, 0.0, -0.5, 0.5, 0.5, 0.0]);
-        let second = Violation::across("second", &[0.5, 0.5, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0]);
-        let third = Violation::across("third", &[0.0, 0.0, 0.0, 0.5, 0.5, 0.0, 0.0, 0.0]);
+        let first = ConstraintResiduals::across("first", &[0.0, 0.5, 0.5, 0.0, -0.5, 0.5, 0.5, 0.0]);
+        let second = ConstraintResiduals::across("second", &[0.5, 0.5, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0]);
+        let third = ConstraintResiduals::across("third", &[0.0, 0.0, 0.0, 0.5, 0.5, 0.0, 0.0, 0.0]);
         let told = sliding(&[second.clone(), first.clone(), third.clone()]).unwrap();
         assert!(told.contains("in first from 4.0 to 7.0 s"), "{told}");
         let told = sliding(&[second, third]).unwrap();
         assert!(told.contains("from 0.0 to 2.0 s") || told.contains("from 3.0 to 5.0 s"), "{told}");
         // A single second is a bump, and what stays below the angle is creep.
-        assert!(sliding(&[Violation::across("bump", &[0.0, 0.5, 0.0, 0.5, 0.0])]).is_none());
-        assert!(sliding(&[Violation::across("creeping", &[0.3; 8])]).is_none());
+        assert!(sliding(&[ConstraintResiduals::across("bump", &[0.0, 0.5, 0.0, 0.5, 0.0])]).is_none());
+        assert!(sliding(&[ConstraintResiduals::across("creeping", &[0.3; 8])]).is_none());
     }
 }

@@ -9,7 +9,7 @@
 //! and a gain of deviance counts for its τ-th part. With nothing unexplained there is nothing to hang together: τ = 1.
 
 use crate::discrepancy::shooting::block_sums::SCALES;
-use crate::discrepancy::shooting::linearised_window::Linear;
+use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// Deviance from which on unexplained motion is more than chance.
@@ -52,14 +52,14 @@ pub fn integrated_correlation(series: &[Vec<f64>]) -> f64 {
 }
 
 /// The integrated correlation of what a fit leaves unexplained, each kind of jump by the deviance it is worth.
-pub fn of_what_remains(linear: &[Vec<Linear>], unexplained: &[f64; 4]) -> f64 {
+pub fn of_what_remains(linear: &[Vec<LinearisedWindow>], unexplained: &[f64; 4]) -> f64 {
     let kinds = || (0..4).filter(|c| unexplained[*c] > NOTICEABLE);
     let weight: f64 = kinds().map(|c| unexplained[c]).sum();
     if weight <= 0.0 {
         return 1.0;
     }
     let rates = |c: usize| -> Vec<Vec<f64>> {
-        let of_window = |w: &Linear| w.mismatch.get(c).map(|m| m / w.duration.sqrt());
+        let of_window = |w: &LinearisedWindow| w.mismatch.get(c).map(|m| m / w.duration.sqrt());
         linear.iter().map(|segment| segment.iter().filter_map(of_window).collect()).collect()
     };
     kinds().map(|c| unexplained[c] * integrated_correlation(&rates(c))).sum::<f64>() / weight
@@ -74,7 +74,7 @@ const BY_CHANCE: f64 = 5e-4;
 ///
 /// the inner sum over the n rows of a block. For white noise this is about one at every scale; the largest that chance
 /// does not explain is taken, each channel by itself. What is slower than a window moves its pose and is not seen here.
-pub fn of_noise(linear: &[Vec<Linear>]) -> f64 {
+pub fn of_noise(linear: &[Vec<LinearisedWindow>]) -> f64 {
     let windows = || linear.iter().flatten();
     let mut found: f64 = 1.0;
     for channel in 0..3 {

@@ -1,28 +1,12 @@
 //! The windows of a run joined: poses and jumps eliminated one window at a time.
 
-use crate::discrepancy::shooting::linearised_window::Linear;
+use crate::discrepancy::estimation::noise_model::NoiseModel;
+use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
-
-/// Variances of the statistical model.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Variances {
-    /// Of a measured position (m²), heading and trailer heading (rad²).
-    pub noise: [f64; 3],
-    /// Of the jump, for each second: along, across (m²/s), yaw, trailer heading (rad²/s).
-    pub jump: [f64; 4],
-}
-
-impl Variances {
-    /// Whether two sets differ by no more than their estimation could tell.
-    pub fn close_to(&self, other: &Variances) -> bool {
-        let pairs = self.noise.iter().zip(&other.noise).chain(self.jump.iter().zip(&other.jump));
-        pairs.into_iter().all(|(a, b)| (a / b).ln().abs() < 0.2)
-    }
-}
 
 /// What remains when all poses and jumps are eliminated.
 #[derive(Clone, Debug)]
-pub struct Eliminated {
+pub struct ReducedForm {
     /// The quadratic form in (δp, 1): twice the negative log likelihood up to constants.
     pub form: DMatrix<f64>,
     /// Logarithm of the determinants that elimination leaves behind.
@@ -31,12 +15,12 @@ pub struct Eliminated {
     pub jump_determinant: f64,
     /// Each segment's part of the form.
     pub parts: Vec<DMatrix<f64>>,
-    tails: Vec<Tail>,
+    tails: Vec<BackwardPass>,
 }
 
 /// What the backward pass needs of one segment.
 #[derive(Clone, Debug)]
-struct Tail {
+struct BackwardPass {
     /// Jump at the end of each window as a function of (δz next, δp, 1).
     jumps: Vec<DMatrix<f64>>,
     /// δz of the last window as a function of (δp, 1).
@@ -50,10 +34,10 @@ const WEAK: f64 = 1e-9;
 ///
 /// With M the quadratic form in (δz, δp, 1) of everything up to a window's end, a jump w = G·a, a ~ N(0, 1),
 /// turns it into M − M_z·G(1 + Gᵀ·M_zz·G)⁻¹Gᵀ·M_z: regular for q = 0 as for q → ∞.
-pub fn eliminate(segments: &[Vec<Linear>], v: &Variances, parameters: usize) -> Option<Eliminated> {
-    let mut total = Eliminated::nothing(parameters);
+pub fn eliminate(segments: &[Vec<LinearisedWindow>], v: &NoiseModel, parameters: usize) -> Option<ReducedForm> {
+    let mut total = ReducedForm::nothing(parameters);
     for windows in segments {
-        let mut chain = Chain::new(v, parameters, true);
+        let mut chain = InformationFilter::new(v, parameters, true);
         windows.iter().try_for_each(|w| chain.push(w))?;
         total.add(chain)?;
     }
@@ -61,8 +45,8 @@ pub fn eliminate(segments: &[Vec<Linear>], v: &Variances, parameters: usize) -> 
 }
 
 /// The windows of a segment joined one after another.
-pub struct Chain<'v> {
-    v: &'v Variances,
+pub struct InformationFilter<'v> {
+    v: &'v NoiseModel,
     parameters: usize,
     /// M, once the first window has come.
     form: Option<DMatrix<f64>>,
@@ -72,18 +56,19 @@ pub struct Chain<'v> {
     jumps: Vec<DMatrix<f64>>,
 }
 
-impl<'v> Chain<'v> {
+impl<'v> InformationFilter<'v> {
     /// A chain without windows.
-    pub fn new(v: &'v Variances, parameters: usize, backward: bool) -> Self {
+    pub fn new(v: &'v NoiseModel, parameters: usize, backward: bool) -> Self {
         Self { v, parameters, form: None, log_determinant: 0.0, backward, jumps: vec![] }
     }
 
     /// Joins the next window.
-    pub fn push(&mut self, window: &Linear) -> Option<()> {
+    pub fn push(&mut self, window: &LinearisedWindow) -> Option<()> {
         let size = window.gram[0].nrows();
         let m = size - 1 - self.parameters;
         let mut form = self.form.take().unwrap_or_else(|| weak(size, m));
-        for (channel, noise) in self.v.noise.iter().enumerate().filter(|(channel, _)| window.count[*channel] > 0) {
+        for (channel, noise) in self.v.measurement.iter().enumerate().filter(|(channel, _)| window.count[*channel] > 0)
+        {
             form.zip_apply(&window.gram[channel], |f, g| *f += g / noise);
         }
         if let Some(back) = &window.back {
@@ -105,7 +90,7 @@ impl<'v> Chain<'v> {
     }
 }
 
-impl Eliminated {
+impl ReducedForm {
     /// Of no segments.
     pub fn nothing(parameters: usize) -> Self {
         Self {
@@ -118,7 +103,7 @@ impl Eliminated {
     }
 
     /// Eliminates the last pose of a segment and adds what remains.
-    pub fn add(&mut self, chain: Chain) -> Option<()> {
+    pub fn add(&mut self, chain: InformationFilter) -> Option<()> {
         let form = chain.form?;
         let rest = chain.parameters + 1;
         let m = form.nrows() - rest;
@@ -130,7 +115,7 @@ impl Eliminated {
         self.parts.push(part);
         self.log_determinant += chain.log_determinant + log_determinant(&poses);
         self.jump_determinant += chain.log_determinant;
-        self.tails.push(Tail { jumps: chain.jumps, last: -solved });
+        self.tails.push(BackwardPass { jumps: chain.jumps, last: -solved });
         Some(())
     }
 }
@@ -171,10 +156,10 @@ fn symmetric(mut form: DMatrix<f64>) -> DMatrix<f64> {
 }
 
 /// G: columns are the body's axes scaled by the jump's standard deviations.
-fn jump_spread(window: &Linear, v: &Variances, m: usize) -> DMatrix<f64> {
+fn jump_spread(window: &LinearisedWindow, v: &NoiseModel, m: usize) -> DMatrix<f64> {
     let mut spread = window.axes.clone();
     for i in 0..m {
-        spread.column_mut(i).scale_mut((v.jump[i.min(3)] * window.duration).sqrt());
+        spread.column_mut(i).scale_mut((v.process[i.min(3)] * window.duration).sqrt());
     }
     spread
 }
@@ -183,7 +168,7 @@ fn log_determinant(c: &Cholesky<f64, Dyn>) -> f64 {
     2.0 * c.l_dirty().diagonal().iter().map(|x| x.ln()).sum::<f64>()
 }
 
-impl Eliminated {
+impl ReducedForm {
     /// Twice the negative log likelihood's quadratic part at δp = 0, poses at their best.
     pub fn cost(&self) -> f64 {
         let p = self.form.nrows() - 1;
@@ -197,9 +182,9 @@ impl Eliminated {
     }
 
     /// The corrections of all starts that belong to a correction of the parameters.
-    pub fn corrections(&self, segments: &[Vec<Linear>], delta: &DVector<f64>) -> Vec<Vec<DVector<f64>>> {
+    pub fn corrections(&self, segments: &[Vec<LinearisedWindow>], delta: &DVector<f64>) -> Vec<Vec<DVector<f64>>> {
         let one = delta.clone().push(1.0);
-        let of_segment = |(tail, windows): (&Tail, &Vec<Linear>)| {
+        let of_segment = |(tail, windows): (&BackwardPass, &Vec<LinearisedWindow>)| {
             let mut z = &tail.last * &one;
             let mut found = vec![z.clone()];
             for (window, jump) in windows.iter().rev().skip(1).zip(tail.jumps.iter().rev()) {

@@ -2,15 +2,16 @@
 
 use super::autocorrelation;
 use super::bounds::Bounds;
-use super::elimination::{Eliminated, Variances, eliminate};
+use super::elimination::{ReducedForm, eliminate};
 use super::levenberg_marquardt::damped_step;
 use super::problem::Problem;
 use super::variance_components;
+use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::initial_state::hidden_states;
 use crate::discrepancy::record::sensor_noise::Noise;
-use crate::discrepancy::shooting::linearised_window::Linear;
+use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
 use crate::discrepancy::shooting::window_integration::linearise;
-use crate::discrepancy::shooting::windows::{Segment, Starts};
+use crate::discrepancy::shooting::windows::{Segment, WindowStates};
 use crate::error::Result;
 use crate::model::{Equations, Model};
 use nalgebra::{DMatrix, DVector};
@@ -31,22 +32,22 @@ pub struct Fit {
     /// Information matrix of the parameters.
     pub information: DMatrix<f64>,
     /// Noise and unexplained motion.
-    pub variances: Variances,
+    pub variances: NoiseModel,
     /// Twice the negative log likelihood.
     pub deviance: f64,
     /// Poses at the windows' starts.
-    pub starts: Starts,
+    pub window_states: WindowStates,
     /// Effective number of measured values.
     pub sample_size: f64,
     /// By how much the deviance would grow without the jumps along, across, in yaw and of trailers: what remains
     /// unexplained; zero where the variances were not estimated.
     pub unexplained: [f64; 4],
     /// How many windows in a row what remains unexplained is alike, at least 1: see [`super::autocorrelation`].
-    pub correlation: f64,
+    pub residual_correlation_time: f64,
     /// How many rows in a row the noise is alike, at least 1.
-    pub colour: f64,
+    pub noise_correlation_time: f64,
     /// How many numbers the poses were asked for beside the values: how hidden states began.
-    pub begun: f64,
+    pub initial_state_dof: f64,
 }
 
 /// Runs that their spread can be told from.
@@ -76,25 +77,25 @@ const DAMPED: f64 = 10.0;
 /// A linearisation that has been accepted.
 struct Point {
     p: DVector<f64>,
-    starts: Starts,
-    linear: Vec<Vec<Linear>>,
-    eliminated: Eliminated,
+    starts: WindowStates,
+    linear: Vec<Vec<LinearisedWindow>>,
+    eliminated: ReducedForm,
 }
 
 impl Fit {
     /// How many values say what one independent value would: rows that are alike, times windows that are alike.
-    pub fn dependence(&self) -> f64 {
-        self.colour * self.correlation
+    pub fn variance_inflation(&self) -> f64 {
+        self.noise_correlation_time * self.residual_correlation_time
     }
 
     /// How many numbers it has taken from the data.
     pub fn size(&self) -> f64 {
-        self.p.len() as f64 + self.begun
+        self.p.len() as f64 + self.initial_state_dof
     }
 
     /// The noise that was estimated.
     pub fn noise(&self) -> Noise {
-        Noise { variance: self.variances.noise, colour: self.colour }
+        Noise { variance: self.variances.measurement, correlation_time: self.noise_correlation_time }
     }
 }
 
@@ -102,7 +103,13 @@ impl Problem {
     /// Fits the values of a model's free effects by Levenberg–Marquardt with exact Jacobians.
     ///
     /// `None` when the model is undefined along the runs.
-    pub fn fit(&self, model: &Model, starts: &Starts, variances: &Variances, effort: Effort) -> Result<Option<Fit>> {
+    pub fn fit(
+        &self,
+        model: &Model,
+        starts: &WindowStates,
+        variances: &NoiseModel,
+        effort: Effort,
+    ) -> Result<Option<Fit>> {
         let equations = model.free_equations()?;
         let p = DVector::from_vec(model.free_values());
         let bounds = Bounds::of(model);
@@ -125,13 +132,19 @@ impl Problem {
             }
         }
         let unexplained = if effort.variances { self.unexplained(&point, &v) } else { [0.0; 4] };
-        let correlation = autocorrelation::of_what_remains(&point.linear, &unexplained);
-        let colour = if effort.variances { autocorrelation::of_noise(&point.linear) } else { 1.0 };
-        let begun = self.begun(&equations, &point);
-        Ok(Some(Fit { unexplained, correlation, colour, begun, ..self.finished(model, point, v) }))
+        let residual_correlation_time = autocorrelation::of_what_remains(&point.linear, &unexplained);
+        let noise_correlation_time = if effort.variances { autocorrelation::of_noise(&point.linear) } else { 1.0 };
+        let initial_state_dof = self.initial_state_dof(&equations, &point);
+        Ok(Some(Fit {
+            unexplained,
+            residual_correlation_time,
+            noise_correlation_time,
+            initial_state_dof,
+            ..self.finished(model, point, v)
+        }))
     }
 
-    fn point(&self, equations: &Equations, p: DVector<f64>, starts: Starts, v: &Variances) -> Option<Point> {
+    fn point(&self, equations: &Equations, p: DVector<f64>, starts: WindowStates, v: &NoiseModel) -> Option<Point> {
         let linear = linearise(equations, p.as_slice(), &self.records, &self.plan, &starts)?;
         let eliminated = eliminate(&linear, v, p.len())?;
         Some(Point { p, starts, linear, eliminated })
@@ -143,7 +156,7 @@ impl Problem {
         &self,
         equations: &Equations,
         mut here: Point,
-        v: &Variances,
+        v: &NoiseModel,
         bounds: &Bounds,
         effort: Effort,
         mut settled: bool,
@@ -185,7 +198,7 @@ impl Problem {
 
     /// H⁻¹·(Σ g gᵀ)·H⁻¹ with the gradient g of each run: what runs of the same kind would scatter by, whatever the
     /// reason.
-    fn between_runs(&self, e: &Eliminated) -> Option<DMatrix<f64>> {
+    fn between_runs(&self, e: &ReducedForm) -> Option<DMatrix<f64>> {
         let runs = self.records.len();
         if runs < FEWEST_RUNS {
             return None;
@@ -202,7 +215,7 @@ impl Problem {
         Some(&bread * meat * &bread)
     }
 
-    fn finished(&self, model: &Model, point: Point, variances: Variances) -> Fit {
+    fn finished(&self, model: &Model, point: Point, variances: NoiseModel) -> Fit {
         let (information, _) = point.eliminated.normal();
         let mut model = model.clone();
         let mut rest = point.p.iter().copied();
@@ -219,16 +232,16 @@ impl Problem {
             model,
             information,
             variances,
-            starts: point.starts,
+            window_states: point.starts,
             unexplained: [0.0; 4],
-            correlation: 1.0,
-            colour: 1.0,
-            begun: 0.0,
+            residual_correlation_time: 1.0,
+            noise_correlation_time: 1.0,
+            initial_state_dof: 0.0,
         }
     }
 
     /// How many numbers the beginnings of hidden states took from the poses.
-    fn begun(&self, equations: &Equations, point: &Point) -> f64 {
+    fn initial_state_dof(&self, equations: &Equations, point: &Point) -> f64 {
         let of = |(segment, starts): (&Segment, &Vec<Vec<f64>>)| {
             let record = &self.records[segment.record];
             hidden_states::asked(equations, point.p.as_slice(), record, segment.windows[0].start, &starts[0]).1
@@ -237,19 +250,19 @@ impl Problem {
     }
 
     /// What each kind of jump is needed for.
-    fn unexplained(&self, point: &Point, v: &Variances) -> [f64; 4] {
+    fn unexplained(&self, point: &Point, v: &NoiseModel) -> [f64; 4] {
         let k = point.p.len();
         let here = variance_components::deviance(&point.linear, v, &point.eliminated);
         std::array::from_fn(|c| {
             let calm = variance_components::without_jump(*v, c);
-            let e = eliminate(&point.linear, &calm, k).filter(|_| self.free.jump[c] && calm != *v);
+            let e = eliminate(&point.linear, &calm, k).filter(|_| self.free.process[c] && calm != *v);
             e.map_or(0.0, |e| variance_components::deviance(&point.linear, &calm, &e) - here)
         })
     }
 }
 
 /// What a step gains: a whole one in what is promised once the poses have followed, a shortened one in what is there.
-fn gain(here: &Point, next: &Point, v: &Variances, share: f64) -> f64 {
+fn gain(here: &Point, next: &Point, v: &NoiseModel, share: f64) -> f64 {
     match share < 1.0 {
         true => misfit(&here.linear, v) - misfit(&next.linear, v),
         false => here.eliminated.cost() - next.eliminated.cost(),
@@ -259,17 +272,17 @@ fn gain(here: &Point, next: &Point, v: &Variances, share: f64) -> f64 {
 /// What the poses and values of a point cost as they are: squared residuals over the noise and squared jumps over
 /// theirs. The cost that is left when the poses are eliminated is a promise of the linearisation, and where that is far
 /// from the truth no step would be seen to lead down.
-fn misfit(linear: &[Vec<Linear>], v: &Variances) -> f64 {
-    let of_window = |w: &Linear| {
-        let noise: f64 = v.noise.iter().enumerate().map(|(channel, noise)| w.square(channel) / noise).sum();
-        let jump = w.mismatch.iter().enumerate().map(|(c, m)| m * m / (v.jump[c.min(3)] * w.duration));
+fn misfit(linear: &[Vec<LinearisedWindow>], v: &NoiseModel) -> f64 {
+    let of_window = |w: &LinearisedWindow| {
+        let noise: f64 = v.measurement.iter().enumerate().map(|(channel, noise)| w.square(channel) / noise).sum();
+        let jump = w.mismatch.iter().enumerate().map(|(c, m)| m * m / (v.process[c.min(3)] * w.duration));
         noise + jump.sum::<f64>()
     };
     linear.iter().flatten().map(of_window).sum()
 }
 
 /// The number of values that count as independent in a fit.
-fn sample_size(linear: &[Vec<Linear>], e: &Eliminated) -> f64 {
+fn sample_size(linear: &[Vec<LinearisedWindow>], e: &ReducedForm) -> f64 {
     let windows = linear.iter().map(Vec::len).sum::<usize>() as f64;
     let coordinates = linear.iter().flatten().map(|w| w.axes.nrows()).max().unwrap_or(1) as f64;
     let values = linear.iter().flatten().flat_map(|w| w.count).sum::<usize>() as f64;
@@ -301,19 +314,19 @@ pub(crate) fn inverse(information: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     Some(DMatrix::from_fn(scale.len(), scale.len(), |i, j| inverse[(i, j)] * scale[i] * scale[j]))
 }
 
-fn step(e: &Eliminated, damping: f64) -> Option<DVector<f64>> {
+fn step(e: &ReducedForm, damping: f64) -> Option<DVector<f64>> {
     let (information, gradient) = e.normal();
     let unseen = DVector::zeros(gradient.len());
     damped_step(information, &gradient, damping, &unseen)
 }
 
 /// What a step gains in deviance if the model is as linear as it looks.
-fn promised(e: &Eliminated, delta: &DVector<f64>) -> f64 {
+fn promised(e: &ReducedForm, delta: &DVector<f64>) -> f64 {
     let (information, gradient) = e.normal();
     -(delta.dot(&(information * delta)) + 2.0 * gradient.dot(delta))
 }
 
-fn moved(starts: &Starts, by: &[Vec<DVector<f64>>], share: f64) -> Starts {
+fn moved(starts: &WindowStates, by: &[Vec<DVector<f64>>], share: f64) -> WindowStates {
     let add = |(z, d): (&Vec<f64>, &DVector<f64>)| z.iter().zip(d.iter()).map(|(z, d)| z + share * d).collect();
     starts.iter().zip(by).map(|(s, b)| s.iter().zip(b).map(add).collect()).collect()
 }
@@ -326,7 +339,7 @@ mod tests {
     /// A window with two trailers, and others without a jump behind them.
     #[test]
     fn a_misfit_counts_noise_and_jumps_in_their_variances() {
-        let window = |squares: [f64; 3], duration: f64, mismatch: &[f64]| Linear {
+        let window = |squares: [f64; 3], duration: f64, mismatch: &[f64]| LinearisedWindow {
             gram: squares.map(|square| DMatrix::from_element(1, 1, square)),
             count: [1; 3],
             blocks: [Blocks::default(); 3],
@@ -335,7 +348,7 @@ mod tests {
             duration,
             mismatch: mismatch.to_vec(),
         };
-        let v = Variances { noise: [2.0, 4.0, 8.0], jump: [1.0, 2.0, 4.0, 8.0] };
+        let v = NoiseModel { measurement: [2.0, 4.0, 8.0], process: [1.0, 2.0, 4.0, 8.0] };
         let first = window([2.0, 8.0, 24.0], 0.5, &[1.0, 2.0, 4.0, 8.0, 16.0]);
         // 1 + 2 + 3, and 2 + 4 + 8 + 16 + 64.
         assert_eq!(misfit(&[vec![first.clone()]], &v), 6.0 + 94.0);

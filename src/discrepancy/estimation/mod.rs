@@ -5,6 +5,7 @@ pub(crate) mod bounds;
 pub mod elimination;
 pub mod fit;
 pub mod levenberg_marquardt;
+pub mod noise_model;
 pub mod problem;
 pub mod rate_regression;
 pub mod unexplained;

@@ -1,12 +1,12 @@
 //! Runs cut into windows, and what is known of their noise.
 
-use super::elimination::Variances;
-use super::variance_components::Free;
+use crate::discrepancy::estimation::noise_model::Estimated;
+use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::initial_state::heading_from_path;
 use crate::discrepancy::record::local_polynomial;
 use crate::discrepancy::record::record::{Channel, Record};
 use crate::discrepancy::shooting::windows::has_windows;
-use crate::discrepancy::shooting::windows::{Segment, Starts};
+use crate::discrepancy::shooting::windows::{Segment, WindowStates};
 use crate::error::Result;
 use crate::model::Model;
 
@@ -18,9 +18,9 @@ pub struct Problem {
     /// Their windows.
     pub plan: Vec<Segment>,
     /// Which variances are free.
-    pub free: Free,
+    pub free: Estimated,
     /// Where the variances start.
-    pub variances: Variances,
+    pub variances: NoiseModel,
 }
 
 impl Problem {
@@ -40,9 +40,11 @@ impl Problem {
         let present = channels.map(|c| records.iter().any(|r| r.channels().contains(&c)));
         let noise = [0, 1, 2].map(|k| known[k].unwrap_or_else(|| noise_of(&records, channels[k])).powi(2));
         let jump = [noise[0], noise[0], noise[1], noise[2]];
-        let free =
-            Free { noise: [0, 1, 2].map(|k| present[k] && known[k].is_none()), jump: [true, true, true, present[2]] };
-        Self { records, plan, free, variances: Variances { noise, jump } }
+        let free = Estimated {
+            measurement: [0, 1, 2].map(|k| present[k] && known[k].is_none()),
+            process: [true, true, true, present[2]],
+        };
+        Self { records, plan, free, variances: NoiseModel { measurement: noise, process: jump } }
     }
 
     /// How many windows there are.
@@ -51,24 +53,24 @@ impl Problem {
     }
 
     /// Σ n·ln σ² over all measured values of all windows.
-    pub fn noise_determinant(&self, v: &Variances) -> f64 {
+    pub fn noise_determinant(&self, v: &NoiseModel) -> f64 {
         let of_segment = |s: &Segment| {
             let rows: usize = s.windows.iter().map(std::ops::Range::len).sum();
-            let each = self.records[s.record].channels().into_iter().map(|c| v.noise[c as usize].ln());
+            let each = self.records[s.record].channels().into_iter().map(|c| v.measurement[c as usize].ln());
             rows as f64 * each.sum::<f64>()
         };
         self.plan.iter().map(of_segment).sum()
     }
 
     /// Poses at the windows' starts from the measurements alone, as the model's sensor says.
-    pub fn starts(&self, model: &Model) -> Result<Starts> {
+    pub fn starts(&self, model: &Model) -> Result<WindowStates> {
         starts(model, &self.records, &self.plan)
     }
 }
 
 /// Poses at the windows' starts from the measurements alone, as a model's sensor says; where no heading is measured, its
 /// motion at the values that it has.
-pub(crate) fn starts(model: &Model, records: &[Record], plan: &[Segment]) -> Result<Starts> {
+pub(crate) fn starts(model: &Model, records: &[Record], plan: &[Segment]) -> Result<WindowStates> {
     let equations = model.equations(&[])?;
     Ok(plan.iter().map(|s| heading_from_path::starts(&equations, &records[s.record], &s.windows)).collect())
 }

@@ -13,7 +13,7 @@ pub fn remains(fit: &Fit) -> bool {
 
 /// The kinds of jumps that a fit needs beyond chance.
 pub(crate) fn remaining(fit: &Fit) -> impl Iterator<Item = usize> {
-    (0..fit.unexplained.len()).filter(|c| fit.unexplained[*c] / fit.dependence() > NOTICEABLE)
+    (0..fit.unexplained.len()).filter(|c| fit.unexplained[*c] / fit.variance_inflation() > NOTICEABLE)
 }
 
 /// Whether a term may be asked for: something remains, or suspiciously much was needed.

@@ -1,26 +1,28 @@
 //! Noise and unexplained motion, estimated together with the parameters by restricted maximum likelihood.
 
-use super::elimination::{Eliminated, Variances, eliminate};
-use crate::discrepancy::shooting::linearised_window::Linear;
+use super::elimination::{ReducedForm, eliminate};
+use crate::discrepancy::estimation::noise_model::Estimated;
+use crate::discrepancy::estimation::noise_model::NoiseModel;
+use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
 
 /// Smallest jump that is told from none, as a share of the noise: below it the likelihood is flat.
 const LEAST_JUMP: f64 = 1e-3;
 
 /// Twice the negative log likelihood, poses integrated out, parameters at their best.
-pub fn deviance(segments: &[Vec<Linear>], v: &Variances, e: &Eliminated) -> f64 {
+pub fn deviance(segments: &[Vec<LinearisedWindow>], v: &NoiseModel, e: &ReducedForm) -> f64 {
     let (information, gradient) = e.normal();
     let gain = information.clone().cholesky().map_or(0.0, |c| gradient.dot(&c.solve(&gradient)));
     e.cost() - gain + e.log_determinant + noise_determinant(segments, v)
 }
 
 /// Σ n·ln σ² over the measured values.
-pub fn noise_determinant(segments: &[Vec<Linear>], v: &Variances) -> f64 {
+pub fn noise_determinant(segments: &[Vec<LinearisedWindow>], v: &NoiseModel) -> f64 {
     let count = |kind: usize| segments.iter().flatten().map(|w| w.count[kind]).sum::<usize>() as f64;
-    (0..3).map(|kind| count(kind) * v.noise[kind].ln()).sum()
+    (0..3).map(|kind| count(kind) * v.measurement[kind].ln()).sum()
 }
 
 /// The deviance with the parameters integrated out too, which the variances are chosen by.
-fn restricted(segments: &[Vec<Linear>], v: &Variances, parameters: usize) -> f64 {
+fn restricted(segments: &[Vec<LinearisedWindow>], v: &NoiseModel, parameters: usize) -> f64 {
     let Some(e) = eliminate(segments, v, parameters) else { return f64::INFINITY };
     let (mut information, _) = e.normal();
     // A direction without information is left out of the determinant's changes by a weak prior.
@@ -31,22 +33,13 @@ fn restricted(segments: &[Vec<Linear>], v: &Variances, parameters: usize) -> f64
 }
 
 /// The variances without a jump, as far as that is told from none.
-pub fn without_jump(mut v: Variances, c: usize) -> Variances {
-    v.jump[c] = least_jump(&v, c);
+pub fn without_jump(mut v: NoiseModel, c: usize) -> NoiseModel {
+    v.process[c] = least_jump(&v, c);
     v
 }
 
-fn least_jump(v: &Variances, c: usize) -> f64 {
-    v.noise[[0, 0, 1, 2][c]] * LEAST_JUMP * LEAST_JUMP
-}
-
-/// Which variances are free.
-#[derive(Clone, Copy, Debug)]
-pub struct Free {
-    /// Noise of position, heading, trailer heading.
-    pub noise: [bool; 3],
-    /// Jumps along, across, yaw, trailer.
-    pub jump: [bool; 4],
+fn least_jump(v: &NoiseModel, c: usize) -> f64 {
+    v.measurement[[0, 0, 1, 2][c]] * LEAST_JUMP * LEAST_JUMP
 }
 
 /// Least gain in deviance that makes another round worthwhile.
@@ -57,13 +50,13 @@ const ENOUGH: f64 = 0.05;
 /// Seven numbers at most, nearly independent of each other, a smooth function with a flat tail towards zero jumps:
 /// along each a bracket and a parabola through it are enough.
 pub fn improve(
-    segments: &[Vec<Linear>],
-    start: Variances,
-    free: Free,
+    segments: &[Vec<LinearisedWindow>],
+    start: NoiseModel,
+    free: Estimated,
     parameters: usize,
     first_step: f64,
-) -> Variances {
-    let f = |v: &Variances| restricted(segments, v, parameters);
+) -> NoiseModel {
+    let f = |v: &NoiseModel| restricted(segments, v, parameters);
     let mut best = (start, f(&start));
     let mut step = first_step;
     for _ in 0..12 {
@@ -80,8 +73,8 @@ pub fn improve(
 }
 
 /// The lowest point found along one logarithm.
-fn along(f: &impl Fn(&Variances) -> f64, here: (Variances, f64), k: usize, step: f64) -> (Variances, f64) {
-    let at = |v: Variances, s: f64| {
+fn along(f: &impl Fn(&NoiseModel) -> f64, here: (NoiseModel, f64), k: usize, step: f64) -> (NoiseModel, f64) {
+    let at = |v: NoiseModel, s: f64| {
         let moved = moved_by(v, k, s);
         (moved, if moved == v { f64::INFINITY } else { f(&moved) })
     };
@@ -110,16 +103,16 @@ fn along(f: &impl Fn(&Variances) -> f64, here: (Variances, f64), k: usize, step:
     }
 }
 
-fn is_free(free: &Free, k: usize) -> bool {
-    if k < 3 { free.noise[k] } else { free.jump[k - 3] }
+fn is_free(free: &Estimated, k: usize) -> bool {
+    if k < 3 { free.measurement[k] } else { free.process[k - 3] }
 }
 
 /// One variance multiplied by e^step, jumps bounded from below.
-fn moved_by(mut v: Variances, k: usize, step: f64) -> Variances {
+fn moved_by(mut v: NoiseModel, k: usize, step: f64) -> NoiseModel {
     match k {
-        0..=2 => v.noise[k] *= step.exp(),
+        0..=2 => v.measurement[k] *= step.exp(),
         _ => {
-            v.jump[k - 3] = (v.jump[k - 3] * step.exp()).max(least_jump(&v, k - 3));
+            v.process[k - 3] = (v.process[k - 3] * step.exp()).max(least_jump(&v, k - 3));
         }
     }
     v

@@ -1,10 +1,11 @@
 //! Windows left out in turn: how well a fitted model predicts what it was not fitted to.
 
-use crate::discrepancy::estimation::elimination::{Variances, eliminate};
+use crate::discrepancy::estimation::elimination::eliminate;
 use crate::discrepancy::estimation::fit::{FEWEST_RUNS, Fit};
+use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::estimation::variance_components::noise_determinant;
-use crate::discrepancy::shooting::linearised_window::Linear;
+use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
 use crate::discrepancy::shooting::window_integration::linearise;
 use crate::error::Result;
 use nalgebra::{DMatrix, DVector};
@@ -51,7 +52,8 @@ impl Problem {
         // leaves unexplained in another run. A parameter that only one run shows cannot be asked of the others.
         let fit = &in_units_of(fit, than);
         let between = self.gains([fit, than], [&new, &old], Part::Run, Share::predicted);
-        Ok(between.is_none_or(|gained| total(&gained) > 0.0 && counts(&gained, SAME * than.dependence()).1 == 0))
+        Ok(between
+            .is_none_or(|gained| total(&gained) > 0.0 && counts(&gained, SAME * than.variance_inflation()).1 == 0))
     }
 
     /// By how much of deviance a model whose values other parts give misses the parts less than another does: runs, or
@@ -78,7 +80,7 @@ impl Problem {
     /// A fit's model along all windows, where it is defined.
     fn linear(&self, fit: &Fit) -> Result<Option<Along>> {
         let equations = fit.model.free_equations()?;
-        Ok(linearise(&equations, &fit.p, &self.records, &self.plan, &fit.starts))
+        Ok(linearise(&equations, &fit.p, &self.records, &self.plan, &fit.window_states))
     }
 
     /// For every part of the data its deviance by what the others say, to first order about the fit, so that no part is
@@ -93,7 +95,7 @@ impl Problem {
     /// What each part of the data says of the values: whole runs, or neighbouring windows cut loose from one another.
     fn shares(&self, fit: &Fit, linear: &Along, part: Part) -> Option<Vec<Share>> {
         let blocks = if part == Part::Blocks { loose(linear) } else { vec![] };
-        let folded: Vec<(usize, &Vec<Linear>)> = match part {
+        let folded: Vec<(usize, &Vec<LinearisedWindow>)> = match part {
             Part::Run => self.plan.iter().map(|s| s.record).zip(linear).collect(),
             Part::Blocks => blocks.iter().enumerate().map(|(i, b)| (i % FOLDS, b)).collect(),
         };
@@ -107,13 +109,13 @@ impl Problem {
 }
 
 /// Windows, segment by segment.
-pub(crate) type Along = Vec<Vec<Linear>>;
+pub(crate) type Along = Vec<Vec<LinearisedWindow>>;
 
 /// Blocks of neighbouring windows, cut loose from one another.
 pub(crate) fn loose(linear: &Along) -> Along {
     let windows: usize = linear.iter().map(Vec::len).sum();
     let size = (windows / (2 * FOLDS)).clamp(1, BLOCK);
-    let cut = |block: &[Linear]| {
+    let cut = |block: &[LinearisedWindow]| {
         let mut block = block.to_vec();
         if let Some(last) = block.last_mut() {
             last.back = None;
@@ -155,7 +157,7 @@ impl Share {
         Self { form: DMatrix::zeros(parameters + 1, parameters + 1), constant: 0.0 }
     }
 
-    fn add(&mut self, windows: &Vec<Linear>, v: &Variances, parameters: usize) -> Option<()> {
+    fn add(&mut self, windows: &Vec<LinearisedWindow>, v: &NoiseModel, parameters: usize) -> Option<()> {
         let windows = std::slice::from_ref(windows);
         let eliminated = eliminate(windows, v, parameters)?;
         self.form += eliminated.form;

@@ -22,14 +22,14 @@ pub(crate) const BY_CHANCE: f64 = 0.05;
 
 /// How the values of a fit scatter over parts of the data.
 #[derive(Clone, Debug)]
-pub(crate) struct Scatter {
+pub(crate) struct Jackknife {
     /// Standard deviations of the values.
     pub std: Vec<f64>,
     /// How many parts there are.
     pub(crate) parts: usize,
 }
 
-impl Scatter {
+impl Jackknife {
     /// The jackknife: σ² = (g − 1)/g·Σ (θ₍ᵢ₎ − θ̄)², θ₍ᵢ₎ the values without the i-th of g parts. `None` where the model
     /// cannot be fitted to a part.
     pub(crate) fn of(problem: &Problem, fit: &Fit) -> Result<Option<Self>> {
@@ -91,7 +91,7 @@ mod tests {
         let fit = fit_of(unicycle(&KNOWN));
         let [_, relaxing, creep] = &fit.model.effects[..] else { panic!() };
         for (parts, one) in [(3, 4.302_653), (5, 2.776_445)] {
-            let scatter = Scatter { std: vec![1.0, 0.02, 0.1, 0.01], parts };
+            let scatter = Jackknife { std: vec![1.0, 0.02, 0.1, 0.01], parts };
             let shows = scatter.shows(&fit, creep);
             assert!((shows - 5.0 / one).abs() < 1e-4, "{parts}: {shows}");
             // A length is not neutral at zero; the creep that it builds up is.

@@ -5,11 +5,11 @@
 //! many is taken and gains are larger). How often and how much is asked of data drawn from the model without the effect.
 
 use super::wald_test::tail;
-use crate::discrepancy::estimation::elimination::Variances;
 use crate::discrepancy::estimation::fit::{Effort, Fit};
+use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::initial_state::hidden_states;
-use crate::discrepancy::shooting::windows::Starts;
+use crate::discrepancy::shooting::windows::WindowStates;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::{Equations, Model};
@@ -25,14 +25,14 @@ const EFFORT: Effort = Effort { passes: 12, enough: 1e-4, variances: false };
 
 /// What chance gains look like.
 #[derive(Clone, Debug)]
-pub struct ChanceGains {
+pub struct NullDistribution {
     /// Number of parameters.
     k: usize,
     /// The gains, one for each draw.
     pub gains: Vec<f64>,
 }
 
-impl ChanceGains {
+impl NullDistribution {
     /// Share of draws with any gain at all: less than one at an edge.
     pub fn share(&self) -> f64 {
         self.some().count() as f64 / self.gains.len().max(1) as f64
@@ -71,7 +71,7 @@ impl Problem {
     ///
     /// # Errors
     /// When the model's formulas are malformed.
-    pub fn chance_gains(&self, without: &Fit, effect: &Applied, draws: usize, seed: u64) -> Result<ChanceGains> {
+    pub fn chance_gains(&self, without: &Fit, effect: &Applied, draws: usize, seed: u64) -> Result<NullDistribution> {
         let equations = without.model.equations(&[])?;
         let one = |i: usize| -> Result<Option<f64>> {
             let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -80,19 +80,19 @@ impl Problem {
             drawn.gain(&without.model, effect, &starts, &without.variances)
         };
         let gains: Vec<Option<f64>> = (0..draws).into_par_iter().map(one).collect::<Result<_>>()?;
-        Ok(ChanceGains { k: effect.values.len(), gains: gains.into_iter().flatten().collect() })
+        Ok(NullDistribution { k: effect.values.len(), gains: gains.into_iter().flatten().collect() })
     }
 
     /// By how much an effect improves the deviance, from wherever a fit of it may begin.
-    fn gain(&self, model: &Model, effect: &Applied, starts: &Starts, v: &Variances) -> Result<Option<f64>> {
+    fn gain(&self, model: &Model, effect: &Applied, starts: &WindowStates, v: &NoiseModel) -> Result<Option<f64>> {
         let Some(bare) = self.fit(model, starts, v, EFFORT)? else { return Ok(None) };
         let begin = effect.effect.starts().into_iter().chain([effect.values.clone()]);
         let mut best: f64 = 0.0;
         for values in begin {
             let with = model.clone().with_effect(Applied::new(&effect.effect, effect.trailer, values).freed());
-            let Some(fit) = self.fit(&with, &bare.starts, v, EFFORT)? else { continue };
+            let Some(fit) = self.fit(&with, &bare.window_states, v, EFFORT)? else { continue };
             // What the poses alone gain on the way is not the effect's.
-            let again = self.fit(model, &fit.starts, v, EFFORT)?;
+            let again = self.fit(model, &fit.window_states, v, EFFORT)?;
             let least = again.map_or(bare.deviance, |a| a.deviance.min(bare.deviance));
             best = best.max(least - fit.deviance);
         }
@@ -100,11 +100,11 @@ impl Problem {
     }
 
     /// Measurements as a model with its jumps and its noise would give them, and the poses at the windows' starts.
-    fn drawn(&self, equations: &Equations, fit: &Fit, random: &mut ChaCha8Rng) -> Option<(Problem, Starts)> {
+    fn drawn(&self, equations: &Equations, fit: &Fit, random: &mut ChaCha8Rng) -> Option<(Problem, WindowStates)> {
         let mut drawn = self.clone();
         let mut starts = Vec::with_capacity(self.plan.len());
         let v = &fit.variances;
-        for (segment, poses) in self.plan.iter().zip(&fit.starts) {
+        for (segment, poses) in self.plan.iter().zip(&fit.window_states) {
             let record = &mut drawn.records[segment.record];
             let signals = record.signals.clone();
             let mut stepper = Stepper::new(equations, &signals, &[]);
@@ -118,7 +118,7 @@ impl Problem {
                     let y = stepper.outputs(&arc.z);
                     for (c, channel) in record.channels().into_iter().enumerate() {
                         record.columns[c][i] =
-                            y[record.output_of(c)] + v.noise[channel as usize].sqrt() * normal(random);
+                            y[record.output_of(c)] + v.measurement[channel as usize].sqrt() * normal(random);
                     }
                     if i + 1 < record.time.len() {
                         stepper.advance(&mut arc, record.time[i], record.time[i + 1]);
@@ -136,8 +136,8 @@ impl Problem {
 }
 
 /// Moves a pose by what no effect explains: along the body, across it, in yaw, and the trailers'.
-fn jump(pose: &mut [f64], v: &Variances, duration: f64, random: &mut ChaCha8Rng) {
-    let by: Vec<f64> = (0..pose.len()).map(|c| (v.jump[c.min(3)] * duration).sqrt() * normal(random)).collect();
+fn jump(pose: &mut [f64], v: &NoiseModel, duration: f64, random: &mut ChaCha8Rng) {
+    let by: Vec<f64> = (0..pose.len()).map(|c| (v.process[c.min(3)] * duration).sqrt() * normal(random)).collect();
     let (sin, cos) = pose[2].sin_cos();
     pose[0] += cos * by[0] - sin * by[1];
     pose[1] += sin * by[0] + cos * by[1];
@@ -155,16 +155,16 @@ mod tests {
     /// Half of the draws gain nothing, the others as χ²₂ with a mean of 4.
     #[test]
     fn beyond_the_largest_gain_chi_squared_goes_on() {
-        let chance = ChanceGains { k: 2, gains: vec![0.0, 0.0, 0.0, 2.0, 6.0, 4.0] };
+        let chance = NullDistribution { k: 2, gains: vec![0.0, 0.0, 0.0, 2.0, 6.0, 4.0] };
         assert_eq!((chance.share(), chance.scale()), (0.5, 2.0));
         assert_eq!((chance.p_value(5.0), chance.p_value(3.0)), (2.0 / 7.0, 3.0 / 7.0));
         // χ²₂ exceeds x with probability exp(-x/2).
         assert!((chance.p_value(20.0) - 0.5 * (-5.0_f64).exp()).abs() < 1e-12);
         // None of the draws gains: that is no proof that none ever does.
-        let none = ChanceGains { k: 2, gains: vec![0.0; 9] }.p_value(6.0);
+        let none = NullDistribution { k: 2, gains: vec![0.0; 9] }.p_value(6.0);
         assert!((none - 0.1 * (-3.0_f64).exp()).abs() < 1e-12, "{none}");
         // What no draw has reached is rarer than what one has.
-        assert_eq!(ChanceGains { k: 2, gains: vec![6.0; 6] }.p_value(6.1), 1.0 / 7.0);
+        assert_eq!(NullDistribution { k: 2, gains: vec![6.0; 6] }.p_value(6.1), 1.0 / 7.0);
     }
 
     /// Forward, to the left and in yaw, each by its own variance, whatever the heading.
@@ -172,7 +172,7 @@ mod tests {
     fn a_jump_is_along_the_axes_of_the_body() {
         let jumps = |variances: [f64; 4], heading: f64| -> Vec<[f64; 4]> {
             let mut random = ChaCha8Rng::seed_from_u64(1);
-            let v = Variances { noise: [0.0; 3], jump: variances };
+            let v = NoiseModel { measurement: [0.0; 3], process: variances };
             let mut draw = || {
                 let mut pose = [3.0, -2.0, heading, heading];
                 jump(&mut pose, &v, 0.5, &mut random);

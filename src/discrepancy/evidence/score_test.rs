@@ -1,6 +1,6 @@
 //! Candidates proposed: what each effect would gain, to first order, from one linearisation of all.
 
-use crate::discrepancy::estimation::elimination::{Chain, Eliminated};
+use crate::discrepancy::estimation::elimination::{InformationFilter, ReducedForm};
 use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::shooting::window_integration::each_window;
@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 /// A candidate with the deviance it promises.
 #[derive(Clone, Debug)]
-pub struct Promise {
+pub struct ScoreTest {
     /// The effect where a fit would begin, its values corrected to first order.
     pub applied: Applied,
     /// Standard deviations its values would have.
@@ -24,11 +24,11 @@ pub struct Promise {
 
 /// What a model's candidates promise, one at a time and two together.
 #[derive(Clone, Debug, Default)]
-pub struct Promises {
+pub struct ScoreTests {
     /// Each candidate alone, in the order of the library.
-    pub single: Vec<Promise>,
+    pub single: Vec<ScoreTest>,
     /// Two candidates together, the most promising first; of those that are weighed by one linearisation.
-    pub pairs: Vec<[Promise; 2]>,
+    pub pairs: Vec<[ScoreTest; 2]>,
 }
 
 /// How many pairs are looked at further.
@@ -45,7 +45,7 @@ fn is_regular(effect: &Effect, model: &Model, trailer: Option<usize>) -> bool {
 ///
 /// Effects that vanish at zero are weighed together by one pass over the data; effects with states, and those a
 /// local search reaches from several starts only, by one pass a start.
-pub fn promises(problem: &Problem, base: &Fit, model: &Model, open: &[(&Effect, Option<usize>)]) -> Result<Promises> {
+pub fn promises(problem: &Problem, base: &Fit, model: &Model, open: &[(&Effect, Option<usize>)]) -> Result<ScoreTests> {
     let (regular, others): (Vec<_>, Vec<_>) = open.iter().partition(|(e, t)| is_regular(e, model, *t));
     let applied = |(e, t): &(&Effect, Option<usize>)| {
         e.starts().into_iter().map(|s| Applied::new(e, *t, s).freed()).collect::<Vec<_>>()
@@ -61,8 +61,8 @@ pub fn promises(problem: &Problem, base: &Fit, model: &Model, open: &[(&Effect, 
         .map(|a| vec![a])
         .collect();
     let groups: Vec<Vec<Applied>> = std::iter::once(together).filter(|g| !g.is_empty()).chain(alone).collect();
-    let found: Vec<Promises> = groups.par_iter().map(|g| promise(problem, base, model, g)).collect::<Result<_>>()?;
-    let mut all = Promises::default();
+    let found: Vec<ScoreTests> = groups.par_iter().map(|g| promise(problem, base, model, g)).collect::<Result<_>>()?;
+    let mut all = ScoreTests::default();
     for group in found {
         all.single.extend(group.single);
         all.pairs.extend(group.pairs);
@@ -72,8 +72,8 @@ pub fn promises(problem: &Problem, base: &Fit, model: &Model, open: &[(&Effect, 
 }
 
 /// Of several starts of one effect the most promising stays.
-fn keep_best_start(found: &mut Vec<Promise>) {
-    let mut kept: Vec<Promise> = Vec::with_capacity(found.len());
+fn keep_best_start(found: &mut Vec<ScoreTest>) {
+    let mut kept: Vec<ScoreTest> = Vec::with_capacity(found.len());
     for promise in found.drain(..) {
         match kept.iter_mut().find(|k| k.applied.same_as(&promise.applied)) {
             Some(k) if promise.deviance < k.deviance => *k = promise,
@@ -84,17 +84,17 @@ fn keep_best_start(found: &mut Vec<Promise>) {
     *found = kept;
 }
 
-fn promise(problem: &Problem, base: &Fit, model: &Model, group: &[Applied]) -> Result<Promises> {
+fn promise(problem: &Problem, base: &Fit, model: &Model, group: &[Applied]) -> Result<ScoreTests> {
     let joint = group.iter().fold(model.clone(), |m, a| m.with_effect(a.clone()));
     let free = joint.free_parameters();
     let equations = joint.equations(&free)?;
-    let Some(e) = joined(problem, base, &equations, &joint.free_values()) else { return Ok(Promises::default()) };
+    let Some(e) = joined(problem, base, &equations, &joint.free_values()) else { return Ok(ScoreTests::default()) };
     let constant = e.log_determinant + problem.noise_determinant(&base.variances);
     let position = |s: &crate::formula::Symbol| free.iter().position(|f| f == s);
     let indices = |a: &Applied| a.parameters().iter().filter_map(position).collect::<Vec<usize>>();
     let kept: Vec<usize> =
         model.free_effects().filter(|e| !group.iter().any(|g| g.same_as(e))).flat_map(indices).collect();
-    let weigh = |together: &[&Applied]| -> Option<Vec<Promise>> {
+    let weigh = |together: &[&Applied]| -> Option<Vec<ScoreTest>> {
         let own: Vec<Vec<usize>> = together.iter().map(|a| indices(a)).collect();
         let all: Vec<usize> = kept.iter().chain(own.iter().flatten()).copied().collect();
         let (gain, step, spread) = restricted_step(&e, &all)?;
@@ -104,31 +104,32 @@ fn promise(problem: &Problem, base: &Fit, model: &Model, group: &[Applied]) -> R
             let part = at..at + own.len();
             at += own.len();
             applied.values.iter_mut().zip(&step.as_slice()[part.clone()]).for_each(|(v, s)| *v = moved(*v, *s, a));
-            Promise { applied, std: spread.as_slice()[part].to_vec(), deviance: e.cost() - gain + constant }
+            ScoreTest { applied, std: spread.as_slice()[part].to_vec(), deviance: e.cost() - gain + constant }
         });
         Some(each.collect())
     };
-    let single: Vec<Promise> = group.iter().filter_map(|a| weigh(&[a])).flatten().collect();
+    let single: Vec<ScoreTest> = group.iter().filter_map(|a| weigh(&[a])).flatten().collect();
     let two = |i: usize| group[i + 1..].iter().map(move |b| [&group[i], b]);
-    let mut pairs: Vec<[Promise; 2]> = match group.len() <= MOST_PAIRED {
+    let mut pairs: Vec<[ScoreTest; 2]> = match group.len() <= MOST_PAIRED {
         true => (0..group.len()).flat_map(two).filter_map(|ab| weigh(&ab)?.try_into().ok()).collect(),
         false => vec![],
     };
     pairs.sort_by(|a, b| a[0].deviance.total_cmp(&b[0].deviance));
     pairs.truncate(PAIRS);
-    Ok(Promises { single, pairs })
+    Ok(ScoreTests { single, pairs })
 }
 
 /// A model along all windows, which are eliminated as they come: of a large library none could be kept.
-fn joined(problem: &Problem, base: &Fit, equations: &Equations, p: &[f64]) -> Option<Eliminated> {
+fn joined(problem: &Problem, base: &Fit, equations: &Equations, p: &[f64]) -> Option<ReducedForm> {
     let along = |(segment, starts): (&Segment, &Vec<Vec<f64>>)| {
-        let mut chain = Chain::new(&base.variances, p.len(), false);
+        let mut chain = InformationFilter::new(&base.variances, p.len(), false);
         let record = &problem.records[segment.record];
         each_window(equations, p, record, segment, starts, |window| chain.push(&window))?;
         Some(chain)
     };
-    let chains: Vec<Chain> = problem.plan.par_iter().zip(&base.starts).map(along).collect::<Option<_>>()?;
-    let mut total = Eliminated::nothing(p.len());
+    let chains: Vec<InformationFilter> =
+        problem.plan.par_iter().zip(&base.window_states).map(along).collect::<Option<_>>()?;
+    let mut total = ReducedForm::nothing(p.len());
     chains.into_iter().try_for_each(|c| total.add(c))?;
     Some(total)
 }
@@ -143,7 +144,7 @@ fn moved(value: f64, step: f64, a: &Applied) -> f64 {
 }
 
 /// What the quadratic form gains when only some parameters move, how they move, and how well they are known.
-fn restricted_step(e: &Eliminated, indices: &[usize]) -> Option<(f64, DVector<f64>, DVector<f64>)> {
+fn restricted_step(e: &ReducedForm, indices: &[usize]) -> Option<(f64, DVector<f64>, DVector<f64>)> {
     let (information, gradient) = e.normal();
     let k = indices.len();
     let mut h = DMatrix::from_fn(k, k, |i, j| information[(indices[i], indices[j])]);
@@ -161,15 +162,15 @@ pub fn settled(
     problem: &Problem,
     base: &Fit,
     model: &Model,
-    promises: &[&Promise],
+    promises: &[&ScoreTest],
     effort: Effort,
 ) -> Result<Option<Fit>> {
     let begin = promises.iter().fold(model.clone(), |m, p| m.with_effect(tamed(p)));
-    problem.fit(&begin, &base.starts, &base.variances, effort)
+    problem.fit(&begin, &base.window_states, &base.variances, effort)
 }
 
 /// The effect as promised, or where its fit would begin when that lies outside its range.
-fn tamed(promise: &Promise) -> Applied {
+fn tamed(promise: &ScoreTest) -> Applied {
     let mut applied = promise.applied.clone();
     if !applied.is_in_range() {
         applied.values = promise.applied.effect.starts().swap_remove(0);

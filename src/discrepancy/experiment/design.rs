@@ -5,17 +5,18 @@
 
 use super::envelope::Envelope;
 use super::manoeuvre::{LENGTH, Manoeuvre, library};
-use crate::discrepancy::diagnosis::equivalents::Relative;
+use crate::discrepancy::diagnosis::equivalents::EquivalentEffect;
 use crate::discrepancy::diagnosis::verdict::{Outcome, missed};
-use crate::discrepancy::estimation::elimination::{Variances, eliminate};
+use crate::discrepancy::estimation::elimination::eliminate;
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
+use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::estimation::problem::{Problem, starts};
 use crate::discrepancy::record::record::Record;
 use crate::discrepancy::report::{NextExperiment, Verdict};
-use crate::discrepancy::selection::choice::Choice;
-use crate::discrepancy::selection::search::without;
-use crate::discrepancy::selection::select::Scored;
+use crate::discrepancy::selection::choice::Selected;
+use crate::discrepancy::selection::search::without_effect;
+use crate::discrepancy::selection::select::Candidate;
 use crate::discrepancy::shooting::window_integration::linearise;
 use crate::discrepancy::shooting::windows::plan;
 use crate::effects::Applied;
@@ -38,13 +39,13 @@ pub(crate) const ALIKE: f64 = 0.9;
 const MOST_RIVALS: usize = 4;
 
 /// A model, and what the runs at hand say of its free parameters.
-struct Known {
+struct PriorInformation {
     model: Model,
     p: DVector<f64>,
     information: DMatrix<f64>,
 }
 
-impl Known {
+impl PriorInformation {
     fn of(fit: &Fit) -> Self {
         let p = DVector::from_column_slice(&fit.p);
         Self { model: fit.model.clone(), p, information: fit.information.clone() }
@@ -67,10 +68,10 @@ impl Known {
 }
 
 /// What is needed to think a manoeuvre through.
-pub(crate) struct Thought<'a> {
+pub(crate) struct PredictedExperiment<'a> {
     pub(crate) envelope: Envelope,
     like: &'a Record,
-    variances: Variances,
+    variances: NoiseModel,
     sample_size: f64,
 }
 
@@ -81,14 +82,14 @@ pub(crate) struct Thought<'a> {
 /// When a model's formulas are malformed.
 pub fn next(
     problem: &Problem,
-    choice: &Choice,
-    relatives: &[Vec<Relative>],
+    choice: &Selected,
+    relatives: &[Vec<EquivalentEffect>],
     outcome: &Outcome,
 ) -> Result<Option<NextExperiment>> {
     let own = match outcome.verdict {
         Verdict::MissingEffect | Verdict::UnnamedEffect => between(problem, choice, relatives)?,
         Verdict::NotIdentifiable => {
-            missed(&choice.candidates, choice.before.dependence()).and_then(|c| revealing(problem, choice, c))
+            missed(&choice.candidates, choice.before.variance_inflation()).and_then(|c| revealing(problem, choice, c))
         }
         _ => None,
     };
@@ -99,26 +100,33 @@ pub fn next(
 ///
 /// # Errors
 /// When a model's formulas are malformed.
-fn between(problem: &Problem, choice: &Choice, relatives: &[Vec<Relative>]) -> Result<Option<NextExperiment>> {
+fn between(
+    problem: &Problem,
+    choice: &Selected,
+    relatives: &[Vec<EquivalentEffect>],
+) -> Result<Option<NextExperiment>> {
     let open = choice.chosen.iter().zip(relatives);
     let open = open.map(|(c, r)| (c, most_different(r)));
     let Some((chosen, rivals)) = open.into_iter().find(|(_, r)| !r.is_empty()) else { return Ok(None) };
     let after = &choice.after;
-    let fitted = |r: &&Relative| {
-        let model = without(&after.model, &chosen.applied, &choice.before.model).with_effect(r.applied.clone().freed());
-        problem.fit(&model, &after.starts, &after.variances, Effort::SCREENING)
+    let fitted = |r: &&EquivalentEffect| {
+        let model =
+            without_effect(&after.model, &chosen.applied, &choice.before.model).with_effect(r.applied.clone().freed());
+        problem.fit(&model, &after.window_states, &after.variances, Effort::SCREENING)
     };
     let fits: Vec<Fit> =
         rivals.iter().take(MOST_RIVALS).map(fitted).collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
-    let Some(thought) = Thought::of(problem, after) else { return Ok(None) };
-    let truth = Known::of(after);
-    let others: Vec<Known> = fits.iter().map(Known::of).collect();
+    let Some(thought) = PredictedExperiment::of(problem, after) else { return Ok(None) };
+    let truth = PriorInformation::of(after);
+    let others: Vec<PriorInformation> = fits.iter().map(PriorInformation::of).collect();
     if others.is_empty() {
         return Ok(None);
     }
     // Whichever is true, the other must fall short.
     let worth = |m: &Manoeuvre| {
-        let both = others.iter().flat_map(|o| [thought.misfit(m, &truth, o), thought.misfit(m, o, &truth)]);
+        let both = others
+            .iter()
+            .flat_map(|o| [thought.expected_delta_bic(m, &truth, o), thought.expected_delta_bic(m, o, &truth)]);
         both.collect::<Option<Vec<_>>>().map(|all| all.into_iter().fold(f64::INFINITY, f64::min))
     };
     let names: Vec<String> = rivals.iter().take(MOST_RIVALS).map(|r| r.applied.label()).collect();
@@ -130,16 +138,17 @@ fn between(problem: &Problem, choice: &Choice, relatives: &[Vec<Relative>]) -> R
 ///
 /// # Errors
 /// When a model's formulas are malformed.
-fn revealing(problem: &Problem, choice: &Choice, missed: &Scored) -> Option<NextExperiment> {
+fn revealing(problem: &Problem, choice: &Selected, missed: &Candidate) -> Option<NextExperiment> {
     let before = &choice.after;
-    let thought = Thought::of(problem, before)?;
-    let of = Known::of(before);
+    let thought = PredictedExperiment::of(problem, before)?;
+    let of = PriorInformation::of(before);
     let effect = &missed.applied.effect;
     let sizes: Vec<f64> = effect.parameters.values().map(|p| p.size).collect();
     let applied = Applied::new(effect, missed.applied.trailer, sizes);
     let label = applied.label();
-    let truth = Known { model: before.model.clone().with_effect(applied.freed()), ..Known::of(before) };
-    let (m, worth) = thought.best(|m| thought.misfit(m, &truth, &of))?;
+    let truth =
+        PriorInformation { model: before.model.clone().with_effect(applied.freed()), ..PriorInformation::of(before) };
+    let (m, worth) = thought.best(|m| thought.expected_delta_bic(m, &truth, &of))?;
     let why = format!(
         "a plausible {label} would have been missed; this is expected to show it with a ΔBIC of about {}",
         significant(worth, 2)
@@ -169,8 +178,8 @@ fn advice(sentence: String, worth: f64, pair: &str) -> NextExperiment {
 
 /// The relatives that a run is to tell apart: those that agree to first order only where there are no others, for they
 /// would have a say in every choice and are told apart by precision more than by a manoeuvre.
-fn most_different(relatives: &[Relative]) -> Vec<&Relative> {
-    let by_data: Vec<&Relative> = relatives.iter().filter(|r| r.why == "data").collect();
+fn most_different(relatives: &[EquivalentEffect]) -> Vec<&EquivalentEffect> {
+    let by_data: Vec<&EquivalentEffect> = relatives.iter().filter(|r| r.why == "data").collect();
     if by_data.is_empty() { relatives.iter().filter(|r| r.differs()).collect() } else { by_data }
 }
 
@@ -179,7 +188,7 @@ fn nearly(worth: f64, most: f64) -> bool {
     worth >= most - (1.0 - ALIKE) * most.abs()
 }
 
-impl<'a> Thought<'a> {
+impl<'a> PredictedExperiment<'a> {
     pub(crate) fn of(problem: &'a Problem, fit: &Fit) -> Option<Self> {
         let like = problem.records.first()?;
         let envelope = Envelope::of(&fit.model, &problem.records)?;
@@ -188,8 +197,8 @@ impl<'a> Thought<'a> {
     }
 
     /// Variances at the rows of a manoeuvre that says as much as one with the rows of the runs.
-    pub(crate) fn scaled(&self, mut v: Variances) -> Variances {
-        v.noise.iter_mut().for_each(|v| *v *= (self.like.step() * RATE).min(1e3));
+    pub(crate) fn scaled(&self, mut v: NoiseModel) -> NoiseModel {
+        v.measurement.iter_mut().for_each(|v| *v *= (self.like.step() * RATE).min(1e3));
         v
     }
 
@@ -202,7 +211,7 @@ impl<'a> Thought<'a> {
     }
 
     /// By how much the BIC of `other` is expected to exceed that of `truth` after a manoeuvre.
-    fn misfit(&self, m: &Manoeuvre, truth: &Known, other: &Known) -> Option<f64> {
+    fn expected_delta_bic(&self, m: &Manoeuvre, truth: &PriorInformation, other: &PriorInformation) -> Option<f64> {
         let record = self.driven(m, &truth.model)?;
         let equations = other.model.free_equations().ok()?;
         let records = [record];
@@ -283,7 +292,7 @@ mod tests {
     /// A value with a sign goes to a fifth or to five times itself at most, another as far as the step leads.
     #[test]
     fn a_positive_value_stays_positive() {
-        let known = Known::of(&fit_of(unicycle(&KNOWN)));
+        let known = PriorInformation::of(&fit_of(unicycle(&KNOWN)));
         assert_eq!(known.p.as_slice(), [0.3, 0.1, 0.8, -0.05]);
         for (step, goes) in [
             (0.05, [0.05, 0.05, 0.05, 0.05]),
@@ -313,24 +322,27 @@ mod tests {
     fn what_is_known_and_what_a_manoeuvre_shows_share_the_misfit() {
         let known = |e: f64, information: f64| {
             let model = unicycle(&[("traverse-creep", &[e])]);
-            Known { information: DMatrix::from_element(1, 1, information), ..Known::of(&fit_of(model)) }
+            PriorInformation {
+                information: DMatrix::from_element(1, 1, information),
+                ..PriorInformation::of(&fit_of(model))
+            }
         };
         let fixed = |e: f64| {
             let creep = Applied { values: vec![e], ..applied("traverse-creep") };
-            Known::of(&fit_of(unicycle(&[]).with_effect(creep)))
+            PriorInformation::of(&fit_of(unicycle(&[]).with_effect(creep)))
         };
         let truth = known(-0.05, 1.0);
         let equations = truth.model.free_equations().unwrap();
         let time = (0..600).map(|i| 0.05 * f64::from(i)).collect();
         let records = [logged((&equations, &[-0.05]), time, WEAVING, &[0.0; 3], 1e-3)];
-        let thought = Thought {
+        let thought = PredictedExperiment {
             envelope: Envelope::of(&truth.model, &records).unwrap(),
             like: &records[0],
-            variances: Variances { noise: [1e-6; 3], jump: [1e-9; 4] },
+            variances: NoiseModel { measurement: [1e-6; 3], process: [1e-9; 4] },
             sample_size: 1000.0,
         };
         let m = library(&thought.envelope).next().unwrap();
-        let of = |other: &Known| thought.misfit(m, &truth, other).unwrap();
+        let of = |other: &PriorInformation| thought.expected_delta_bic(m, &truth, other).unwrap();
         // A model without the creep as a free value is charged a parameter less.
         let whole = of(&fixed(-0.04)) + 1000.0_f64.ln();
         assert!(whole > 30.0 && (of(&fixed(-0.05)) + 1000.0_f64.ln()).abs() < 1e-3, "{whole}");

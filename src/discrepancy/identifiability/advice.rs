@@ -1,12 +1,12 @@
 //! The manoeuvre that would mend most of what the runs leave open.
 
 use super::confusable_pairs::{separating, told_apart};
-use super::detection_power::{Bar, Candidate, Shown, gain};
-use super::expected_gain::Ground;
+use super::detection_power::{Candidate, DetectionThreshold, ExpectedDetection, gain};
+use super::expected_gain::Background;
 use super::fisher_information::Driven;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::{Problem, starts};
-use crate::discrepancy::experiment::design::{ALIKE, Thought};
+use crate::discrepancy::experiment::design::{ALIKE, PredictedExperiment};
 use crate::discrepancy::experiment::manoeuvre::{Manoeuvre, library};
 use crate::discrepancy::rendering::summary::listed_to;
 use crate::discrepancy::report::NextExperiment;
@@ -22,14 +22,14 @@ const NAMED: usize = 4;
 /// What is to be mended.
 pub(crate) struct Open<'a> {
     pub all: &'a [Candidate],
-    pub shown: &'a [Shown],
-    pub ground: Ground,
+    pub shown: &'a [ExpectedDetection],
+    pub ground: Background,
     /// Candidates that would be missed.
     pub missed: Vec<usize>,
     /// Pairs that would not be told apart, though they differ.
     /// And by what they are told apart now.
     pub pairs: Vec<([usize; 2], f64)>,
-    pub bar: Bar,
+    pub bar: DetectionThreshold,
 }
 
 /// How far a manoeuvre mends each thing, one for what is mended.
@@ -51,7 +51,7 @@ impl Open<'_> {
         if self.missed.is_empty() && self.pairs.is_empty() {
             return Ok(None);
         }
-        let Some(thought) = Thought::of(problem, fit) else { return Ok(None) };
+        let Some(thought) = PredictedExperiment::of(problem, fit) else { return Ok(None) };
         let mend = |m: &'static Manoeuvre| -> Result<Option<Mended>> {
             let Some(driven) = self.driven(&thought, fit, m)? else { return Ok(None) };
             Ok(Some(Mended { manoeuvre: m, shares: self.shares(&driven, &thought, fit)? }))
@@ -64,7 +64,7 @@ impl Open<'_> {
         Ok(best.map(|best| self.said(best, &best.manoeuvre.sentence(&thought.envelope))))
     }
 
-    fn driven(&self, thought: &Thought, fit: &Fit, m: &Manoeuvre) -> Result<Option<Driven>> {
+    fn driven(&self, thought: &PredictedExperiment, fit: &Fit, m: &Manoeuvre) -> Result<Option<Driven>> {
         let Some(record) = thought.driven(m, &fit.model) else { return Ok(None) };
         let records = vec![record];
         let plan = plan(&records);
@@ -73,12 +73,12 @@ impl Open<'_> {
     }
 
     /// By how much the runs and the manoeuvre together mend each thing, at most one.
-    fn shares(&self, driven: &Driven, thought: &Thought, fit: &Fit) -> Result<Vec<f64>> {
-        let ground = Ground { calm: thought.scaled(self.ground.calm), ..self.ground };
+    fn shares(&self, driven: &Driven, thought: &PredictedExperiment, fit: &Fit) -> Result<Vec<f64>> {
+        let ground = Background { calm: thought.scaled(self.ground.calm), ..self.ground };
         let seen = |c: &usize| -> Result<f64> {
             let marks = driven.marks(&fit.model, &[&self.all[*c].applied])?;
             let new = marks.map_or(0.0, |m| gain(&m, &self.all[*c], &ground));
-            let both = Shown { gain: self.shown[*c].gain + new, smallest: vec![] };
+            let both = ExpectedDetection { gain: self.shown[*c].gain + new, smallest: vec![] };
             Ok(both.strength(self.all, *c, &self.bar).min(1.0))
         };
         let told = |([a, b], before): &([usize; 2], f64)| -> Result<f64> {

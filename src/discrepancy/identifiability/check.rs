@@ -4,8 +4,8 @@ use super::advice::Open;
 use super::check_report::{Check, Health, Prospect, Seen, Standing};
 use super::confusable_pairs::{told_apart, unseparated};
 use super::data_quality::health;
-use super::detection_power::{Bar, Candidate, Shown, Table, candidates, groups};
-use super::expected_gain::Ground;
+use super::detection_power::{Candidate, DetectionThreshold, ExpectedDetection, Table, candidates, groups};
+use super::expected_gain::Background;
 use super::fisher_information::Driven;
 use crate::discrepancy::diagnosis::equivalents::measured;
 use crate::discrepancy::diagnosis::verdict;
@@ -74,18 +74,22 @@ pub fn check(of: &Checked, progress: &dyn Fn(&str)) -> Result<Check> {
     let starts = problem.starts(&model)?;
     let fit = problem.fit(&model, &starts, &problem.variances, Effort::FULL)?;
     let Some(fit) = fit else { return Ok(without_fit(data, verdict::undefined_motion())) };
-    let data = data.with_fit(&problem.variances.noise, &fit, problem.records[0].has_heading);
+    let data = data.with_fit(&problem.variances.measurement, &fit, problem.records[0].has_heading);
     progress("weighing what each effect would leave in these runs");
     let all = candidates(&model, of.library);
     let calm = (0..4).fold(fit.variances, without_jump);
     let variances = [calm, fit.variances];
-    let dependence = [fit.colour, fit.dependence()];
-    let bar = Bar { sample_size: fit.sample_size, candidates: model.applicable(of.library).len().max(1) as f64 };
-    let driven = Driven { records: problem.records.clone(), plan: problem.plan.clone(), starts: fit.starts.clone() };
-    let table = Table::of(&model, &driven, &all, &groups(&all), &variances, dependence)?;
-    let ground = Ground { calm, free: problem.free, alike: fit.colour };
-    let shown = |c: &Candidate| Shown::of(&model, &driven, c, &bar, &ground);
-    let shown: Vec<Shown> = all.par_iter().map(shown).collect::<Result<_>>()?;
+    let variance_inflation = [fit.noise_correlation_time, fit.variance_inflation()];
+    let bar = DetectionThreshold {
+        sample_size: fit.sample_size,
+        candidates: model.applicable(of.library).len().max(1) as f64,
+    };
+    let driven =
+        Driven { records: problem.records.clone(), plan: problem.plan.clone(), starts: fit.window_states.clone() };
+    let table = Table::of(&model, &driven, &all, &groups(&all), &variances, variance_inflation)?;
+    let ground = Background { calm, free: problem.free, alike: fit.noise_correlation_time };
+    let shown = |c: &Candidate| ExpectedDetection::of(&model, &driven, c, &bar, &ground);
+    let shown: Vec<ExpectedDetection> = all.par_iter().map(shown).collect::<Result<_>>()?;
     // Of an effect that is looked at in several directions the one that shows least.
     let weakest = |i: &usize| {
         let same = (0..all.len()).filter(|j| all[*j].applied.same_as(&all[*i].applied));

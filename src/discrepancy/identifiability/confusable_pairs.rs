@@ -2,7 +2,7 @@
 
 use super::check_report::Pair;
 use super::detection_power::{Candidate, POWER, Table};
-use super::expected_gain::Ground;
+use super::expected_gain::Background;
 use super::fisher_information::Driven;
 use crate::discrepancy::selection::select::CLOSE;
 use crate::effects::Applied;
@@ -37,7 +37,7 @@ pub(crate) fn told_apart(
     all: &[Candidate],
     a: usize,
     b: usize,
-    ground: &Ground,
+    ground: &Background,
 ) -> Result<f64> {
     let Some(marks) = driven.marks(model, &[&all[a].applied, &all[b].applied])? else { return Ok(0.0) };
     let gain = |truth: usize, sizes: &[Vec<f64>]| {

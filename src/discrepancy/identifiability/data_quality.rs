@@ -48,10 +48,10 @@ impl Health {
     pub(crate) fn with_fit(mut self, noise: &[f64; 3], fit: &Fit, has_heading: bool) -> Self {
         self.position_noise = Some(noise[0].sqrt());
         self.heading_noise = has_heading.then(|| noise[1].sqrt());
-        self.rows_alike = Some(fit.colour);
+        self.rows_alike = Some(fit.noise_correlation_time);
         // What the model misses within a window looks like a slow noise.
-        if fit.colour > COLOURED && fit.unexplained.iter().all(|d| *d < NOTICEABLE) {
-            let n = significant(fit.colour, 2);
+        if fit.noise_correlation_time > COLOURED && fit.unexplained.iter().all(|d| *d < NOTICEABLE) {
+            let n = significant(fit.noise_correlation_time, 2);
             self.say("coloured-noise", format!("the pose's noise is alike over {n} rows: a filtered or smoothed pose"));
         }
         let places = ["along the vehicle", "across the vehicle", "in yaw", "of trailers"];

@@ -1,9 +1,9 @@
 //! What is to be expected of each effect.
 
 use super::check_report::{Parameter, Prospect, Seen};
-use super::expected_gain::{Ground, Marks};
+use super::expected_gain::{Background, EffectSignature};
 use super::fisher_information::{Driven, Information};
-use crate::discrepancy::estimation::elimination::Variances;
+use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::Model;
@@ -14,14 +14,14 @@ pub(crate) const POWER: f64 = 1.644_853_626_951_472_2;
 
 /// The bar an effect must pass, as `discover` sets it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Bar {
+pub(crate) struct DetectionThreshold {
     /// Effective number of measured values.
     pub sample_size: f64,
     /// Candidates in the library.
     pub candidates: f64,
 }
 
-impl Bar {
+impl DetectionThreshold {
     /// √λ that an effect of k parameters needs to pass with 95 %.
     pub fn needed(&self, k: usize) -> f64 {
         (k as f64 * self.sample_size.max(1.0).ln() + 2.0 * self.candidates.max(1.0).ln()).sqrt() + POWER
@@ -93,14 +93,15 @@ impl Table {
         driven: &Driven,
         all: &[Candidate],
         wanted: &[Vec<usize>],
-        variances: &[Variances; 2],
-        dependence: [f64; 2],
+        variances: &[NoiseModel; 2],
+        variance_inflation: [f64; 2],
     ) -> Result<Self> {
         let group = |members: &Vec<usize>| -> Result<Option<Group>> {
             let effects: Vec<Applied> = members.iter().map(|i| all[*i].applied.clone()).collect();
             let found = driven.information(model, &effects, variances)?;
             let found = found.and_then(|f| <[Information; 2]>::try_from(f).ok());
-            let alike = |[calm, now]: [Information; 2]| [calm.over(dependence[0]), now.over(dependence[1])];
+            let alike =
+                |[calm, now]: [Information; 2]| [calm.over(variance_inflation[0]), now.over(variance_inflation[1])];
             Ok(found.map(|f| Group { members: members.clone(), information: alike(f) }))
         };
         let groups: Vec<Option<Group>> = wanted.par_iter().map(group).collect::<Result<_>>()?;
@@ -116,7 +117,7 @@ impl Table {
     }
 
     /// √λ of a candidate at its plausible size over what it needs, beside the motion that is unexplained now.
-    fn strength(&self, all: &[Candidate], candidate: usize, bar: &Bar) -> f64 {
+    fn strength(&self, all: &[Candidate], candidate: usize, bar: &DetectionThreshold) -> f64 {
         let Some((group, at)) = self.with(&[candidate]) else { return 0.0 };
         let misfit = |s: &Vec<f64>| group.information[1].misfit(at[0], s).max(0.0).sqrt();
         let least = all[candidate].sizes.iter().map(misfit).fold(f64::INFINITY, f64::min);
@@ -124,7 +125,13 @@ impl Table {
     }
 
     /// What is to be expected of a candidate.
-    pub fn prospect(&self, all: &[Candidate], candidate: usize, shown: &Shown, bar: &Bar) -> Prospect {
+    pub fn prospect(
+        &self,
+        all: &[Candidate],
+        candidate: usize,
+        shown: &ExpectedDetection,
+        bar: &DetectionThreshold,
+    ) -> Prospect {
         let Candidate { applied, .. } = &all[candidate];
         let effect = &applied.effect;
         let nothing = vec![None; applied.values.len()];
@@ -161,16 +168,22 @@ impl Table {
 
 /// What naming a candidate would gain against noise alone.
 #[derive(Clone, Debug)]
-pub(crate) struct Shown {
+pub(crate) struct ExpectedDetection {
     /// Expected gain at its plausible size, the least of its sizes.
     pub gain: f64,
     /// The smallest value of each parameter that would be seen.
     pub smallest: Vec<Option<f64>>,
 }
 
-impl Shown {
+impl ExpectedDetection {
     /// What a candidate would gain in records.
-    pub fn of(model: &Model, driven: &Driven, c: &Candidate, bar: &Bar, ground: &Ground) -> Result<Self> {
+    pub fn of(
+        model: &Model,
+        driven: &Driven,
+        c: &Candidate,
+        bar: &DetectionThreshold,
+        ground: &Background,
+    ) -> Result<Self> {
         let k = c.applied.values.len();
         let Some(marks) = driven.marks(model, &[&c.applied])? else {
             return Ok(Self { gain: 0.0, smallest: vec![None; k] });
@@ -186,13 +199,13 @@ impl Shown {
     }
 
     /// √gain at the plausible size over what it needs.
-    pub fn strength(&self, all: &[Candidate], candidate: usize, bar: &Bar) -> f64 {
+    pub fn strength(&self, all: &[Candidate], candidate: usize, bar: &DetectionThreshold) -> f64 {
         self.gain.sqrt() / bar.needed(all[candidate].applied.values.len())
     }
 }
 
 /// The expected gain of a candidate at its plausible size, the least of its sizes.
-pub(crate) fn gain(marks: &Marks, c: &Candidate, ground: &Ground) -> f64 {
+pub(crate) fn gain(marks: &EffectSignature, c: &Candidate, ground: &Background) -> f64 {
     c.sizes.iter().map(|s| marks.gain(0, s, None, ground)).fold(f64::INFINITY, f64::min)
 }
 

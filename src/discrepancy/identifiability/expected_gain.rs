@@ -10,12 +10,13 @@
 //! λ; and as `discover` names only what predicts blocks of windows (or runs) that were left out, it is counted block by block.
 
 use super::fisher_information::Driven;
-use crate::discrepancy::estimation::elimination::{Variances, eliminate};
+use crate::discrepancy::estimation::elimination::eliminate;
 use crate::discrepancy::estimation::fit::FEWEST_RUNS;
+use crate::discrepancy::estimation::noise_model::Estimated;
+use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::estimation::variance_components;
-use crate::discrepancy::estimation::variance_components::Free;
 use crate::discrepancy::evidence::cross_validation::loose;
-use crate::discrepancy::shooting::linearised_window::Linear;
+use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
 use crate::discrepancy::shooting::window_integration::linearise;
 use crate::effects::Applied;
 use crate::error::Result;
@@ -28,8 +29,8 @@ const ROUNDS: usize = 8;
 const CLOSE: f64 = 0.04;
 
 /// The response of windows to effects.
-pub(crate) struct Marks {
-    windows: Vec<Vec<Linear>>,
+pub(crate) struct EffectSignature {
+    windows: Vec<Vec<LinearisedWindow>>,
     columns: Vec<Vec<usize>>,
     /// How many parameters there are in all.
     parameters: usize,
@@ -37,17 +38,17 @@ pub(crate) struct Marks {
 
 /// The statistics that a mark is held against.
 #[derive(Clone, Copy)]
-pub(crate) struct Ground {
+pub(crate) struct Background {
     /// The noise, without jumps.
-    pub calm: Variances,
-    pub free: Free,
+    pub calm: NoiseModel,
+    pub free: Estimated,
     /// Rows in a row that are alike.
     pub alike: f64,
 }
 
 impl Driven {
     /// The marks of effects; `None` where the motion is undefined.
-    pub fn marks(&self, model: &Model, effects: &[&Applied]) -> Result<Option<Marks>> {
+    pub fn marks(&self, model: &Model, effects: &[&Applied]) -> Result<Option<EffectSignature>> {
         let joint = effects.iter().fold(model.fixed(), |m, e| m.with_effect((*e).clone().freed()));
         let free = joint.free_parameters();
         let equations = joint.equations(&free)?;
@@ -58,22 +59,22 @@ impl Driven {
         let columns = effects.iter().map(position).collect();
         // Of fewer runs blocks of windows must be predicted better: what shows over a whole run only is not named.
         let cut = |linear| if self.records.len() < FEWEST_RUNS { loose(&linear) } else { linear };
-        Ok(linear.map(|linear| Marks { windows: cut(linear), columns, parameters: free.len() }))
+        Ok(linear.map(|linear| EffectSignature { windows: cut(linear), columns, parameters: free.len() }))
     }
 }
 
-impl Marks {
+impl EffectSignature {
     /// The expected gain of naming effect `of` of size s, the parameters of another one being fitted in its place.
-    pub fn gain(&self, of: usize, s: &[f64], beside: Option<usize>, ground: &Ground) -> f64 {
+    pub fn gain(&self, of: usize, s: &[f64], beside: Option<usize>, ground: &Background) -> f64 {
         let fitted: &[usize] = beside.map_or(&[], |b| &self.columns[b]);
         let with = self.response(of, s, fitted, &ground.calm);
         let without = self.response(of, &vec![0.0; s.len()], fitted, &ground.calm);
-        let deviance = |windows: &[Vec<Linear>], v: &Variances| {
+        let deviance = |windows: &[Vec<LinearisedWindow>], v: &NoiseModel| {
             eliminate(windows, v, fitted.len()).map_or(f64::INFINITY, |e| variance_components::deviance(windows, v, &e))
         };
         // From no jumps at all the likelihood is flat.
-        let [position, heading, trailer] = ground.calm.noise;
-        let lively = Variances { jump: [position, position, heading, trailer], ..ground.calm };
+        let [position, heading, trailer] = ground.calm.measurement;
+        let lively = NoiseModel { process: [position, position, heading, trailer], ..ground.calm };
         let best = variance_components::improve(&with, lively, ground.free, fitted.len(), 1.0);
         let explained = deviance(&with, &best).min(deviance(&with, &ground.calm));
         let gain = (explained - deviance(&without, &ground.calm)) / ground.alike;
@@ -81,7 +82,7 @@ impl Marks {
     }
 
     /// The factor of a size at which the gain's root is so large; `None` where it never is.
-    pub fn smallest(&self, of: usize, s: &[f64], root: f64, ground: &Ground) -> Option<f64> {
+    pub fn smallest(&self, of: usize, s: &[f64], root: f64, ground: &Background) -> Option<f64> {
         let mut factor = 1.0;
         for _ in 0..ROUNDS {
             let scaled: Vec<f64> = s.iter().map(|s| s * factor).collect();
@@ -98,8 +99,8 @@ impl Marks {
     }
 
     /// Windows whose residual is the effect's mark and, in expectation, the noise.
-    fn response(&self, of: usize, s: &[f64], fitted: &[usize], v: &Variances) -> Vec<Vec<Linear>> {
-        let one = |w: &Linear| {
+    fn response(&self, of: usize, s: &[f64], fitted: &[usize], v: &NoiseModel) -> Vec<Vec<LinearisedWindow>> {
+        let one = |w: &LinearisedWindow| {
             let m = w.gram[0].nrows() - 1 - self.parameters;
             let mut turn = DMatrix::zeros(w.gram[0].nrows(), m + fitted.len() + 1);
             (0..m).for_each(|i| turn[(i, i)] = 1.0);
@@ -107,8 +108,8 @@ impl Marks {
             let last = m + fitted.len();
             self.columns[of].iter().zip(s).for_each(|(c, s)| turn[(m + c, last)] += s);
             let mut gram = [0, 1, 2].map(|k| turn.tr_mul(&w.gram[k]) * &turn);
-            (0..3).for_each(|k| gram[k][(last, last)] += w.count[k] as f64 * v.noise[k]);
-            Linear { gram, back: w.back.as_ref().map(|b| b * &turn), ..w.clone() }
+            (0..3).for_each(|k| gram[k][(last, last)] += w.count[k] as f64 * v.measurement[k]);
+            LinearisedWindow { gram, back: w.back.as_ref().map(|b| b * &turn), ..w.clone() }
         };
         self.windows.iter().map(|segment| segment.iter().map(one).collect()).collect()
     }

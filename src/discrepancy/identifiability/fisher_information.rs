@@ -1,9 +1,10 @@
 //! The information that records hold about effects, poses and jumps eliminated.
 
-use crate::discrepancy::estimation::elimination::{Chain, Eliminated, Variances};
+use crate::discrepancy::estimation::elimination::{InformationFilter, ReducedForm};
+use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::record::record::Record;
 use crate::discrepancy::shooting::window_integration::each_window;
-use crate::discrepancy::shooting::windows::{Segment, Starts};
+use crate::discrepancy::shooting::windows::{Segment, WindowStates};
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
@@ -14,7 +15,7 @@ use rayon::prelude::*;
 pub(crate) struct Driven {
     pub records: Vec<Record>,
     pub plan: Vec<Segment>,
-    pub starts: Starts,
+    pub starts: WindowStates,
 }
 
 /// The information about some effects together.
@@ -31,7 +32,7 @@ impl Driven {
         &self,
         model: &Model,
         effects: &[Applied],
-        variances: &[Variances],
+        variances: &[NoiseModel],
     ) -> Result<Option<Vec<Information>>> {
         let joint = effects.iter().fold(model.fixed(), |m, e| m.with_effect(e.clone().freed()));
         let free = joint.free_parameters();
@@ -39,14 +40,15 @@ impl Driven {
         let p = joint.free_values();
         // Windows are eliminated as they come: those of a large library could not be kept.
         let along = |(segment, starts): (&Segment, &Vec<Vec<f64>>)| {
-            let mut chains: Vec<Chain> = variances.iter().map(|v| Chain::new(v, p.len(), false)).collect();
+            let mut chains: Vec<InformationFilter> =
+                variances.iter().map(|v| InformationFilter::new(v, p.len(), false)).collect();
             let record = &self.records[segment.record];
             each_window(&equations, &p, record, segment, starts, |w| chains.iter_mut().try_for_each(|c| c.push(&w)))?;
             Some(chains)
         };
-        let chains: Option<Vec<Vec<Chain>>> = self.plan.par_iter().zip(&self.starts).map(along).collect();
+        let chains: Option<Vec<Vec<InformationFilter>>> = self.plan.par_iter().zip(&self.starts).map(along).collect();
         let Some(chains) = chains else { return Ok(None) };
-        let mut totals = vec![Eliminated::nothing(p.len()); variances.len()];
+        let mut totals = vec![ReducedForm::nothing(p.len()); variances.len()];
         for chain in chains {
             for (total, chain) in totals.iter_mut().zip(chain) {
                 if total.add(chain).is_none() {
@@ -58,7 +60,7 @@ impl Driven {
             e.parameters().iter().filter_map(|s| free.iter().position(|f| f == s)).collect()
         };
         let columns: Vec<Vec<usize>> = effects.iter().map(position).collect();
-        let one = |e: &Eliminated| {
+        let one = |e: &ReducedForm| {
             let matrix = e.normal().0;
             let good = matrix.iter().all(|x| x.is_finite());
             good.then(|| Information { matrix, columns: columns.clone() })
@@ -69,8 +71,8 @@ impl Driven {
 
 impl Information {
     /// All of it divided: values that are alike count once.
-    pub fn over(mut self, dependence: f64) -> Information {
-        self.matrix /= dependence;
+    pub fn over(mut self, variance_inflation: f64) -> Information {
+        self.matrix /= variance_inflation;
         self
     }
 

@@ -25,7 +25,7 @@ pub type Weight = (usize, f64, f64);
 
 /// A heading with what position noise does to it.
 #[derive(Clone, Debug, Default)]
-pub struct Course {
+pub struct PathHeading {
     /// The measured heading at the row, as a sensor would give it, rad.
     pub heading: f64,
     /// How far the points that tell it reach, m: the root of the sum of squares about their mean of what turning the
@@ -35,7 +35,7 @@ pub struct Course {
     pub weights: Vec<Weight>,
 }
 
-impl Course {
+impl PathHeading {
     /// Whether the path tells the heading, and not the noise of its points.
     pub fn is_told(&self, record: &Record) -> bool {
         self.reach > LONG_ENOUGH * record.position_noise()
@@ -57,8 +57,8 @@ impl Course {
 /// θ = atan2(Σ p×m, Σ p·m) with the modelled points p and the measured points m about their means, both less what a
 /// slope or a current does to them. Reversing, sliding and a tracked point off the axle are in the motion, which a
 /// direction of travel alone does not know.
-pub fn heading_at(equations: &Equations, record: &Record, row: usize) -> Course {
-    let mut best = Course { heading: record.smoothed(row)[2], ..Course::default() };
+pub fn heading_at(equations: &Equations, record: &Record, row: usize) -> PathHeading {
+    let mut best = PathHeading { heading: record.smoothed(row)[2], ..PathHeading::default() };
     for half in HALF_WIDTHS {
         let Some(course) = laid_on(equations, record, row, half, best.heading) else { continue };
         best = course;
@@ -70,7 +70,7 @@ pub fn heading_at(equations: &Equations, record: &Record, row: usize) -> Course 
 }
 
 /// The heading from a stretch.
-fn laid_on(equations: &Equations, record: &Record, row: usize, half: f64, guess: f64) -> Option<Course> {
+fn laid_on(equations: &Equations, record: &Record, row: usize, half: f64, guess: f64) -> Option<PathHeading> {
     let rows = stretch(record, row, half);
     if rows.len() < 3 {
         return None;
@@ -82,9 +82,9 @@ fn laid_on(equations: &Equations, record: &Record, row: usize, half: f64, guess:
         let here = path(equations, record, rows.clone(), begin)?;
         let beside = path(equations, record, rows.clone(), begin + TRIED)?;
         let heading = here[row - rows.start][2];
-        let found = Turned::of(record, rows.start, &here, &beside)?;
+        let found = HeadingRegistration::of(record, rows.start, &here, &beside)?;
         begin += found.turn;
-        course = Some(Course { heading: heading + found.turn, reach: found.reach, weights: found.weights });
+        course = Some(PathHeading { heading: heading + found.turn, reach: found.reach, weights: found.weights });
     }
     course
 }
@@ -119,13 +119,13 @@ fn path(equations: &Equations, record: &Record, rows: Range<usize>, heading: f64
 }
 
 /// What lays a path on the measured one.
-struct Turned {
+struct HeadingRegistration {
     turn: f64,
     weights: Vec<Weight>,
     reach: f64,
 }
 
-impl Turned {
+impl HeadingRegistration {
     /// From a path and the one that begins turned by a little: what lies between them turns with the vehicle, and the
     /// rest of the path stays where it is.
     fn of(record: &Record, first: usize, path: &[[f64; 3]], beside: &[[f64; 3]]) -> Option<Self> {
@@ -162,7 +162,7 @@ fn centred(points: Vec<Vector2<f64>>) -> Vec<Vector2<f64>> {
 /// where the path tells them best: a vehicle that stands or drifts shows no heading, and a reversed one a false one.
 pub fn starts(equations: &Equations, record: &Record, windows: &[Range<usize>]) -> Vec<Vec<f64>> {
     let rows: Vec<usize> = windows.iter().map(|w| w.start).collect();
-    let placed: Vec<Placed> = rows.iter().map(|i| Placed::at(equations, record, *i)).collect();
+    let placed: Vec<MeasuredPose> = rows.iter().map(|i| MeasuredPose::at(equations, record, *i)).collect();
     let mut poses: Vec<Vec<f64>> = placed.iter().map(|p| pose_of(equations, &p.measured)).collect();
     if record.has_heading {
         return poses;
@@ -197,19 +197,19 @@ fn follow(poses: &mut [Vec<f64>], k: usize, neighbour: usize, turn: f64) {
 
 /// The smoothed measurement at a row, with the heading that the model says where none is measured.
 pub fn measured_at(equations: &Equations, record: &Record, row: usize) -> Vec<f64> {
-    Placed::at(equations, record, row).measured
+    MeasuredPose::at(equations, record, row).measured
 }
 
 /// Where the vehicle is at a row.
 #[derive(Clone, Debug)]
-pub struct Placed {
+pub struct MeasuredPose {
     /// The smoothed measurement, with the heading that the model says where none is measured.
     pub measured: Vec<f64>,
     /// What the heading is taken from where none is measured.
-    pub course: Option<Course>,
+    pub course: Option<PathHeading>,
 }
 
-impl Placed {
+impl MeasuredPose {
     /// At a row of a record.
     pub fn at(equations: &Equations, record: &Record, row: usize) -> Self {
         let mut measured = record.smoothed(row);
@@ -246,7 +246,11 @@ mod tests {
         let noise = record.position_noise();
         assert!(noise > 1e-4 && noise < 1e-2, "{noise}");
         for (reach, is_told) in [(20.1, true), (19.9, false), (0.0, false), (1e3, true)] {
-            assert_eq!(Course { reach: reach * noise, ..Course::default() }.is_told(&record), is_told, "{reach}");
+            assert_eq!(
+                PathHeading { reach: reach * noise, ..PathHeading::default() }.is_told(&record),
+                is_told,
+                "{reach}"
+            );
         }
     }
 

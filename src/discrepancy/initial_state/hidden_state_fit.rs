@@ -20,7 +20,7 @@ const SMALL: f64 = 1e-2;
 const ANYWHERE: f64 = 1.0;
 
 /// What is known beforehand of hidden states at a row.
-pub(crate) struct Carried<'a> {
+pub(crate) struct PropagatedState<'a> {
     /// The states, and their sensitivities.
     pub arc: Arc,
     /// The pose there.
@@ -29,7 +29,7 @@ pub(crate) struct Carried<'a> {
     pub memory: Vec<f64>,
 }
 
-impl Carried<'_> {
+impl PropagatedState<'_> {
     /// Hidden states by what was carried to a row and by the rows after it, least squares of both:
     ///
     /// Σ (y − y(δz, h))²/σ² + Σ (h − h₀)²/(m·a)² → min
@@ -47,7 +47,7 @@ impl Carried<'_> {
     /// each. A model that is given them has to pay for them as for parameters.
     pub fn settled(self, equations: &Equations, p: &[f64], record: &Record, row: usize) -> (Arc, f64) {
         match self.shown(equations, p, record, row) {
-            Some(Shown { z, share, by_values }) => {
+            Some(Posterior { z, share, by_values }) => {
                 let (m, k, h) = (equations.visible, self.arc.s.len() / equations.n(), z.len());
                 let mut s = self.arc.s.clone();
                 for (i, c) in (0..h).flat_map(|i| (0..k).map(move |c| (i, c))) {
@@ -61,7 +61,7 @@ impl Carried<'_> {
     }
 
     /// What the poses show; `None` where nothing is asked.
-    fn shown(&self, equations: &Equations, p: &[f64], record: &Record, row: usize) -> Option<Shown> {
+    fn shown(&self, equations: &Equations, p: &[f64], record: &Record, row: usize) -> Option<Posterior> {
         if self.memory.iter().all(|m| *m < FADED) {
             return None;
         }
@@ -73,7 +73,7 @@ impl Carried<'_> {
 }
 
 /// Hidden states that fit the poses.
-struct Shown {
+struct Posterior {
     z: Vec<f64>,
     /// How much of what they were carried to is still in them, ∂h/∂h₀.
     share: DMatrix<f64>,
@@ -82,7 +82,7 @@ struct Shown {
 }
 
 /// Hidden states that fit both the rows and what they were carried to.
-fn fitted(rows: &Rows, carried: &[f64], pose: &[f64], spread: &[f64]) -> Option<Shown> {
+fn fitted(rows: &Rows, carried: &[f64], pose: &[f64], spread: &[f64]) -> Option<Posterior> {
     let m = pose.len();
     let before = [pose, carried].concat();
     let free = |i: usize| if i < m { ANYWHERE } else { spread[i - m] };
@@ -123,7 +123,7 @@ fn fitted(rows: &Rows, carried: &[f64], pose: &[f64], spread: &[f64]) -> Option<
     )?;
     let moved = -factors.solve(&jacobian.tr_mul(&by_values));
     let by_values = moved.rows(m, h).into_owned();
-    begin.iter().all(|z| z.is_finite()).then(|| Shown { z: begin.split_off(m), share, by_values })
+    begin.iter().all(|z| z.is_finite()).then(|| Posterior { z: begin.split_off(m), share, by_values })
 }
 
 /// What numbers do to what is missed: each is moved by a small share of its size, and nothing else.
@@ -208,7 +208,7 @@ mod tests {
 
         fn settled(&self, carried: [f64; 2], memory: [f64; 2], s: &[f64]) -> (Arc, f64) {
             let (pose, arc) = (self.record.measured(0), Arc { z: carried.to_vec(), s: s.to_vec() });
-            let carried = Carried { arc, pose: &pose, memory: memory.to_vec() };
+            let carried = PropagatedState { arc, pose: &pose, memory: memory.to_vec() };
             carried.settled(&self.equations, &self.p, &self.record, 0)
         }
 

@@ -1,6 +1,6 @@
 //! States that no sensor sees: carried along from the start of a log, as far as they hang on it by what the poses show.
 
-use super::hidden_state_fit::Carried;
+use super::hidden_state_fit::PropagatedState;
 use crate::discrepancy::record::record::Record;
 use crate::model::Equations;
 use crate::motion::{Arc, Stepper, initial_hidden};
@@ -20,12 +20,12 @@ pub(crate) fn asked(equations: &Equations, p: &[f64], record: &Record, row: usiz
     if equations.n() == equations.visible {
         return (Arc::default(), 0.0);
     }
-    let way = Way::to(equations, p, record, row, visible);
+    let way = LeadIn::to(equations, p, record, row, visible);
     let rest = way.at_rest();
     let arc = way.along(rest.clone());
     let elsewhere = Arc { z: rest.z.iter().map(|z| z + 1.0).collect(), s: vec![] };
     let memory = way.along(elsewhere).z.iter().zip(&arc.z).map(|(a, b)| (a - b).abs()).collect();
-    Carried { arc, pose: visible, memory }.settled(equations, p, record, row)
+    PropagatedState { arc, pose: visible, memory }.settled(equations, p, record, row)
 }
 
 /// As [`before`], without a look at the rows after it.
@@ -33,19 +33,19 @@ pub fn carried(equations: &Equations, p: &[f64], record: &Record, row: usize, vi
     if equations.n() == equations.visible {
         return Arc::default();
     }
-    let way = Way::to(equations, p, record, row, visible);
+    let way = LeadIn::to(equations, p, record, row, visible);
     way.along(way.at_rest())
 }
 
 /// Hidden states at the first row of a log, by what the rows after it show.
 pub fn at_start(equations: &Equations, record: &Record, pose: &[f64]) -> Vec<f64> {
-    let way = Way::to(equations, &[], record, 0, pose);
+    let way = LeadIn::to(equations, &[], record, 0, pose);
     let memory = vec![1.0; equations.n() - equations.visible];
-    Carried { arc: way.at_rest(), pose, memory }.settled(equations, &[], record, 0).0.z
+    PropagatedState { arc: way.at_rest(), pose, memory }.settled(equations, &[], record, 0).0.z
 }
 
 /// The rows that hidden states are carried through to one.
-struct Way<'a> {
+struct LeadIn<'a> {
     equations: &'a Equations,
     p: &'a [f64],
     record: &'a Record,
@@ -54,7 +54,7 @@ struct Way<'a> {
     row: usize,
 }
 
-impl<'a> Way<'a> {
+impl<'a> LeadIn<'a> {
     fn to(equations: &'a Equations, p: &'a [f64], record: &'a Record, row: usize, visible: &'a [f64]) -> Self {
         let time = &record.time;
         let gap = record.gap();

@@ -66,8 +66,8 @@ impl Problem {
     fn drift(&self, fit: &Fit, run: usize) -> Result<Option<Drift>> {
         let record = &self.records[run];
         let model = with_delay(&fit.model);
-        let own = || self.plan.iter().zip(&fit.starts).filter(|(s, _)| s.record == run);
-        let starts: crate::discrepancy::shooting::windows::Starts = own().map(|(_, s)| s.clone()).collect();
+        let own = || self.plan.iter().zip(&fit.window_states).filter(|(s, _)| s.record == run);
+        let starts: crate::discrepancy::shooting::windows::WindowStates = own().map(|(_, s)| s.clone()).collect();
         let plan =
             own().map(|(s, _)| crate::discrepancy::shooting::windows::Segment { record: 0, ..s.clone() }).collect();
         let alone = Problem { records: vec![record.clone()], plan, ..self.clone() };
@@ -92,7 +92,7 @@ impl Problem {
             }
         }
         let (rate, there) = best;
-        let gain = (here.deviance - there.deviance) / there.dependence;
+        let gain = (here.deviance - there.deviance) / there.variance_inflation;
         let (run, total, step) = (record.name.clone(), rate * duration(record), record.step());
         let explained = 1.0 - there.unexplained / here.unexplained.max(f64::MIN_POSITIVE);
         Ok(gain.is_finite().then_some(Drift { run, total, gain, explained, step }))
@@ -103,17 +103,17 @@ impl Problem {
 #[derive(Clone, Copy)]
 struct At {
     deviance: f64,
-    dependence: f64,
+    variance_inflation: f64,
     /// What remains, by the deviance it is worth.
     unexplained: f64,
 }
 
 impl At {
-    const NOWHERE: At = At { deviance: f64::INFINITY, dependence: 1.0, unexplained: f64::INFINITY };
+    const NOWHERE: At = At { deviance: f64::INFINITY, variance_inflation: 1.0, unexplained: f64::INFINITY };
 
     fn of(fit: &Fit) -> Self {
         let unexplained = fit.unexplained.iter().sum();
-        Self { deviance: fit.deviance, dependence: fit.dependence(), unexplained }
+        Self { deviance: fit.deviance, variance_inflation: fit.variance_inflation(), unexplained }
     }
 }
 

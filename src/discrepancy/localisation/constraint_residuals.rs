@@ -1,13 +1,13 @@
 //! Where model and measurement disagree: constraint by constraint, window by window.
 
 use crate::discrepancy::estimation::problem::Problem;
-use crate::discrepancy::initial_state::heading_from_path::{Course, Placed};
+use crate::discrepancy::initial_state::heading_from_path::{MeasuredPose, PathHeading};
 use crate::discrepancy::initial_state::pose::pose_of;
 use crate::discrepancy::record::angle::wrapped;
 use crate::discrepancy::record::record::Record;
 use crate::discrepancy::record::sensor_noise::Noise;
 use crate::discrepancy::report::ResidualPicture;
-use crate::discrepancy::shooting::linearised_window::Linear;
+use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
 use crate::discrepancy::shooting::windows;
 use crate::discrepancy::shooting::windows::Segment;
 use crate::error::Result;
@@ -43,14 +43,14 @@ pub(crate) struct Window {
 /// The rate of a constraint is the distance (or angle) by which the model misses the next smoothed pose, along the
 /// body, across it and in yaw, over the duration of the window.
 #[derive(Clone, Debug, Default)]
-pub struct Violation {
+pub struct ConstraintResiduals {
     pub(crate) run: String,
     pub(crate) windows: Vec<Window>,
     /// Standard deviation that noise gives each rate.
     pub(crate) noise: [f64; 4],
 }
 
-impl Violation {
+impl ConstraintResiduals {
     /// The violation along a run.
     ///
     /// # Errors
@@ -58,8 +58,8 @@ impl Violation {
     pub fn of(model: &Model, record: &Record, noise: &Noise) -> Result<Self> {
         let equations = model.equations(&[])?;
         let plan = windows::plan(std::slice::from_ref(record));
-        let at = |s: &Segment| s.windows.iter().map(|w| Placed::at(&equations, record, w.start)).collect();
-        let placed: Vec<Vec<Placed>> = plan.iter().map(at).collect();
+        let at = |s: &Segment| s.windows.iter().map(|w| MeasuredPose::at(&equations, record, w.start)).collect();
+        let placed: Vec<Vec<MeasuredPose>> = plan.iter().map(at).collect();
         let starts = placed.iter().map(|s| s.iter().map(|p| pose_of(&equations, &p.measured)).collect()).collect();
         let linear = crate::discrepancy::shooting::window_integration::linearise(
             &equations,
@@ -70,21 +70,21 @@ impl Violation {
         );
         let mut found = Self { run: record.name.clone(), ..Self::default() };
         let Some(linear) = linear else { return Ok(found) };
-        let far = placed.iter().flatten().map(Placed::reach).fold(0.0, f64::max);
+        let far = placed.iter().flatten().map(MeasuredPose::reach).fold(0.0, f64::max);
         let mut courses = Vec::new();
         for ((segment, lines), placed) in plan.iter().zip(&linear).zip(&placed) {
             // Along and across a vehicle that shows no heading is nowhere.
             let shown = |k: usize| shows_heading(&placed[k], record, far);
-            let judged = |k: usize, l: &Linear| !l.mismatch.is_empty() && shown(k) && shown(k + 1);
+            let judged = |k: usize, l: &LinearisedWindow| !l.mismatch.is_empty() && shown(k) && shown(k + 1);
             for (k, line) in lines.iter().enumerate().filter(|(k, l)| judged(*k, l)) {
                 let t = |k: usize| record.time[segment.windows[k].start];
                 let window = window(line, [t(k), t(k + 1)], &placed[k].measured, &placed[k + 1].measured);
                 found.windows.push(Window { row: segment.windows[k].start, ..window });
-                courses.extend(placed[k].course.as_ref().map(Course::share));
+                courses.extend(placed[k].course.as_ref().map(PathHeading::share));
             }
         }
         found.noise = found.noise_of(record, &plan, &noise.variance, &courses);
-        if noise.colour > 1.0 {
+        if noise.correlation_time > 1.0 {
             let shown = found.noise_shown();
             found.noise = std::array::from_fn(|c| found.noise[c].max(shown[c]));
         }
@@ -161,10 +161,10 @@ impl Violation {
 
     /// This one and another of the same run in the windows that both have: which windows show a heading that nothing
     /// measures may hang on the model.
-    pub fn in_common(&self, other: &Violation) -> [Violation; 2] {
-        let of = |a: &Violation, b: &Violation| {
+    pub fn in_common(&self, other: &ConstraintResiduals) -> [ConstraintResiduals; 2] {
+        let of = |a: &ConstraintResiduals, b: &ConstraintResiduals| {
             let both = a.windows.iter().filter(|w| b.windows.binary_search_by_key(&w.row, |o| o.row).is_ok());
-            Violation { windows: both.cloned().collect(), ..a.clone() }
+            ConstraintResiduals { windows: both.cloned().collect(), ..a.clone() }
         };
         [of(self, other), of(other, self)]
     }
@@ -184,9 +184,9 @@ impl Violation {
     }
 
     /// The pictures of each constraint, before and after.
-    pub fn pictures(&self, after: &Violation) -> Vec<ResidualPicture> {
+    pub fn pictures(&self, after: &ConstraintResiduals) -> Vec<ResidualPicture> {
         let [before, after] = self.in_common(after);
-        let rates = |v: &Violation, c: usize| v.windows.iter().map(|w| w.rates[c]).collect::<Vec<f64>>();
+        let rates = |v: &ConstraintResiduals, c: usize| v.windows.iter().map(|w| w.rates[c]).collect::<Vec<f64>>();
         let picture = |c: usize| ResidualPicture {
             constraint: CONSTRAINTS[c].0.into(),
             run: self.run.clone(),
@@ -200,7 +200,7 @@ impl Violation {
     }
 
     /// Sum of squared violations of a constraint beyond what noise makes of them.
-    pub fn excess(&self, place: &str) -> f64 {
+    pub fn excess_power(&self, place: &str) -> f64 {
         let Some(c) = CONSTRAINTS.iter().position(|(name, _)| *name == place) else { return 0.0 };
         if c >= self.constraints() {
             return 0.0;
@@ -210,7 +210,7 @@ impl Violation {
 
     /// Root mean square of a violated rate over all windows of some runs, and of what noise makes of it; `None` where no
     /// run has the constraint.
-    pub fn rms(all: &[Violation], c: usize) -> Option<(f64, f64)> {
+    pub fn rms(all: &[ConstraintResiduals], c: usize) -> Option<(f64, f64)> {
         let of = || all.iter().filter(|v| c < v.constraints());
         let count = of().map(|v| v.windows.len()).sum::<usize>() as f64;
         let rate: f64 = of().flat_map(|v| &v.windows).map(|w| w.rates[c].powi(2)).sum();
@@ -219,17 +219,17 @@ impl Violation {
     }
 
     /// Sum of squared violations of each constraint in units of their noise.
-    pub(crate) fn energy(&self, c: usize) -> f64 {
+    pub(crate) fn chi_squared(&self, c: usize) -> f64 {
         self.windows.iter().map(|w| (w.rates[c] / self.noise[c]).powi(2)).sum()
     }
 }
 
 /// Whether a heading is measured, or told by the path: not where the vehicle hardly moves against the rest of the run.
-fn shows_heading(placed: &Placed, record: &Record, far: f64) -> bool {
+fn shows_heading(placed: &MeasuredPose, record: &Record, far: f64) -> bool {
     placed.course.as_ref().is_none_or(|c| c.is_told(record) && c.reach > HARDLY * far)
 }
 
-fn window(line: &Linear, span: [f64; 2], from: &[f64], to: &[f64]) -> Window {
+fn window(line: &LinearisedWindow, span: [f64; 2], from: &[f64], to: &[f64]) -> Window {
     let travelled = (to[0] - from[0]).hypot(to[1] - from[1]);
     Window {
         row: 0,
@@ -245,14 +245,14 @@ impl Problem {
     /// Violations along every run of a problem.
     ///
     /// # Errors
-    /// As [`Violation::of`].
-    pub fn violations(&self, model: &Model, noise: &Noise) -> Result<Vec<Violation>> {
-        self.records.iter().map(|r| Violation::of(model, r, noise)).collect()
+    /// As [`ConstraintResiduals::of`].
+    pub fn violations(&self, model: &Model, noise: &Noise) -> Result<Vec<ConstraintResiduals>> {
+        self.records.iter().map(|r| ConstraintResiduals::of(model, r, noise)).collect()
     }
 }
 
 #[cfg(test)]
-impl Violation {
+impl ConstraintResiduals {
     /// A run of windows of one second at 1 m/s without noise, given how far each ends across of where its model says.
     pub(crate) fn across(run: &str, missed: &[f64]) -> Self {
         let window = |(k, across): (usize, &f64)| Window {
@@ -269,8 +269,8 @@ impl Violation {
 
 /// The share of a constraint's violation on some data that is gone, noise apart and in the windows that both models
 /// have: at most one, negative where it grew.
-pub fn reduction(place: &str, before: &[Violation], after: &[Violation]) -> f64 {
-    let both = before.iter().zip(after).map(|(before, after)| before.in_common(after).map(|v| v.excess(place)));
+pub fn reduction(place: &str, before: &[ConstraintResiduals], after: &[ConstraintResiduals]) -> f64 {
+    let both = before.iter().zip(after).map(|(before, after)| before.in_common(after).map(|v| v.excess_power(place)));
     let [before, after] = both.fold([0.0; 2], |sum, of| [sum[0] + of[0], sum[1] + of[1]]);
     if before > 0.0 { (1.0 - after / before).clamp(-1.0, 1.0) } else { 0.0 }
 }
@@ -285,17 +285,17 @@ mod tests {
         // Errors of the poses, and the windows between them.
         let poses = [0.3, -0.1, 0.4, 0.2, -0.5, 0.1, -0.2, 0.6, -0.4, 0.0, 0.5, -0.3];
         let missed: Vec<f64> = poses.windows(2).map(|p| p[1] - p[0]).collect();
-        let noise = Violation::across("", &missed).noise_between();
+        let noise = ConstraintResiduals::across("", &missed).noise_between();
         let products: f64 = missed.windows(2).map(|w| w[0] * w[1]).sum();
         assert!((noise[1] - (-2.0 * products / 10.0).sqrt()).abs() < 1e-12 && noise[1] > 0.3, "{noise:?}");
-        assert_eq!(Violation::across("", &[0.2; 12]).noise_shown(), [0.0; 4]);
+        assert_eq!(ConstraintResiduals::across("", &[0.2; 12]).noise_shown(), [0.0; 4]);
         // Headings off by ±0.1, at 1 m/s for a second.
-        let mut turned = Violation::across("", &[0.0; 12]);
+        let mut turned = ConstraintResiduals::across("", &[0.0; 12]);
         turned.windows.iter_mut().enumerate().for_each(|(k, w)| w.rates[2] = if k % 2 == 0 { 0.2 } else { -0.2 });
         let noise = turned.noise_shown();
         assert!((noise[2] - 0.08_f64.sqrt()).abs() < 1e-12 && (noise[1] - 0.2).abs() < 1e-12, "{noise:?}");
         // Windows on both sides of a hole have no pose in common.
-        let mut apart = Violation::across("", &[0.5, -0.5, 0.5, -0.5]);
+        let mut apart = ConstraintResiduals::across("", &[0.5, -0.5, 0.5, -0.5]);
         apart.windows.iter_mut().for_each(|w| w.span = w.span.map(|t| 2.0 * t));
         apart.windows.iter_mut().for_each(|w| w.span[1] -= 1.0);
         assert_eq!(apart.noise_shown(), [0.0; 4]);
@@ -303,10 +303,11 @@ mod tests {
 
     #[test]
     fn two_models_are_compared_in_the_windows_that_both_have() {
-        let (mut before, mut after) = (Violation::across("", &[1.0; 6]), Violation::across("", &[0.5; 6]));
+        let (mut before, mut after) =
+            (ConstraintResiduals::across("", &[1.0; 6]), ConstraintResiduals::across("", &[0.5; 6]));
         before.windows.remove(1);
         after.windows.drain(3..5);
-        let rows = |v: &Violation| v.windows.iter().map(|w| w.row).collect::<Vec<_>>();
+        let rows = |v: &ConstraintResiduals| v.windows.iter().map(|w| w.row).collect::<Vec<_>>();
         let [b, a] = before.in_common(&after);
         assert_eq!((rows(&b), rows(&a)), (vec![0, 2, 5], vec![0, 2, 5]));
         let pictures = before.pictures(&after);
@@ -320,7 +321,7 @@ mod tests {
         let mut missed = [0.0; 30];
         missed[0..4].fill(0.8);
         missed[20..28].fill(-0.8);
-        let mut violation = Violation::across("a.csv", &missed);
+        let mut violation = ConstraintResiduals::across("a.csv", &missed);
         violation.windows.iter_mut().for_each(|w| w.speed = 2.0);
         assert_eq!(violation.slide(0.3), Some(("a.csv", [20.0, 28.0])));
         assert_eq!(violation.slide(0.5), None);

@@ -1,6 +1,6 @@
 //! Where a model disagrees with the measurements, and in which regime of driving most.
 
-use super::constraint_residuals::{CONSTRAINTS, Violation, Window};
+use super::constraint_residuals::{CONSTRAINTS, ConstraintResiduals, Window};
 use crate::discrepancy::report::Disagreement;
 
 /// Which windows belong to a regime.
@@ -41,7 +41,7 @@ const REGIMES: [(&str, Regime); 11] = [
 ];
 
 /// The regime in which a constraint is violated most, when one stands out.
-fn regime(v: &Violation, c: usize) -> &'static str {
+fn regime(v: &ConstraintResiduals, c: usize) -> &'static str {
     let speed = v.rms_of(|w| w.speed);
     let typical =
         Typical { speed, yaw: v.rms_of(|w| w.yaw), load: v.rms_of(Window::load), curve: v.rms_of(|w| w.curve(speed)) };
@@ -65,12 +65,12 @@ fn regime(v: &Violation, c: usize) -> &'static str {
 
 /// Where the model disagrees with the measurements by more than their noise: run by run, constraint by constraint,
 /// from the first to the last window that stands out, with its share of the whole disagreement.
-pub fn disagreements(violations: &[Violation]) -> Vec<Disagreement> {
-    let total: f64 = violations.iter().map(|v| (0..v.constraints()).map(|c| v.energy(c)).sum::<f64>()).sum();
+pub fn disagreements(violations: &[ConstraintResiduals]) -> Vec<Disagreement> {
+    let total: f64 = violations.iter().map(|v| (0..v.constraints()).map(|c| v.chi_squared(c)).sum::<f64>()).sum();
     let mut found = Vec::new();
     for v in violations {
         for (c, (place, _)) in CONSTRAINTS.iter().enumerate().take(v.constraints()) {
-            let energy = v.energy(c);
+            let energy = v.chi_squared(c);
             let out: Vec<&Window> = v.windows.iter().filter(|w| w.rates[c].abs() > 3.0 * v.noise[c]).collect();
             // Noise alone gives one window in 370; a disagreement fills more.
             if out.len() < 3 || energy < 2.0 * v.windows.len() as f64 {

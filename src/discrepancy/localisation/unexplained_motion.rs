@@ -1,6 +1,6 @@
 //! What the last model leaves: constraint by constraint, against the noise, and whether it is white.
 
-use super::constraint_residuals::{CONSTRAINTS, Violation};
+use super::constraint_residuals::{CONSTRAINTS, ConstraintResiduals};
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::evidence::wald_test::tail;
 use crate::discrepancy::report::{Remaining, RemainingConstraint};
@@ -12,13 +12,13 @@ use crate::discrepancy::report::{Remaining, RemainingConstraint};
 /// | RMS, noise | the violated rate over windows, and what smoothing noise alone makes of it |
 /// | p | probability of so much unexplained motion by chance: half of χ²₁, for a variance is never negative |
 /// | rows, windows alike | integrated correlations, see [`crate::discrepancy::estimation::autocorrelation`]: 1 where noise and jumps are white |
-pub fn remaining(fit: &Fit, has_heading: bool, after: &[Violation]) -> Remaining {
-    let noise = fit.variances.noise.map(f64::sqrt);
+pub fn remaining(fit: &Fit, has_heading: bool, after: &[ConstraintResiduals]) -> Remaining {
+    let noise = fit.variances.measurement.map(f64::sqrt);
     let constraints = CONSTRAINTS.iter().enumerate().filter_map(|(c, (place, unit))| {
-        let (rms, noise) = Violation::rms(after, c)?;
+        let (rms, noise) = ConstraintResiduals::rms(after, c)?;
         // Of noise that is not white the poses wander: what that makes of the rate is no motion.
-        let moved = if fit.colour > 1.0 { (1.0 - (noise / rms).powi(2)).max(0.0) } else { 1.0 };
-        let gain = moved * fit.unexplained[c] / fit.dependence();
+        let moved = if fit.noise_correlation_time > 1.0 { (1.0 - (noise / rms).powi(2)).max(0.0) } else { 1.0 };
+        let gain = moved * fit.unexplained[c] / fit.variance_inflation();
         // Half of the weight lies on zero.
         let p_value = if gain > 0.0 { 0.5 * tail(gain, 1) } else { 1.0 };
         Some(RemainingConstraint { place: (*place).into(), unit: (*unit).into(), rms, noise, p_value })
@@ -26,8 +26,8 @@ pub fn remaining(fit: &Fit, has_heading: bool, after: &[Violation]) -> Remaining
     Remaining {
         position_noise: noise[0],
         heading_noise: has_heading.then_some(noise[1]),
-        rows_alike: fit.colour,
-        windows_alike: fit.correlation,
+        rows_alike: fit.noise_correlation_time,
+        windows_alike: fit.residual_correlation_time,
         constraints: constraints.collect(),
     }
 }
@@ -40,10 +40,15 @@ mod tests {
     /// What noise that wanders makes of a rate is taken off what remains; of white noise nothing is.
     #[test]
     fn what_remains_is_judged_beside_its_noise() {
-        let mut missed = Violation::across("a.csv", &[0.2, -0.2, 0.2, 0.2]);
+        let mut missed = ConstraintResiduals::across("a.csv", &[0.2, -0.2, 0.2, 0.2]);
         missed.noise = [0.0, 0.1, 0.0, 0.0];
         let p_of = |colour: f64, correlation: f64, unexplained: f64| {
-            let fit = Fit { colour, correlation, unexplained: [0.0, unexplained, 0.0, 0.0], ..fit_of(unicycle(&[])) };
+            let fit = Fit {
+                noise_correlation_time: colour,
+                residual_correlation_time: correlation,
+                unexplained: [0.0, unexplained, 0.0, 0.0],
+                ..fit_of(unicycle(&[]))
+            };
             let left = remaining(&fit, false, std::slice::from_ref(&missed));
             let of = left.constraints.iter().find(|c| c.place == "traverse constraint").unwrap();
             assert!((of.rms - 0.2).abs() < 1e-12 && (of.noise - 0.1).abs() < 1e-12);

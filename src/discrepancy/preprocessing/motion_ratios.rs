@@ -2,7 +2,7 @@
 
 use crate::discrepancy::record::angle::wrapped;
 use crate::discrepancy::record::record::Record;
-use crate::discrepancy::shooting::rollout::Predictor;
+use crate::discrepancy::shooting::rollout::Rollout;
 use crate::error::Result;
 use crate::model::Model;
 use nalgebra::Complex;
@@ -50,7 +50,7 @@ pub struct Ratios {
 /// # Errors
 /// When the model's formulas are malformed.
 pub fn steps(model: &Model, record: &Record) -> Result<Vec<Step>> {
-    let predictor = Predictor::new(model, record)?;
+    let predictor = Rollout::new(model, record)?;
     let step = |(from, to): (usize, usize)| {
         let y = predictor.outputs(from, to);
         let last = y.last()?;

@@ -3,7 +3,7 @@
 use crate::discrepancy::record::angle::wrapped;
 use crate::discrepancy::record::local_polynomial;
 use crate::discrepancy::record::record::{Channel, Record};
-use crate::discrepancy::shooting::rollout::Predictor;
+use crate::discrepancy::shooting::rollout::Rollout;
 use crate::error::Result;
 use crate::model::Model;
 use std::ops::Range;
@@ -41,7 +41,7 @@ const NEAR: usize = 3;
 /// When the model's formulas are malformed.
 pub fn without_gross_errors(record: &Record, model: &Model) -> Result<(Record, usize)> {
     let whole = Record { rows: 0..record.rows.end, ..record.clone() };
-    let predictor = Predictor::new(model, &whole)?;
+    let predictor = Rollout::new(model, &whole)?;
     let mut gross = vec![false; record.rows.end];
     // Twice, half a window apart: where the model restarts its residual jumps, and rows there cannot be judged.
     for shift in [0.0, 0.5] {
@@ -90,7 +90,7 @@ fn windows(record: &Record, shorter: f64) -> Vec<Window> {
 }
 
 /// Measured minus modelled, column by column; nothing outside the windows.
-fn residuals(record: &Record, predictor: &Predictor, windows: &[Window]) -> Vec<Vec<f64>> {
+fn residuals(record: &Record, predictor: &Rollout, windows: &[Window]) -> Vec<Vec<f64>> {
     let mut found = vec![vec![f64::NAN; record.rows.end]; record.columns.len()];
     let channels = record.channels();
     for Window { rows, .. } in windows {

@@ -12,13 +12,13 @@ pub struct Noise {
     pub variance: [f64; 3],
     /// How many rows in a row are alike, at least 1: the integrated correlation (1 + ρ)/(1 − ρ) where each row keeps the
     /// share ρ of the one before.
-    pub colour: f64,
+    pub correlation_time: f64,
 }
 
 impl Noise {
     /// The measured columns with noise added.
     pub(crate) fn added_to(&self, record: &Record, rng: &mut ChaCha8Rng) -> Vec<Vec<f64>> {
-        let kept = (self.colour - 1.0) / (self.colour + 1.0);
+        let kept = (self.correlation_time - 1.0) / (self.correlation_time + 1.0);
         let fresh = (1.0 - kept * kept).sqrt();
         let mut noisy = record.columns.clone();
         for (column, channel) in noisy.iter_mut().zip(record.channels()) {
@@ -48,16 +48,20 @@ mod tests {
         let time: Vec<f64> = (0..n).map(|i| 0.01 * f64::from(i)).collect();
         let zero = vec![0.0; time.len()];
         let record = Record::new("", time.clone(), vec![zero.clone(); 3], true, &[zero], Timing::Sample);
-        for (colour, kept) in [(1.0, 0.0), (3.0, 0.5), (9.0, 0.8)] {
-            let noise = Noise { variance: [0.04, 0.25, 9.0], colour };
+        for (correlation_time, kept) in [(1.0, 0.0), (3.0, 0.5), (9.0, 0.8)] {
+            let noise = Noise { variance: [0.04, 0.25, 9.0], correlation_time };
             let noisy = noise.added_to(&record, &mut ChaCha8Rng::seed_from_u64(5));
             for (column, std) in noisy.iter().zip([0.2, 0.2, 0.5]) {
                 let moment = |lag: usize| {
                     let pairs = column.iter().zip(column.iter().skip(lag));
                     pairs.map(|(a, b)| a * b).sum::<f64>() / f64::from(n)
                 };
-                assert!((moment(0).sqrt() / std - 1.0).abs() < 0.05, "{colour}: {} for {std}", moment(0).sqrt());
-                assert!((moment(1) / moment(0) - kept).abs() < 0.02, "{colour}: {}", moment(1) / moment(0));
+                assert!(
+                    (moment(0).sqrt() / std - 1.0).abs() < 0.05,
+                    "{correlation_time}: {} for {std}",
+                    moment(0).sqrt()
+                );
+                assert!((moment(1) / moment(0) - kept).abs() < 0.02, "{correlation_time}: {}", moment(1) / moment(0));
             }
         }
     }

@@ -1,11 +1,11 @@
 //! The data behind the report's pictures.
 
-use crate::discrepancy::diagnosis::before_after::{Judged, Predictors};
+use crate::discrepancy::diagnosis::before_after::{ModelComparison, Rollouts};
 use crate::discrepancy::preprocessing::dataset::Data;
 use crate::discrepancy::record::record::Record;
-use crate::discrepancy::report::{Candidate, PathPicture, Pictures, Report};
-use crate::discrepancy::selection::choice::Choice;
-use crate::discrepancy::shooting::rollout::Predictor;
+use crate::discrepancy::report::{CandidatePicture, PathPicture, Pictures, Report};
+use crate::discrepancy::selection::choice::Selected;
+use crate::discrepancy::shooting::rollout::Rollout;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
@@ -13,15 +13,15 @@ use crate::model::Model;
 /// Runs that are drawn.
 const MOST_RUNS: usize = 6;
 
-pub(crate) fn pictures(data: &Data, choice: &Choice, report: &Report, judged: &Judged) -> Pictures {
-    let drawn = |records: &[Record], [before, after]: &[Predictors; 2], held_out: bool| -> Vec<PathPicture> {
+pub(crate) fn pictures(data: &Data, choice: &Selected, report: &Report, judged: &ModelComparison) -> Pictures {
+    let drawn = |records: &[Record], [before, after]: &[Rollouts; 2], held_out: bool| -> Vec<PathPicture> {
         let each = records.iter().zip(before.each()).zip(after.each());
         each.map(|((r, before), after)| path(r, held_out, before, after)).take(MOST_RUNS).collect()
     };
     let held_out = drawn(&data.held_out, &judged.held_out, true).into_iter().take(MOST_RUNS / 2);
     let paths = held_out.chain(drawn(&data.fitted, &judged.fitted, false)).take(MOST_RUNS).collect();
     let rivals: Vec<&Applied> = choice.chosen.iter().flat_map(|c| &c.rivals).collect();
-    let candidates = choice.candidates.iter().map(|s| Candidate {
+    let candidates = choice.candidates.iter().map(|s| CandidatePicture {
         id: s.applied.label(),
         delta_bic: s.delta_bic,
         chosen: choice.chosen.iter().any(|c| c.applied.same_as(&s.applied)),
@@ -51,16 +51,16 @@ pub(crate) fn measured_path(record: &Record, held_out: bool) -> PathPicture {
 
 /// The measured path of a run beside that of the model as given, which nothing was fitted to.
 pub(crate) fn path_as_given(record: &Record, model: &Model) -> Result<PathPicture> {
-    let before = pieces(record, &Predictor::new(model, record)?);
+    let before = pieces(record, &Rollout::new(model, record)?);
     Ok(PathPicture { before, ..measured_path(record, false) })
 }
 
 /// Measured and predicted paths; the models are restarted so rarely that a gap shows, and at least once a picture.
-fn path(record: &Record, held_out: bool, before: &Predictor, after: &Predictor) -> PathPicture {
+fn path(record: &Record, held_out: bool, before: &Rollout, after: &Rollout) -> PathPicture {
     PathPicture { before: pieces(record, before), after: pieces(record, after), ..measured_path(record, held_out) }
 }
 
-fn pieces(record: &Record, predictor: &Predictor) -> Vec<Vec<[f64; 2]>> {
+fn pieces(record: &Record, predictor: &Rollout) -> Vec<Vec<[f64; 2]>> {
     let duration = record.time[record.rows.end - 1] - record.time[record.rows.start];
     let horizon = (duration - 1.5).clamp(1.0, 30.0);
     let xy = |y: Vec<f64>| [y[0], y[1]];

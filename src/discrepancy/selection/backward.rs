@@ -1,31 +1,31 @@
 //! Effects of a search that are dropped again, or put in the place of others.
 
-use super::search::{Selection, find, without};
+use super::search::{Search, find, without_effect};
 use crate::discrepancy::estimation::bounds::vanishes;
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
-use crate::discrepancy::evidence::information_criterion::{bic, worth};
+use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
 use crate::discrepancy::evidence::wald_test::wald;
 use crate::effects::Applied;
 use crate::error::Result;
 
-impl Selection<'_> {
+impl Search<'_> {
     /// The fit without an effect.
-    pub fn reduced(&self, fit: &Fit, effect: &Applied) -> Result<Option<Fit>> {
+    pub fn without(&self, fit: &Fit, effect: &Applied) -> Result<Option<Fit>> {
         // From the jumps of the model as given: what an effect leaves unexplained is not found from zero jumps,
         // where the likelihood is flat.
-        let smaller = without(&fit.model, effect, &self.before.model);
-        self.problem.fit(&smaller, &fit.starts, &self.before.variances, Effort::FULL)
+        let smaller = without_effect(&fit.model, effect, &self.before.model);
+        self.problem.fit(&smaller, &fit.window_states, &self.before.variances, Effort::FULL)
     }
 
     /// Drops what is no longer needed: what is worth no more than a bar beyond BIC.
-    pub fn pruned(&self, mut fit: Fit, bar: f64) -> Result<Fit> {
+    pub fn eliminate_backward(&self, mut fit: Fit, bar: f64) -> Result<Fit> {
         loop {
             let mut best: Option<(f64, Fit)> = None;
             let effects: Vec<Applied> = fit.model.free_effects().cloned().collect();
             // At the edge where it vanishes an effect explains nothing, whatever the numbers say of its neighbourhood.
             if let Some(gone) = effects.iter().find(|e| vanishes(e)) {
-                let Some(smaller) = self.reduced(&fit, gone)? else { return Ok(fit) };
+                let Some(smaller) = self.without(&fit, gone)? else { return Ok(fit) };
                 fit = smaller;
                 continue;
             }
@@ -34,9 +34,9 @@ impl Selection<'_> {
                 if wald(&fit, &effect) > 4.0 * self.margin() {
                     continue;
                 }
-                let Some(smaller) = self.reduced(&fit, &effect)? else { continue };
+                let Some(smaller) = self.without(&fit, &effect)? else { continue };
                 let n = fit.sample_size.max(smaller.sample_size);
-                let worth = worth(&fit, &smaller, n);
+                let worth = delta_bic(&fit, &smaller, n);
                 if worth <= bar && best.as_ref().is_none_or(|(w, _)| worth < *w) {
                     best = Some((worth, smaller));
                 }
@@ -49,7 +49,7 @@ impl Selection<'_> {
     }
 
     /// Puts another effect in the place of a chosen one where that explains the data better.
-    pub(crate) fn exchanged(&self, mut fit: Fit) -> Result<Fit> {
+    pub(crate) fn swap(&self, mut fit: Fit) -> Result<Fit> {
         let chosen: Vec<Applied> = fit.model.free_effects().cloned().collect();
         for effect in &chosen {
             if fit.model.free_effects().count() < 2 {
@@ -57,7 +57,7 @@ impl Selection<'_> {
             }
             let rivals = self.in_place_of(&fit, effect)?;
             let Some((other, rival)) = rivals.into_iter().next() else { continue };
-            let Some(rival) = self.refined(&rival)? else { continue };
+            let Some(rival) = self.refit(&rival)? else { continue };
             if find(&rival.model, &other).is_some_and(|a| vanishes(&a)) {
                 // What it says there, another effect says with fewer parameters.
                 continue;
@@ -73,8 +73,8 @@ impl Selection<'_> {
     /// Fits with another effect in the place of a chosen one, best first, at the noise and jumps of the fit: those
     /// that promise a good part of what the chosen one gives.
     pub fn in_place_of(&self, fit: &Fit, effect: &Applied) -> Result<Vec<(Applied, Fit)>> {
-        let smaller = without(&fit.model, effect, &self.before.model);
-        let Some(bare) = self.problem.fit(&smaller, &fit.starts, &fit.variances, Effort::SCREENING)? else {
+        let smaller = without_effect(&fit.model, effect, &self.before.model);
+        let Some(bare) = self.problem.fit(&smaller, &fit.window_states, &fit.variances, Effort::SCREENING)? else {
             return Ok(vec![]);
         };
         let lost = bare.deviance - fit.deviance;

@@ -1,12 +1,12 @@
 //! Candidates of a search, screened by what they promise and ranked by their evidence.
 
-use super::search::{Addition, Scored, Selection, find};
+use super::search::{Addition, Candidate, Search, find};
 use crate::discrepancy::estimation::bounds::{is_at_an_end, vanishes};
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
-use crate::discrepancy::evidence::information_criterion::{bic, worth};
+use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
 use crate::discrepancy::evidence::score_test;
-use crate::discrepancy::evidence::score_test::{Promise, Promises};
+use crate::discrepancy::evidence::score_test::{ScoreTest, ScoreTests};
 use crate::discrepancy::evidence::wald_test::repeats;
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
@@ -21,18 +21,18 @@ const SHORTLIST: usize = 8;
 const FAINT: f64 = 0.1;
 
 /// Candidates by what they promise, the most promising with a fit; and pairs of them.
-pub(crate) struct Screened {
-    pub single: Vec<(Promise, Option<Fit>)>,
-    pub pairs: Vec<[Promise; 2]>,
+pub(crate) struct Shortlist {
+    pub single: Vec<(ScoreTest, Option<Fit>)>,
+    pub pairs: Vec<[ScoreTest; 2]>,
 }
 
 /// Candidates by their evidence, the finalists with a fit; and pairs of them.
-pub(crate) struct Ranked {
-    pub single: Vec<(Scored, Option<Fit>)>,
-    pub pairs: Vec<[Promise; 2]>,
+pub(crate) struct Ranking {
+    pub single: Vec<(Candidate, Option<Fit>)>,
+    pub pairs: Vec<[ScoreTest; 2]>,
 }
 
-impl Selection<'_> {
+impl Search<'_> {
     /// Effects that could be added to a model.
     fn open(&self, model: &Model) -> Vec<(&Effect, Option<usize>)> {
         let is_taken =
@@ -43,16 +43,16 @@ impl Selection<'_> {
     /// The candidates for a model by what they promise; the most promising with a fit.
     ///
     /// `from` is the deviance without the candidate, `floor` the least gain that is of interest.
-    pub(crate) fn screen(&self, base: &Fit, model: &Model, from: f64, floor: f64) -> Result<Screened> {
-        let Promises { single: mut promises, pairs } =
+    pub(crate) fn screen(&self, base: &Fit, model: &Model, from: f64, floor: f64) -> Result<Shortlist> {
+        let ScoreTests { single: mut promises, pairs } =
             score_test::promises(self.problem, base, model, &self.open(model))?;
         let n = base.sample_size;
-        let worth = |p: &Promise| rounded(p.deviance + p.applied.values.len() as f64 * n.ln());
+        let worth = |p: &ScoreTest| rounded(p.deviance + p.applied.values.len() as f64 * n.ln());
         promises.sort_by(|a, b| worth(a).total_cmp(&worth(b)));
         // What promises next to nothing beside the best is listed, not fitted.
-        let gain = |p: &Promise| from - p.deviance;
+        let gain = |p: &ScoreTest| from - p.deviance;
         let wanted = promises.iter().map(gain).fold(floor, |m, g| m.max(FAINT * g));
-        let settled = |(i, p): (usize, Promise)| -> Result<_> {
+        let settled = |(i, p): (usize, ScoreTest)| -> Result<_> {
             let worthwhile = i < SHORTLIST && gain(&p) >= wanted;
             let fit = if worthwhile {
                 score_test::settled(self.problem, base, model, &[&p], Effort::SCREENING)?
@@ -61,10 +61,10 @@ impl Selection<'_> {
             };
             Ok((p, fit))
         };
-        let mut found: Vec<(Promise, Option<Fit>)> =
+        let mut found: Vec<(ScoreTest, Option<Fit>)> =
             promises.into_par_iter().enumerate().map(settled).collect::<Result<_>>()?;
         // A stable sort: of identical effects the first of the library is named.
-        let rank = |(p, fit): &(Promise, Option<Fit>)| match fit {
+        let rank = |(p, fit): &(ScoreTest, Option<Fit>)| match fit {
             Some(fit) => (false, rounded(bic(fit, n)), place(&p.applied)),
             None => (true, worth(p), place(&p.applied)),
         };
@@ -72,40 +72,40 @@ impl Selection<'_> {
             let ((a0, a1, a2), (b0, b1, b2)) = (rank(a), rank(b));
             a0.cmp(&b0).then(a1.total_cmp(&b1)).then(a2.cmp(&b2))
         });
-        Ok(Screened { single: found, pairs })
+        Ok(Shortlist { single: found, pairs })
     }
 
     /// The candidates by ΔBIC against a fit, the finalists with noise and jumps of their own; the others are listed
     /// by what they promise, and have no fit.
-    pub(crate) fn ranked(&self, base: &Fit) -> Result<Ranked> {
-        let finish = |(i, (promise, fit)): (usize, (Promise, Option<Fit>))| -> Result<_> {
+    pub(crate) fn ranked(&self, base: &Fit) -> Result<Ranking> {
+        let finish = |(i, (promise, fit)): (usize, (ScoreTest, Option<Fit>))| -> Result<_> {
             // At the edge where it vanishes an effect is not chosen, and is stiff to integrate.
             let gone = |fit: &Fit| find(&fit.model, &promise.applied).is_some_and(|a| vanishes(&a));
             let full = match &fit {
-                Some(fit) if i < FINALISTS && !gone(fit) => self.refined(fit)?,
+                Some(fit) if i < FINALISTS && !gone(fit) => self.refit(fit)?,
                 _ => None,
             };
             let n = base.sample_size.max(full.as_ref().map_or(0.0, |f| f.sample_size));
             let deviance = full.as_ref().or(fit.as_ref()).map_or(promise.deviance, |f| f.deviance);
-            let begun = full.as_ref().map_or(0.0, |f| f.begun - base.begun);
+            let begun = full.as_ref().map_or(0.0, |f| f.initial_state_dof - base.initial_state_dof);
             let k = promise.applied.values.len() as f64 + begun;
             let delta_bic = base.deviance - deviance - k * n.ln();
             let fitted = full.as_ref().or(fit.as_ref()).and_then(|f| find(&f.model, &promise.applied));
             let applied = fitted.unwrap_or(promise.applied);
-            Ok((Scored { applied, std: promise.std, delta_bic }, full))
+            Ok((Candidate { applied, std: promise.std, delta_bic }, full))
         };
         let screened = self.screen(base, &base.model, base.deviance, 0.5 * self.margin())?;
-        let mut scored: Vec<(Scored, Option<Fit>)> =
+        let mut scored: Vec<(Candidate, Option<Fit>)> =
             screened.single.into_par_iter().enumerate().map(finish).collect::<Result<_>>()?;
         scored.sort_by(|a, b| {
-            let rank = |s: &(Scored, Option<Fit>)| rounded(-s.0.delta_bic);
+            let rank = |s: &(Candidate, Option<Fit>)| rounded(-s.0.delta_bic);
             rank(a).total_cmp(&rank(b)).then(place(&a.0.applied).cmp(&place(&b.0.applied)))
         });
-        Ok(Ranked { single: scored, pairs: screened.pairs })
+        Ok(Ranking { single: scored, pairs: screened.pairs })
     }
 
     /// The best two effects together, where they promise and keep more than the best one by what a second one costs.
-    pub(crate) fn pair(&self, base: &Fit, pairs: &[[Promise; 2]], single: Option<&Fit>) -> Result<Option<Addition>> {
+    pub(crate) fn pair(&self, base: &Fit, pairs: &[[ScoreTest; 2]], single: Option<&Fit>) -> Result<Option<Addition>> {
         let reached = single.unwrap_or(base);
         let mut best: Option<Addition> = None;
         for [a, b] in pairs {
@@ -121,13 +121,13 @@ impl Selection<'_> {
             if rough.model.free_effects().any(vanishes) {
                 continue;
             }
-            let Some(fit) = self.refined(&rough)? else { continue };
+            let Some(fit) = self.refit(&rough)? else { continue };
             if fit.model.free_effects().any(is_at_an_end) || ![a, b].iter().all(|p| repeats(&fit, &p.applied)) {
                 continue;
             }
             let n = n.max(fit.sample_size);
             let bar = self.margin() * if single.is_some() { 1.0 } else { 2.0 };
-            if worth(&fit, reached, n) > bar && best.as_ref().is_none_or(|(_, f)| bic(&fit, n) < bic(f, n)) {
+            if delta_bic(&fit, reached, n) > bar && best.as_ref().is_none_or(|(_, f)| bic(&fit, n) < bic(f, n)) {
                 best = Some((vec![a.applied.clone(), b.applied.clone()], fit));
             }
         }

@@ -1,13 +1,13 @@
 //! The outcome of the selection.
 
-use super::search::Scored;
+use super::search::Candidate;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::effects::Applied;
 use crate::model::Model;
 
 /// An effect that was chosen.
 #[derive(Clone, Debug)]
-pub struct Chosen {
+pub struct SelectedEffect {
     /// The effect at its fitted values.
     pub applied: Applied,
     /// Standard deviations of its values, where the data give them.
@@ -22,19 +22,19 @@ pub struct Chosen {
 
 /// The outcome of the selection.
 #[derive(Clone, Debug)]
-pub struct Choice {
+pub struct Selected {
     /// The model as given.
     pub before: Fit,
     /// The model with the chosen effects.
     pub after: Fit,
     /// The chosen effects, in the order of the model.
-    pub chosen: Vec<Chosen>,
+    pub chosen: Vec<SelectedEffect>,
     /// The models on the way, after each addition.
     pub steps: Vec<(String, Model)>,
     /// All candidates as they stood against the model as given.
-    pub candidates: Vec<Scored>,
+    pub candidates: Vec<Candidate>,
     /// Effects and terms that the whole data ask for, and parts of them with other values, so that they are not kept.
-    pub unshared: Vec<Applied>,
+    pub inconsistent: Vec<Applied>,
     /// Effects and terms that come and go with how often the inputs are logged, so that they are not kept.
-    pub unsampled: Vec<Applied>,
+    pub sampling_sensitive: Vec<Applied>,
 }

@@ -4,7 +4,7 @@
 //! misses looks like an effect. It grows at least with the square of the time between rows; what is there keeps its value.
 //! So of what a value moves by when the time between rows is doubled, a third is missed at most before.
 
-use super::search::{Grown, Selection};
+use super::search::{Search, SearchState};
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
@@ -22,7 +22,7 @@ const GROWTH: f64 = 3.0;
 
 /// What a fit is worth where its inputs are logged half as often.
 #[derive(Default)]
-pub(crate) struct Sampled {
+pub(crate) struct InputSampling {
     /// What came and went with how often the inputs are logged, worst first, and was dropped.
     pub dropped: Vec<Applied>,
     /// What the interpolation may make up of each value that stays; nothing where that could not be asked.
@@ -30,15 +30,20 @@ pub(crate) struct Sampled {
 }
 
 /// Drops what comes and goes with how often the inputs are logged, and says how far the rest may be off for it.
-pub(crate) fn keep_sampled(selection: &Selection, grown: &mut Grown, progress: &dyn Fn(&str)) -> Result<Sampled> {
-    let mut found = Sampled::default();
+pub(crate) fn keep_sampled(
+    selection: &Search,
+    grown: &mut SearchState,
+    progress: &dyn Fn(&str),
+) -> Result<InputSampling> {
+    let mut found = InputSampling::default();
     if grown.fit.p.is_empty() {
         return Ok(found);
     }
     let Some(coarse) = with_half_the_inputs(selection.problem) else { return Ok(found) };
     while !grown.fit.p.is_empty() {
         progress("asking every second row of the inputs for the same effects");
-        let Some(half) = coarse.fit(&grown.fit.model, &grown.fit.starts, &grown.fit.variances, Effort::FULL)? else {
+        let Some(half) = coarse.fit(&grown.fit.model, &grown.fit.window_states, &grown.fit.variances, Effort::FULL)?
+        else {
             break;
         };
         let moved = grown.fit.model.free_effects().map(|e| (share_missed(&grown.fit, &half, e), e));
@@ -48,7 +53,7 @@ pub(crate) fn keep_sampled(selection: &Selection, grown: &mut Grown, progress: &
             break;
         }
         let worst = worst.clone();
-        let Some(smaller) = selection.reduced(&grown.fit, &worst)? else { break };
+        let Some(smaller) = selection.without(&grown.fit, &worst)? else { break };
         grown.go_back_to(smaller);
         found.dropped.push(worst);
     }

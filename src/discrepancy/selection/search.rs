@@ -13,7 +13,7 @@ pub(crate) const MOST: usize = 6;
 
 /// A candidate effect and its evidence beside the effects already chosen.
 #[derive(Clone, Debug)]
-pub struct Scored {
+pub struct Candidate {
     /// The effect at its fitted values.
     pub applied: Applied,
     /// Standard deviations its values have, to first order.
@@ -23,13 +23,13 @@ pub struct Scored {
 }
 
 /// What a search ends with.
-pub(crate) struct Grown {
+pub(crate) struct SearchState {
     /// The model with what was found.
     pub fit: Fit,
     /// The models on the way, after each addition.
     pub steps: Vec<(String, Model)>,
     /// All candidates as they stood against the model the search began with.
-    pub candidates: Vec<Scored>,
+    pub candidates: Vec<Candidate>,
     /// What the data asked for at the end, and parts of them did not bear out.
     pub refused: Vec<Applied>,
 }
@@ -37,7 +37,7 @@ pub(crate) struct Grown {
 /// Effects that are added together, and the model with them.
 pub(crate) type Addition = (Vec<Applied>, Fit);
 
-impl Grown {
+impl SearchState {
     /// Nothing added yet.
     pub fn from(fit: &Fit) -> Self {
         Self { fit: fit.clone(), steps: vec![], candidates: vec![], refused: vec![] }
@@ -52,7 +52,7 @@ impl Grown {
 }
 
 /// A search over a library.
-pub(crate) struct Selection<'a> {
+pub(crate) struct Search<'a> {
     pub problem: &'a Problem,
     /// The model as given, with its noise and jumps.
     pub before: &'a Fit,
@@ -68,7 +68,7 @@ pub(crate) struct Selection<'a> {
 }
 
 /// A model without an effect that was found; one that the model as given has with a value of its own has it again.
-pub(crate) fn without(model: &Model, effect: &Applied, given: &Model) -> Model {
+pub(crate) fn without_effect(model: &Model, effect: &Applied, given: &Model) -> Model {
     let mut smaller = model.clone();
     smaller.effects.retain(|e| !e.same_as(effect));
     let given = given.effects.iter().filter(|e| !e.free && e.same_as(effect));
@@ -76,15 +76,15 @@ pub(crate) fn without(model: &Model, effect: &Applied, given: &Model) -> Model {
     smaller
 }
 
-impl Selection<'_> {
+impl Search<'_> {
     /// What a candidate must gain beyond BIC because the library is large.
     pub fn margin(&self) -> f64 {
         2.0 * self.size.ln()
     }
 
     /// A fit with noise and jumps of its own.
-    pub fn refined(&self, fit: &Fit) -> Result<Option<Fit>> {
-        self.problem.fit(&fit.model, &fit.starts, &fit.variances, Effort::FULL)
+    pub fn refit(&self, fit: &Fit) -> Result<Option<Fit>> {
+        self.problem.fit(&fit.model, &fit.window_states, &fit.variances, Effort::FULL)
     }
 }
 

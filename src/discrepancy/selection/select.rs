@@ -1,8 +1,8 @@
 //! Which effects are missing: candidates ranked by evidence on the fitting data alone.
 
 use super::candidates::FINALISTS;
-use super::input_sampling::{Sampled, keep_sampled};
-use super::search::{Grown, MOST, Selection, find};
+use super::input_sampling::{InputSampling, keep_sampled};
+use super::search::{MOST, Search, SearchState, find};
 use super::stability;
 use super::stability::Stable;
 use super::transients;
@@ -11,16 +11,16 @@ use crate::discrepancy::estimation::bounds::is_at_an_end;
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
-use crate::discrepancy::evidence::information_criterion::{bic, worth};
-use crate::discrepancy::evidence::jackknife::Scatter;
+use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
+use crate::discrepancy::evidence::jackknife::Jackknife;
 use crate::discrepancy::evidence::parametric_bootstrap;
 use crate::discrepancy::evidence::wald_test::tail;
-use crate::discrepancy::selection::choice::{Choice, Chosen};
+use crate::discrepancy::selection::choice::{Selected, SelectedEffect};
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::Model;
 
-pub use super::search::Scored;
+pub use super::search::Candidate;
 
 /// A rival whose evidence is this close to the chosen effect's is not told from it.
 pub(crate) const CLOSE: f64 = 6.0;
@@ -35,12 +35,17 @@ const DRAWS: usize = 99;
 /// A candidate must beat BIC = deviance + k·ln n by a margin of 2·ln M for a library of M candidates: with
 /// nothing hidden the best of M would otherwise pass by chance. After each addition earlier ones are asked
 /// again whether they are still needed, and whether another would do better in their place.
-pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &dyn Fn(&str)) -> Result<Option<Choice>> {
+pub fn choose(
+    problem: &Problem,
+    model: &Model,
+    library: &[Effect],
+    progress: &dyn Fn(&str),
+) -> Result<Option<Selected>> {
     progress("fitting the model as it is");
     let starts = problem.starts(model)?;
     let Some(before) = problem.fit(model, &starts, &problem.variances, Effort::FULL)? else { return Ok(None) };
     let quick = transients::without_transients(library);
-    let selection = Selection {
+    let selection = Search {
         problem,
         before: &before,
         library: &quick,
@@ -51,24 +56,24 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &d
     };
     let named = transients::search(&selection, library, selection.grown(&before, progress)?)?;
     let grown = unnamed_terms::search(&selection, &named, &[], progress)?.unwrap_or(named);
-    let Stable { mut grown, unshared, scatter } = stability::search(&selection, grown, progress)?;
-    let Sampled { dropped: unsampled, mut missed } = keep_sampled(&selection, &mut grown, progress)?;
+    let Stable { mut grown, inconsistent, scatter } = stability::search(&selection, grown, progress)?;
+    let InputSampling { dropped: sampling_sensitive, mut missed } = keep_sampled(&selection, &mut grown, progress)?;
     // Where something went, the values no longer stand where they stood.
-    let scatter = scatter.filter(|_| unsampled.is_empty());
+    let scatter = scatter.filter(|_| sampling_sensitive.is_empty());
     let mut chosen = selection.examined(&grown.fit, scatter.as_ref(), &missed)?;
     // What others left of an effect may be less than it costs, or send it to the end of its range.
     while let Some(idle) = chosen.iter().find(|c| is_at_an_end(&c.applied)).or_else(|| least_worth(&chosen)) {
-        let Some(smaller) = selection.reduced(&grown.fit, &idle.applied)? else { break };
+        let Some(smaller) = selection.without(&grown.fit, &idle.applied)? else { break };
         forget(&mut missed, &grown.fit, &idle.applied);
         grown.go_back_to(smaller);
         chosen = selection.examined(&grown.fit, None, &missed)?;
     }
-    let Grown { fit: after, steps, candidates, .. } = grown;
-    Ok(Some(Choice { before, after, chosen, steps, candidates, unshared, unsampled }))
+    let SearchState { fit: after, steps, candidates, .. } = grown;
+    Ok(Some(Selected { before, after, chosen, steps, candidates, inconsistent, sampling_sensitive }))
 }
 
 /// The effect whose own evidence speaks against it most.
-fn least_worth(chosen: &[Chosen]) -> Option<&Chosen> {
+fn least_worth(chosen: &[SelectedEffect]) -> Option<&SelectedEffect> {
     let against = chosen.iter().filter(|c| c.delta_bic <= 0.0);
     against.min_by(|a, b| a.delta_bic.total_cmp(&b.delta_bic))
 }
@@ -86,11 +91,11 @@ fn forget(numbers: &mut Vec<f64>, fit: &Fit, effect: &Applied) {
     }
 }
 
-impl Selection<'_> {
+impl Search<'_> {
     /// Evidence, deviations and rivals of every chosen effect.
     ///
     /// `missed` is what the interpolation of the inputs may make up of each value; an offset no rows average out.
-    fn examined(&self, fit: &Fit, scatter: Option<&Scatter>, missed: &[f64]) -> Result<Vec<Chosen>> {
+    fn examined(&self, fit: &Fit, scatter: Option<&Jackknife>, missed: &[f64]) -> Result<Vec<SelectedEffect>> {
         let mut at = 0;
         let mut found = Vec::new();
         for applied in fit.model.free_effects().cloned() {
@@ -98,18 +103,19 @@ impl Selection<'_> {
             // What runs scatter by counts where it is more than their noise, and what hangs together in it, explains.
             let runs = |i: usize| fit.between_runs.as_ref().map_or(0.0, |c| c[(i, i)].sqrt());
             let between = |i: usize| scatter.map_or(0.0, |s| s.std[i]).max(runs(i));
-            let chance =
-                |i: usize| fit.covariance.as_ref().map(|c| (c[(i, i)] * fit.dependence()).sqrt().max(between(i)));
+            let chance = |i: usize| {
+                fit.covariance.as_ref().map(|c| (c[(i, i)] * fit.variance_inflation()).sqrt().max(between(i)))
+            };
             let spread = |i: usize| chance(i).map(|std| missed.get(i).map_or(std, |e| std.hypot(*e)));
             let std = (at..at + k).map(spread).collect();
             at += k;
-            let Some(smaller) = self.reduced(fit, &applied)? else { continue };
+            let Some(smaller) = self.without(fit, &applied)? else { continue };
             let n = fit.sample_size.max(smaller.sample_size);
             let gain = (smaller.deviance - fit.deviance).max(0.0);
             let rivals = self.rivals(fit, &applied)?;
-            let delta_bic = worth(fit, &smaller, n);
-            let p_value = self.p_value(&smaller, &applied, gain / fit.dependence())?;
-            found.push(Chosen { applied, std, delta_bic, p_value, rivals });
+            let delta_bic = delta_bic(fit, &smaller, n);
+            let p_value = self.p_value(&smaller, &applied, gain / fit.variance_inflation())?;
+            found.push(SelectedEffect { applied, std, delta_bic, p_value, rivals });
         }
         Ok(found)
     }
@@ -126,11 +132,11 @@ impl Selection<'_> {
     /// Effects that explain the data as well in the place of a chosen one.
     fn rivals(&self, fit: &Fit, chosen: &Applied) -> Result<Vec<Applied>> {
         let n = fit.sample_size;
-        let behind = |f: &Fit| (bic(f, n) - bic(fit, n)) / fit.dependence();
+        let behind = |f: &Fit| (bic(f, n) - bic(fit, n)) / fit.variance_inflation();
         let near = self.in_place_of(fit, chosen)?.into_iter().filter(|(_, f)| behind(f) < 4.0 * CLOSE);
         let mut found = Vec::new();
         for (applied, rough) in near.take(FINALISTS) {
-            let full = self.refined(&rough)?.unwrap_or(rough);
+            let full = self.refit(&rough)?.unwrap_or(rough);
             if behind(&full) < CLOSE {
                 found.extend(find(&full.model, &applied));
             }

@@ -3,11 +3,11 @@
 //! A model that misses a law is wrong, and then the formal evidence for whatever stands in for that law is large: each
 //! run is imitated by other values of it. What is there has the same value in all runs.
 
-use super::search::{Grown, Selection};
+use super::search::{Search, SearchState};
 use super::unnamed_terms;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::unexplained::remains;
-use crate::discrepancy::evidence::jackknife::Scatter;
+use crate::discrepancy::evidence::jackknife::Jackknife;
 use crate::discrepancy::selection::search::still_open;
 use crate::effects::Applied;
 use crate::error::Result;
@@ -19,64 +19,64 @@ const ROUNDS: usize = 3;
 /// A search's outcome that all parts of the data share.
 pub(crate) struct Stable {
     /// What they share.
-    pub grown: Grown,
+    pub grown: SearchState,
     /// What the whole data ask for and their parts do not share.
-    pub unshared: Vec<Applied>,
+    pub inconsistent: Vec<Applied>,
     /// How the values scatter, where the parts were asked.
-    pub scatter: Option<Scatter>,
+    pub scatter: Option<Jackknife>,
 }
 
 /// Keeps of what was found what parts of the data share, and looks again without the rest.
 ///
 /// Asked only where motion remains that the fit does not explain: where nothing remains the formal evidence holds.
-pub(crate) fn search(selection: &Selection, found: Grown, progress: &dyn Fn(&str)) -> Result<Stable> {
-    let mut stable = Stable { grown: found, unshared: vec![], scatter: None };
+pub(crate) fn search(selection: &Search, found: SearchState, progress: &dyn Fn(&str)) -> Result<Stable> {
+    let mut stable = Stable { grown: found, inconsistent: vec![], scatter: None };
     for round in 1..=ROUNDS {
         if !stable.keep_shared(selection, progress)? || round == ROUNDS {
             break;
         }
         stable.look_again(selection, progress)?;
     }
-    if !stable.unshared.is_empty() && !stable.grown.fit.model.free_effects().any(is_term) {
-        let named = Grown::from(&stable.grown.fit);
-        if let Some(found) = unnamed_terms::search(selection, &named, &stable.unshared, progress)? {
+    if !stable.inconsistent.is_empty() && !stable.grown.fit.model.free_effects().any(is_term) {
+        let named = SearchState::from(&stable.grown.fit);
+        if let Some(found) = unnamed_terms::search(selection, &named, &stable.inconsistent, progress)? {
             stable.go_on_with(found);
         }
         stable.keep_shared(selection, progress)?;
     }
-    if stable.unshared.is_empty() && remains(&stable.grown.fit) {
+    if stable.inconsistent.is_empty() && remains(&stable.grown.fit) {
         // Something remains, and what is asked for in its place no part bears out.
-        stable.unshared = std::mem::take(&mut stable.grown.refused);
+        stable.inconsistent = std::mem::take(&mut stable.grown.refused);
     }
     Ok(stable)
 }
 
 impl Stable {
     /// Drops what the parts do not share, one after another, what has no name first; whether anything went.
-    fn keep_shared(&mut self, selection: &Selection, progress: &dyn Fn(&str)) -> Result<bool> {
-        let known = self.unshared.len();
+    fn keep_shared(&mut self, selection: &Search, progress: &dyn Fn(&str)) -> Result<bool> {
+        let known = self.inconsistent.len();
         while remains(&self.grown.fit) && !self.grown.fit.p.is_empty() {
             progress("asking parts of the data for the same effects");
-            self.scatter = Scatter::of(selection.problem, &self.grown.fit)?;
+            self.scatter = Jackknife::of(selection.problem, &self.grown.fit)?;
             let worst = self.scatter.as_ref().and_then(|s| least_shared(&self.grown.fit, s));
             let Some(worst) = worst else { break };
-            let Some(smaller) = selection.reduced(&self.grown.fit, &worst)? else { break };
-            self.unshared.push(worst);
+            let Some(smaller) = selection.without(&self.grown.fit, &worst)? else { break };
+            self.inconsistent.push(worst);
             self.grown.go_back_to(smaller);
             self.scatter = None;
         }
-        Ok(self.unshared.len() > known)
+        Ok(self.inconsistent.len() > known)
     }
 
     /// The search for names from what is shared on, without what is not.
-    fn look_again(&mut self, selection: &Selection, progress: &dyn Fn(&str)) -> Result<()> {
-        let library = still_open(selection.library, &self.unshared);
-        let found = Selection { library: &library, ..*selection }.grown(&self.grown.fit, progress)?;
+    fn look_again(&mut self, selection: &Search, progress: &dyn Fn(&str)) -> Result<()> {
+        let library = still_open(selection.library, &self.inconsistent);
+        let found = Search { library: &library, ..*selection }.grown(&self.grown.fit, progress)?;
         self.go_on_with(found);
         Ok(())
     }
 
-    fn go_on_with(&mut self, found: Grown) {
+    fn go_on_with(&mut self, found: SearchState) {
         self.grown.steps.extend(found.steps);
         self.grown.fit = found.fit;
         self.grown.refused = found.refused;
@@ -85,10 +85,10 @@ impl Stable {
 }
 
 /// The effect that stands out least, of those that do not stand out; one without a name before one that has one.
-fn least_shared(fit: &Fit, scatter: &Scatter) -> Option<Applied> {
+fn least_shared(fit: &Fit, scatter: &Jackknife) -> Option<Applied> {
     let ranked = fit.model.free_effects().map(|e| (!is_term(e), scatter.shows(fit, e), e));
-    let unshared = ranked.filter(|(_, shows, _)| *shows < 1.0);
-    unshared.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))).map(|(_, _, e)| e.clone())
+    let inconsistent = ranked.filter(|(_, shows, _)| *shows < 1.0);
+    inconsistent.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))).map(|(_, _, e)| e.clone())
 }
 
 #[cfg(test)]
@@ -101,7 +101,7 @@ mod tests {
     fn what_is_least_shared_goes_first() {
         let fit = fit_of(unicycle(&[("traction-creep", &[0.3]), ("traverse-creep", &[-0.05])]));
         let gone =
-            |std: [f64; 2]| least_shared(&fit, &Scatter { std: std.to_vec(), parts: 3 }).map(|e| e.effect.id.clone());
+            |std: [f64; 2]| least_shared(&fit, &Jackknife { std: std.to_vec(), parts: 3 }).map(|e| e.effect.id.clone());
         assert_eq!(gone([0.3 / 4.31, 0.05 / 4.31]), None);
         assert_eq!(gone([0.3 / 4.29, 0.05 / 4.31]).as_deref(), Some("traction-creep"));
         assert_eq!(gone([0.3 / 4.31, 0.05 / 4.29]).as_deref(), Some("traverse-creep"));

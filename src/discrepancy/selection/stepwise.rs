@@ -1,10 +1,10 @@
 //! Forward stepwise selection: effects added one or two at a time, each asked whether it predicts.
 
-use super::candidates::Ranked;
-use super::search::{Addition, Grown, Scored, Selection};
+use super::candidates::Ranking;
+use super::search::{Addition, Candidate, Search, SearchState};
 use crate::discrepancy::estimation::bounds::{is_at_an_end, vanishes};
 use crate::discrepancy::estimation::fit::Fit;
-use crate::discrepancy::evidence::information_criterion::worth;
+use crate::discrepancy::evidence::information_criterion::delta_bic;
 use crate::discrepancy::evidence::wald_test::repeats;
 use crate::discrepancy::rendering::summary::listed;
 use crate::effects::Applied;
@@ -12,10 +12,10 @@ use crate::error::Result;
 use crate::model::Model;
 use crate::model::effect_equation::is_term;
 
-impl Selection<'_> {
+impl Search<'_> {
     /// Adds effects until nothing is left above the noise.
-    pub fn grown(&self, before: &Fit, progress: &dyn Fn(&str)) -> Result<Grown> {
-        let mut found = Grown::from(before);
+    pub fn grown(&self, before: &Fit, progress: &dyn Fn(&str)) -> Result<SearchState> {
+        let mut found = SearchState::from(before);
         while found.steps.len() < self.most {
             progress(&format!("weighing {} candidates, {} chosen", self.size, found.steps.len()));
             let ranked = self.ranked(&found.fit)?;
@@ -28,9 +28,9 @@ impl Selection<'_> {
                 break;
             };
             let model = fit.model.clone();
-            let mut next = if self.drops { self.pruned(fit, self.margin())? } else { fit };
+            let mut next = if self.drops { self.eliminate_backward(fit, self.margin())? } else { fit };
             if self.exchanges {
-                next = self.exchanged(next)?;
+                next = self.swap(next)?;
             }
             if same_effects(&next.model, &found.fit.model) {
                 // Added only to be dropped: round and round would lead nowhere.
@@ -43,15 +43,15 @@ impl Selection<'_> {
     }
 
     /// The next effect to add, or two of them that are needed together; and what was refused before it.
-    fn next(&self, base: &Fit, ranked: Ranked) -> Result<(Option<Addition>, Vec<Applied>)> {
+    fn next(&self, base: &Fit, ranked: Ranking) -> Result<(Option<Addition>, Vec<Applied>)> {
         let fitted = ranked.single.into_iter().filter_map(|(s, fit)| Some((s, fit?)));
-        let bar = |s: &Scored| if is_term(&s.applied) { 2.0 * self.margin() } else { self.margin() };
+        let bar = |s: &Candidate| if is_term(&s.applied) { 2.0 * self.margin() } else { self.margin() };
         // A gain must be large, and large still when what hangs together counts once.
-        let independent = |fit: &Fit| worth(fit, base, base.sample_size.max(fit.sample_size)) > self.margin();
-        let counts = |s: &Scored, fit: &Fit| s.delta_bic > bar(s) && independent(fit);
-        let inside = |s: &Scored| !vanishes(&s.applied) && !is_at_an_end(&s.applied);
+        let independent = |fit: &Fit| delta_bic(fit, base, base.sample_size.max(fit.sample_size)) > self.margin();
+        let counts = |s: &Candidate, fit: &Fit| s.delta_bic > bar(s) && independent(fit);
+        let inside = |s: &Candidate| !vanishes(&s.applied) && !is_at_an_end(&s.applied);
         let good = fitted.filter(|(s, fit)| counts(s, fit) && inside(s) && repeats(fit, &s.applied));
-        let singles: Vec<(Scored, Fit)> = good.collect();
+        let singles: Vec<(Candidate, Fit)> = good.collect();
         let pair = self.pair(base, &ranked.pairs, singles.first().map(|(_, f)| f))?;
         let singles = singles.into_iter().map(|(s, fit)| (vec![s.applied], fit));
         self.predicting(base, pair.into_iter().chain(singles))

@@ -1,6 +1,6 @@
 //! Effects whose quasi-static limit has been chosen, asked for where that limit does not explain everything.
 
-use super::search::{Grown, Selection, find, without};
+use super::search::{Search, SearchState, find, without_effect};
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::unexplained::is_wanted;
 use crate::discrepancy::evidence::information_criterion::bic;
@@ -14,7 +14,7 @@ pub(crate) fn without_transients(library: &[Effect]) -> Vec<Effect> {
 
 /// What was found with an effect in the place of its limit, where that explains the data better by more than a margin
 /// or as well with fewer effects.
-pub(crate) fn search(selection: &Selection, library: &[Effect], mut named: Grown) -> Result<Grown> {
+pub(crate) fn search(selection: &Search, library: &[Effect], mut named: SearchState) -> Result<SearchState> {
     // Where nothing remains but much was needed, the others may stand for the transients.
     if !is_wanted(&named.fit) {
         return Ok(named);
@@ -30,16 +30,23 @@ pub(crate) fn search(selection: &Selection, library: &[Effect], mut named: Grown
     Ok(named)
 }
 
-fn in_place_of(selection: &Selection, named: &Grown, limit: &Applied, whole: &Applied) -> Result<Option<Grown>> {
+fn in_place_of(
+    selection: &Search,
+    named: &SearchState,
+    limit: &Applied,
+    whole: &Applied,
+) -> Result<Option<SearchState>> {
     if !whole.is_in_range() {
         return Ok(None);
     }
-    let model = without(&named.fit.model, limit, &selection.before.model).with_effect(whole.clone().freed());
+    let model = without_effect(&named.fit.model, limit, &selection.before.model).with_effect(whole.clone().freed());
     // From the jumps of the model as given, as where an effect is taken out.
-    let Some(fit) = selection.problem.fit(&model, &named.fit.starts, &selection.before.variances, Effort::FULL)? else {
+    let Some(fit) =
+        selection.problem.fit(&model, &named.fit.window_states, &selection.before.variances, Effort::FULL)?
+    else {
         return Ok(None);
     };
-    let fit = selection.pruned(fit, selection.margin())?;
+    let fit = selection.eliminate_backward(fit, selection.margin())?;
     if find(&fit.model, whole).is_none() {
         return Ok(None);
     }
@@ -55,5 +62,5 @@ fn in_place_of(selection: &Selection, named: &Grown, limit: &Applied, whole: &Ap
     }
     let mut steps = named.steps.clone();
     steps.push((whole.label(), fit.model.clone()));
-    Ok(Some(Grown { fit, steps, candidates: named.candidates.clone(), refused: named.refused.clone() }))
+    Ok(Some(SearchState { fit, steps, candidates: named.candidates.clone(), refused: named.refused.clone() }))
 }

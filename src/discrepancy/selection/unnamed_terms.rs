@@ -1,9 +1,9 @@
 //! Disagreement that no effect of the library explains: an equation for it, where one is repeatable.
 
-use super::search::{Grown, Selection};
+use super::search::{Search, SearchState};
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::unexplained::{is_wanted, remains};
-use crate::discrepancy::evidence::information_criterion::{bic, worth};
+use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
 use crate::discrepancy::localisation::constraint_residuals::reduction;
 use crate::discrepancy::selection::search::still_open;
 use crate::effects::Applied;
@@ -22,18 +22,18 @@ const MATERIAL: f64 = 0.3;
 /// by BIC and twice the margin, predict the windows left out better, and remove a good share of what is violated at
 /// its place. What is given up, with or without a name, is not asked again.
 pub(crate) fn search(
-    selection: &Selection,
-    named: &Grown,
+    selection: &Search,
+    named: &SearchState,
     given_up: &[Applied],
     progress: &dyn Fn(&str),
-) -> Result<Option<Grown>> {
+) -> Result<Option<SearchState>> {
     if !is_wanted(&named.fit) {
         return Ok(None);
     }
     progress("looking for an equation of what has no name");
     let model = &selection.before.model;
     let library = still_open(selection.library.iter().chain(&model.terms()?), given_up);
-    let wider = Selection {
+    let wider = Search {
         library: &library,
         size: model.applicable(&library).len() as f64,
         most: MOST,
@@ -46,16 +46,16 @@ pub(crate) fn search(
     let mut found = wider.grown(from, progress)?;
     if remains(&found.fit) && named_effects(&found.fit) < named_effects(&named.fit) {
         // A term that leaves the rest unexplained is no reason to give a name up.
-        found = Selection { drops: false, ..wider }.grown(&named.fit, progress)?;
+        found = Search { drops: false, ..wider }.grown(&named.fit, progress)?;
     }
     // A name that the terms leave nothing to explain goes, even where names were kept.
-    found.fit = wider.pruned(material(&wider, found.fit)?, 0.0)?;
+    found.fit = wider.eliminate_backward(material(&wider, found.fit)?, 0.0)?;
     if !found.fit.model.free_effects().any(is_term) {
         return Ok(None);
     }
     let n = named.fit.sample_size.max(found.fit.sample_size);
     let better = bic(&found.fit, n) + 2.0 * wider.margin() < bic(&named.fit, n)
-        && worth(&found.fit, &named.fit, n) > wider.margin();
+        && delta_bic(&found.fit, &named.fit, n) > wider.margin();
     let predicts = selection.problem.predicts_better(&found.fit, &named.fit)?;
     found.steps = [&named.steps[..], &found.steps].concat();
     found.candidates.clone_from(&named.candidates);
@@ -67,10 +67,10 @@ fn named_effects(fit: &Fit) -> usize {
 }
 
 /// The fit without the terms that remove too small a share of what is violated at their place.
-fn material(selection: &Selection, mut fit: Fit) -> Result<Fit> {
+fn material(selection: &Search, mut fit: Fit) -> Result<Fit> {
     let terms: Vec<Applied> = fit.model.free_effects().filter(|e| is_term(e)).cloned().collect();
     for term in &terms {
-        let Some(smaller) = selection.reduced(&fit, term)? else { continue };
+        let Some(smaller) = selection.without(&fit, term)? else { continue };
         let violations = |f: &Fit| selection.problem.violations(&f.model, &fit.noise());
         if reduction(&term.effect.place, &violations(&smaller)?, &violations(&fit)?) < MATERIAL {
             fit = smaller;

@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 /// The model along one window: to first order in the start z and the parameters p,
 /// residuals r + J·(δz, δp) and end e + F·δz + B·δp.
 #[derive(Clone, Debug)]
-pub struct Linear {
+pub struct LinearisedWindow {
     /// Σ (J, r)ᵀ(J, r) for each [`Channel`](crate::discrepancy::record::record::Channel), columns (z, p, 1).
     pub gram: [DMatrix<f64>; 3],
     /// Number of values of each channel.
@@ -23,7 +23,7 @@ pub struct Linear {
     pub mismatch: Vec<f64>,
 }
 
-impl Linear {
+impl LinearisedWindow {
     /// Sum of the squared residuals of a channel.
     pub fn square(&self, channel: usize) -> f64 {
         let last = self.gram[channel].nrows() - 1;

@@ -1,7 +1,7 @@
 //! The gap: how far a model strays from the measurements after a horizon, and what noise alone would make of it.
 
 use super::windows::MARGIN;
-use crate::discrepancy::initial_state::heading_from_path::{Course, heading_at, measured_at};
+use crate::discrepancy::initial_state::heading_from_path::{PathHeading, heading_at, measured_at};
 use crate::discrepancy::initial_state::hidden_states;
 use crate::discrepancy::initial_state::pose::pose_of;
 use crate::discrepancy::record::angle::wrapped;
@@ -20,14 +20,14 @@ const LANES: usize = 8;
 
 /// Sum of squared errors over windows.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Errors {
+pub struct PredictionError {
     position: f64,
     heading: f64,
     windows: usize,
     headings: usize,
 }
 
-impl Errors {
+impl PredictionError {
     fn add(&mut self, position: [f64; 2], heading: Option<f64>) {
         self.position += position[0] * position[0] + position[1] * position[1];
         self.windows += 1;
@@ -39,7 +39,7 @@ impl Errors {
     }
 
     /// Errors of more windows.
-    pub fn joined(mut self, other: Errors) -> Errors {
+    pub fn joined(mut self, other: PredictionError) -> PredictionError {
         self.position += other.position;
         self.heading += other.heading;
         self.windows += other.windows;
@@ -65,13 +65,13 @@ impl Errors {
 
 /// A model that predicts along a run, restarted from smoothed measurements; hidden states are carried from the
 /// data before.
-pub struct Predictor<'a> {
+pub struct Rollout<'a> {
     record: &'a Record,
     equations: Equations,
     hidden: Vec<Vec<f64>>,
 }
 
-impl<'a> Predictor<'a> {
+impl<'a> Rollout<'a> {
     /// A model along a run.
     ///
     /// # Errors
@@ -112,7 +112,7 @@ impl<'a> Predictor<'a> {
         windows.chunks(LANES).flat_map(|some| self.side_by_side(some)).collect()
     }
 
-    /// As [`Predictor::ends`], of so many windows as there are lanes, or fewer: the last one fills the rest.
+    /// As [`Rollout::ends`], of so many windows as there are lanes, or fewer: the last one fills the rest.
     fn side_by_side(&self, windows: &[(usize, usize)]) -> Vec<[Vec<f64>; 2]> {
         let rows: [Range<usize>; LANES] = std::array::from_fn(|l| windows[l.min(windows.len() - 1)]).map(|(i, k)| i..k);
         let starts = rows.each_ref().map(|rows| self.start(rows.start));
@@ -146,8 +146,8 @@ impl<'a> Predictor<'a> {
     }
 
     /// Errors after a horizon over non-overlapping windows.
-    pub fn errors(&self, horizon: f64) -> Errors {
-        let mut errors = Errors::default();
+    pub fn errors(&self, horizon: f64) -> PredictionError {
+        let mut errors = PredictionError::default();
         let windows = self.windows(horizon);
         for ((_, to), [_, end]) in windows.iter().zip(self.ends(&windows)) {
             let measured = |c: usize| self.record.columns[c][*to];
@@ -157,15 +157,15 @@ impl<'a> Predictor<'a> {
         errors
     }
 
-    /// What [`Predictor::errors`] would give at each horizon if this model were true, by drawing measurement noise.
+    /// What [`Rollout::errors`] would give at each horizon if this model were true, by drawing measurement noise.
     ///
     /// Noise enters twice: at the restart, whose smoothed pose it shifts and turns, and at the end. A model of
     /// a vehicle on a plane moves rigidly with its start, so no trajectory has to be integrated anew.
     ///
     /// `draws` says how often noise is drawn for each horizon.
-    pub fn floors(&self, horizons: &[f64], draws: &[usize], noise: &Noise, seed: u64) -> Vec<Errors> {
+    pub fn floors(&self, horizons: &[f64], draws: &[usize], noise: &Noise, seed: u64) -> Vec<PredictionError> {
         let each: Vec<Vec<Restart>> = horizons.iter().map(|h| self.restarts(*h)).collect();
-        let mut errors = vec![Errors::default(); horizons.len()];
+        let mut errors = vec![PredictionError::default(); horizons.len()];
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         for draw in 0..draws.iter().copied().max().unwrap_or(0) {
             let noisy = noise.added_to(self.record, &mut rng);
@@ -202,11 +202,11 @@ struct Restart {
     /// How far the model moves in it.
     displacement: [f64; 2],
     /// A heading that is taken from the path inherits the noise of its positions.
-    course: Option<Course>,
+    course: Option<PathHeading>,
 }
 
 impl Restart {
-    fn add_error(&self, record: &Record, noisy: &[Vec<f64>], errors: &mut Errors) {
+    fn add_error(&self, record: &Record, noisy: &[Vec<f64>], errors: &mut PredictionError) {
         let shift = |c: usize| local_polynomial::value(&noisy[c], &self.smoothing) - self.clean[c];
         let moved = |i: usize| [0, 1].map(|c| noisy[c][i] - record.columns[c][i]);
         let turn = wrapped(self.course.as_ref().map_or_else(|| shift(2), |c| c.error(moved)));
@@ -252,7 +252,7 @@ mod tests {
         // Of the first half every fifth row is missing.
         let time = (0..600).filter(|i| *i > 300 || i % 5 != 3).map(|i| 0.05 * f64::from(i)).collect();
         let record = logged((&equations, &p), time, WEAVING, &vec![0.0; equations.n()], 1e-3);
-        let predictor = Predictor::new(&unicycle(&KNOWN), &record).unwrap();
+        let predictor = Rollout::new(&unicycle(&KNOWN), &record).unwrap();
         for horizon in [0.33, 2.0, 12.0] {
             let windows = predictor.windows(horizon);
             let mut lengths: Vec<usize> = windows.iter().map(|(from, to)| to - from).collect();

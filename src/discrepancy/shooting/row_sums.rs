@@ -3,14 +3,14 @@
 use crate::discrepancy::record::angle::wrapped;
 use crate::discrepancy::record::record::{Channel, Record};
 use crate::discrepancy::shooting::block_sums::{Blocks, Run};
-use crate::discrepancy::shooting::linearised_window::Linear;
+use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
 use crate::formula::Kernel;
 use crate::motion::{Arc, Arcs, LaneStepper};
 use nalgebra::DMatrix;
 use std::ops::Range;
 
 /// What is summed over the rows of L windows.
-pub(crate) struct Sums<const L: usize> {
+pub(crate) struct NormalEquations<const L: usize> {
     /// Columns (z, p, 1).
     width: usize,
     channels: Vec<Channel>,
@@ -23,7 +23,7 @@ pub(crate) struct Sums<const L: usize> {
     line: Vec<[f64; L]>,
 }
 
-impl<const L: usize> Sums<L> {
+impl<const L: usize> NormalEquations<L> {
     pub fn new(columns: usize, record: &Record) -> Self {
         let channels = record.channels();
         let width = columns + 1;
@@ -54,7 +54,7 @@ impl<const L: usize> Sums<L> {
         rows: &Range<usize>,
         arc: &Arc,
         next: Option<&Vec<f64>>,
-    ) -> Option<Linear> {
+    ) -> Option<LinearisedWindow> {
         let visible = visible_of(record);
         let gram = [0, 1, 2].map(|kind| self.gram_of(kind, l));
         if !arc.z.iter().chain(&arc.s).all(|x| x.is_finite()) || !gram.iter().all(|g| g.iter().all(|x| x.is_finite())) {
@@ -72,7 +72,7 @@ impl<const L: usize> Sums<L> {
             }
             None => (None, vec![]),
         };
-        Some(Linear { gram, count, blocks: self.blocks.map(|b| b[l]), back, axes, duration, mismatch })
+        Some(LinearisedWindow { gram, count, blocks: self.blocks.map(|b| b[l]), back, axes, duration, mismatch })
     }
 
     fn gram_of(&self, kind: usize, l: usize) -> DMatrix<f64> {
@@ -89,7 +89,7 @@ impl<const L: usize> Sums<L> {
 }
 
 /// L windows from their first row to their last, sums and all.
-pub(crate) struct Walk<'s, 'a, const L: usize> {
+pub(crate) struct WindowKernel<'s, 'a, const L: usize> {
     pub stepper: &'s mut LaneStepper<'a, L>,
     pub record: &'s Record,
     /// Empty for a lane that has nothing to do.
@@ -97,10 +97,10 @@ pub(crate) struct Walk<'s, 'a, const L: usize> {
     /// Whether the next window's start is asked for.
     pub goes_on: &'s [bool; L],
     pub arcs: &'s mut Arcs<L>,
-    pub sums: &'s mut Sums<L>,
+    pub sums: &'s mut NormalEquations<L>,
 }
 
-impl<const L: usize> Kernel for Walk<'_, '_, L> {
+impl<const L: usize> Kernel for WindowKernel<'_, '_, L> {
     #[inline(always)]
     fn run(self) {
         let Self { stepper, record, rows, goes_on, arcs, sums } = self;
@@ -125,7 +125,7 @@ impl<const L: usize> Kernel for Walk<'_, '_, L> {
     }
 }
 
-impl<const L: usize> Sums<L> {
+impl<const L: usize> NormalEquations<L> {
     /// Adds a row of each window: outputs y, sensitivities s.
     #[inline(always)]
     fn add(&mut self, y: &[[f64; L]], s: &[[f64; L]], record: &Record, at: &[usize; L], active: &[bool; L]) {

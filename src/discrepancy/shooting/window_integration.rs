@@ -1,9 +1,9 @@
 //! A model along the windows of a segment: side by side, though each as if it were alone.
 
-use super::row_sums::{Sums, Walk};
+use super::row_sums::{NormalEquations, WindowKernel};
 use crate::discrepancy::record::record::Record;
-use crate::discrepancy::shooting::linearised_window::Linear;
-use crate::discrepancy::shooting::windows::{Segment, Starts};
+use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
+use crate::discrepancy::shooting::windows::{Segment, WindowStates};
 use crate::model::Equations;
 use crate::motion::{Arc, Arcs, LaneStepper};
 use rayon::prelude::*;
@@ -24,7 +24,7 @@ pub fn each_window(
     record: &Record,
     segment: &Segment,
     starts: &[Vec<f64>],
-    mut take: impl FnMut(Linear) -> Option<()>,
+    mut take: impl FnMut(LinearisedWindow) -> Option<()>,
 ) -> Option<()> {
     let along = Along { equations, p, record, windows: &segment.windows, starts };
     let first = crate::discrepancy::initial_state::hidden_states::before(
@@ -125,7 +125,7 @@ impl Along<'_> {
         &self,
         from: usize,
         hidden: &[Arc],
-        take: &mut impl FnMut(Linear) -> Option<()>,
+        take: &mut impl FnMut(LinearisedWindow) -> Option<()>,
     ) -> Option<(usize, Option<Arc>)> {
         let (record, visible) = (self.record, self.equations.visible);
         let mut k = from;
@@ -135,7 +135,7 @@ impl Along<'_> {
         let none = Arc::default();
         let mut last = hidden.first().cloned();
         let mut stepper = LaneStepper::new(self.equations, &record.signals, [self.p; L]);
-        let mut sums = Sums::new(stepper.columns(), record);
+        let mut sums = NormalEquations::new(stepper.columns(), record);
         for windows in self.windows[from..].chunks(L) {
             let next = |l: usize| self.starts.get(k + l + 1).filter(|_| l < windows.len());
             let at = |l: usize| k + l.min(windows.len() - 1);
@@ -146,7 +146,7 @@ impl Along<'_> {
             sums.clear();
             let isa = stepper.isa();
             let (stepper, arcs, sums) = (&mut stepper, &mut arcs, &mut sums);
-            isa.dispatch(Walk { stepper, record, rows: &rows, goes_on: &goes_on, arcs, sums });
+            isa.dispatch(WindowKernel { stepper, record, rows: &rows, goes_on: &goes_on, arcs, sums });
             for (l, rows) in rows.iter().enumerate().take(windows.len()) {
                 let arc = arcs.one(l);
                 take(sums.linear(l, record, rows, &arc, next(l))?)?;
@@ -185,8 +185,8 @@ pub fn linearise(
     p: &[f64],
     records: &[Record],
     plan: &[Segment],
-    starts: &Starts,
-) -> Option<Vec<Vec<Linear>>> {
+    starts: &WindowStates,
+) -> Option<Vec<Vec<LinearisedWindow>>> {
     let along = |(segment, starts): (&Segment, &Vec<Vec<f64>>)| {
         let mut found = Vec::with_capacity(segment.windows.len());
         each_window(equations, p, &records[segment.record], segment, starts, |window| {
@@ -237,7 +237,7 @@ mod tests {
             &starts[0],
         );
         let mut alone = vec![];
-        let listed = |found: &mut Vec<String>, w: Linear| {
+        let listed = |found: &mut Vec<String>, w: LinearisedWindow| {
             found.push(format!("{w:?}"));
             Some(())
         };

@@ -48,7 +48,7 @@ fn cut(record: &Record, rows: Range<usize>) -> Vec<Range<usize>> {
 }
 
 /// Poses (and trailer headings) at the start of every window, segment by segment.
-pub type Starts = Vec<Vec<Vec<f64>>>;
+pub type WindowStates = Vec<Vec<Vec<f64>>>;
 
 /// Whether a run is long enough to be cut into windows.
 pub(crate) fn has_windows(record: &Record) -> bool {

@@ -2,7 +2,7 @@
 
 use super::head::counted;
 use super::part;
-use crate::discrepancy::report::{Candidate, Pictures};
+use crate::discrepancy::report::{CandidatePicture, Pictures};
 use crate::number_format::plain;
 use crate::picture::axis::{Axis, extent};
 use crate::picture::bars::{Bar, Look, chart};
@@ -16,7 +16,7 @@ const LINEAR: f64 = 10.0;
 /// One bar a candidate, best first.
 pub fn figure(pictures: &Pictures) -> Option<Element> {
     let all = &pictures.candidates;
-    let shown: Vec<&Candidate> = all
+    let shown: Vec<&CandidatePicture> = all
         .iter()
         .enumerate()
         .filter(|(i, c)| *i < MOST_BARS || c.chosen || c.rival)
@@ -41,7 +41,7 @@ pub fn figure(pictures: &Pictures) -> Option<Element> {
     Some(part::figure(vec![drawing], None, "The candidates by their evidence.", &how))
 }
 
-fn bar(candidate: &Candidate) -> Bar {
+fn bar(candidate: &CandidatePicture) -> Bar {
     let (look, remark) = match (candidate.chosen, candidate.rival) {
         (true, _) => (Look::Solid, ", chosen"),
         (_, true) => (Look::Hatched, ", not told apart"),

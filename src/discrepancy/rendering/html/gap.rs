@@ -18,7 +18,7 @@ const MOST_MARKERS: usize = 14;
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Axes {
     /// Linear from zero.
-    Linear,
+    LinearisedWindow,
     /// Both logarithmic.
     Log,
 }
@@ -74,7 +74,7 @@ fn tabled(
 /// Position gap over horizon.
 pub fn panel(report: &Report, curve: &GapCurve, axes: Axes, size: Size, id: &str) -> Option<Element> {
     let mut panel = drawn(curve, ("position error", "m"), axes, size)?;
-    if axes == Axes::Linear {
+    if axes == Axes::LinearisedWindow {
         shrink_arrow(&mut panel, report, curve);
     }
     panel.heading("Position error over horizon", &format!("{} data", data_name(report)));
@@ -97,7 +97,7 @@ fn drawn(curve: &GapCurve, (name, base): (&str, &str), axes: Axes, size: Size) -
     let positive = |values: &mut dyn Iterator<Item = f64>| extent(values.filter(|v| *v > 0.0));
     let [nearest, farthest] = positive(&mut curve.horizon.iter().copied())?;
     let [x, y] = match axes {
-        Axes::Linear => [
+        Axes::LinearisedWindow => [
             Axis::linear("horizon", "s", [0.0, farthest]),
             Axis::linear(name, &unit, [0.0, (largest * factor * 1.06).max(1e-9)]),
         ],

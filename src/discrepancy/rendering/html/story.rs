@@ -37,7 +37,7 @@ pub fn figure(report: &Report, pictures: &Pictures) -> Option<Element> {
 fn panels(report: &Report, pictures: &Pictures, id: &str) -> Vec<Element> {
     let path = shown(pictures).and_then(|run| paths::panel(run, Size::PANEL, true, &format!("{id}-path")));
     let curve = gap::curve(report, pictures);
-    let gap = curve.and_then(|c| gap::panel(report, &c, gap::Axes::Linear, gap::SIZE, &format!("{id}-gap")));
+    let gap = curve.and_then(|c| gap::panel(report, &c, gap::Axes::LinearisedWindow, gap::SIZE, &format!("{id}-gap")));
     path.into_iter().chain(gap).collect()
 }
 

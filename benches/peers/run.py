@@ -5,7 +5,7 @@
 
 makes a virtual environment in target/peers with the pinned requirements, builds the benchmark, times every pair in turn
 (creepage, peer, creepage, peer ...), then creepage beside code by hand (criterion, in one process), and writes
-benches/TABLE.md, which the README shows between its markers. Needs gcc for the code that CasADi generates.
+benches/TABLE.md, which book/src/guide/speed.md shows between its markers. Needs gcc for the code that CasADi generates.
 """
 
 import json
@@ -154,10 +154,10 @@ def table():
 
 def show(text):
     (ROOT / "benches" / "TABLE.md").write_text(text)
-    readme = ROOT / "README.md"
-    old = readme.read_text()
+    page = ROOT / "book" / "src" / "guide" / "speed.md"
+    old = page.read_text()
     new = re.sub(r"(<!-- speed -->\n).*?(<!-- /speed -->)", lambda m: m[1] + text + m[2], old, flags=re.S)
-    readme.write_text(new)
+    page.write_text(new)
 
 
 if __name__ == "__main__":

@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 #[command(after_help = "\
 Example:
   creepage discover examples/runs/cornering/eights.csv examples/runs/cornering/rosette.csv \\
-    --held-out examples/runs/cornering/square_held_out.csv \\
+    --held-out examples/runs/cornering/bay_held_out.csv \\
     --model examples/runs/cornering/model.toml --out report
   creepage discover INPUTS.csv --truth POSES.csv --model MODEL.toml --out report
   creepage discover RUN.csv --model MODEL.toml --effects examples/effects/my_effects.toml --out report

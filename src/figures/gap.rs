@@ -27,14 +27,14 @@ const PANEL: Size = Size { width: 396.0, height: 286.0, margins: [52.0, 108.0, 5
 const MODEL: &str = include_str!("../../examples/runs/cornering/model.toml");
 const EIGHTS: &str = include_str!("../../examples/runs/cornering/eights.csv");
 const ROSETTE: &str = include_str!("../../examples/runs/cornering/rosette.csv");
-const SQUARE: &str = include_str!("../../examples/runs/cornering/square_held_out.csv");
+const BAY: &str = include_str!("../../examples/runs/cornering/bay_held_out.csv");
 
 /// The example `cornering` through the whole workflow: what `creepage discover` does.
 fn discovered() -> Result<Discovery> {
     let file = ModelFile::parse(MODEL, "model.toml", &known(effects::all()))?;
     let run = |name: &str, text: &str| Run::parse(name, text, &file);
     let runs = [run("eights.csv", EIGHTS)?, run("rosette.csv", ROSETTE)?];
-    let held_out = [run("square_held_out.csv", SQUARE)?];
+    let held_out = [run("bay_held_out.csv", BAY)?];
     let request =
         Request { file: &file, runs: &runs, held_out: &held_out, library: effects::all(), horizons: &[], seed: 0 };
     discover(&request, &|_| {})

@@ -29,7 +29,8 @@ impl Document {
 }
 
 /// Folders with documents.
-const FOLDERS: [&str; 7] = ["", "examples", "paper", "theory", "book", "book/src", "book/src/guide"];
+const FOLDERS: [&str; 8] =
+    ["", "examples", "paper", "theory", "book", "book/src", "book/src/guide", "book/src/development"];
 
 /// Every document, those of the book through its own folders.
 pub fn all() -> Vec<Document> {

@@ -72,7 +72,8 @@ fn slug(heading: &str) -> String {
 pub fn book() -> Vec<String> {
     let summary = Document::read("book/src/SUMMARY.md");
     let listed: Vec<String> = of(&summary).collect();
-    let chapters = || in_folder("book/src/guide").into_iter().chain(in_folder("book/src/theory"));
+    let chapters =
+        || ["guide", "theory", "development"].into_iter().flat_map(|part| in_folder(&format!("book/src/{part}")));
     let left_out = chapters().filter_map(|c| {
         let name = c.strip_prefix("book/src/")?.to_string();
         (!listed.contains(&name)).then(|| format!("SUMMARY.md leaves {name} out"))

@@ -83,14 +83,21 @@ fn commands_of_the_first_discovery_run() {
 
 #[test]
 fn commands_of_the_guide_run() {
-    for page in ["own-log", "report", "effects", "vehicles"] {
+    for page in ["own-log", "describe", "report", "effects", "vehicles"] {
         runs(&format!("book/src/guide/{page}.md"));
     }
 }
 
 #[test]
 fn commands_of_daily_use_run() {
-    for page in ["init", "check", "clocks", "sweep"] {
+    for page in ["init", "check", "clocks", "formats", "sweep"] {
+        runs(&format!("book/src/guide/{page}.md"));
+    }
+}
+
+#[test]
+fn commands_of_the_theory_run() {
+    for page in ["verify", "figures"] {
         runs(&format!("book/src/guide/{page}.md"));
     }
 }
@@ -103,13 +110,17 @@ fn no_document_with_commands_is_left_out() {
         "book/src/guide/install.md",
         "book/src/guide/first.md",
         "book/src/guide/own-log.md",
+        "book/src/guide/describe.md",
         "book/src/guide/report.md",
         "book/src/guide/effects.md",
         "book/src/guide/vehicles.md",
         "book/src/guide/init.md",
         "book/src/guide/check.md",
         "book/src/guide/clocks.md",
+        "book/src/guide/formats.md",
         "book/src/guide/sweep.md",
+        "book/src/guide/verify.md",
+        "book/src/guide/figures.md",
     ];
     let left: Vec<String> = all()
         .iter()

@@ -166,10 +166,10 @@ fn the_vehicles_of_the_catalogue_pass_the_checks_of_a_users_own() {
 }
 
 #[test]
-fn the_vehicle_of_the_readme_is_a_car() {
-    let readme = include_str!("../../README.md");
-    let start = readme.find("[[vehicle]] ").unwrap();
-    let text = &readme[start..start + readme[start..].find("```").unwrap()];
+fn the_vehicle_of_the_guide_is_a_car() {
+    let guide = include_str!("../../book/src/guide/vehicles.md");
+    let start = guide.find("[[vehicle]] ").unwrap();
+    let text = &guide[start..start + guide[start..].find("```").unwrap()];
     let scooter = read(text.as_bytes()).unwrap().pop().unwrap();
     let rows = |v: &Vehicle| Model::sample(v).unwrap().constraints().iter().map(|c| c.row()).collect::<Vec<_>>();
     assert_eq!((scooter.id.as_str(), rows(&scooter)), ("scooter", rows(vehicles::named("car").unwrap())));

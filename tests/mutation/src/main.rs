@@ -1,4 +1,4 @@
-//! Mutation testing with every mutant in one build, chosen when a test is run. See MUTANTS.md.
+//! Mutation testing with every mutant in one build, chosen when a test is run. See book/src/development/mutants.md.
 
 mod build;
 mod listed;

@@ -1,6 +1,6 @@
 //! The holonomic and the nonholonomic constraints of a model.
 
-use super::structure::Found;
+use super::found::Found;
 use crate::formula::Expr;
 use crate::mechanism::{Mechanism, Nonholonomy, Point};
 

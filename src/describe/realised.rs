@@ -1,7 +1,7 @@
 //! Which coefficients of creep make the motion of a model, given what it measures.
 
 use super::Signature;
-use super::structure::Found;
+use super::found::Found;
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Mechanism, Point, Realisation};
 use crate::model::{Model, trailer_heading};

@@ -1,7 +1,7 @@
 //! The equations of motion compiled: accelerations, and their exact slopes for a stiff integration.
 
 use super::derive::Derived;
-use super::observed::Observed;
+use super::observed::{Observed, undefined};
 use super::{Dynamics, Law};
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Graph, NodeId, Program, Symbol};
@@ -146,10 +146,6 @@ impl Dynamics {
         let slopes: Vec<Symbol> = names.iter().map(Symbol::rate).collect();
         Program::compile(&graph, &[names, slopes, values].concat(), &[angles, rates].concat()).map_err(undefined)
     }
-}
-
-pub(super) fn undefined(name: Symbol) -> Error {
-    Error::input(format!("a formula of the motion uses {name}, which nothing defines"))
 }
 
 /// Symbols of accelerations and multipliers.

@@ -26,6 +26,12 @@ pub(crate) fn solved_for(coefficient: &str, formula: &Expr, value: &Expr) -> Exp
     &(value - &without) / &formula.derivative(&name)
 }
 
+/// The derived speed of the disk solved for the coefficient, at any speed and rate.
+pub(crate) fn disk_coefficient() -> Machine {
+    let speed = Machine::of("disk").with_text("theta'", "omega").written_out("v_l");
+    Machine::default().with("e_rc", solved_for("e_rc", &speed, &Expr::sym("v_l")))
+}
+
 /// Shows that every right side has a value everywhere, whatever the values of its symbols.
 pub(crate) fn defined_everywhere(statement: &Statement) -> Outcome {
     Outcome::all(statement.equations().iter().map(|equation| {

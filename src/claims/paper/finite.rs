@@ -1,7 +1,6 @@
 //! Finite motions and their limits, (5)–(7) and (15)–(16), on simulated runs of the single wheel.
 
-use super::domain::undefined_exactly_where;
-use super::rotation::solved;
+use super::domain::{disk_coefficient, undefined_exactly_where};
 use crate::claims::simulated::{Creep, driven, model, undefined};
 use crate::claims::{Claim, Fault, Machine, Outcome, Sampling, Statement, Status, Verdict, near, proving, value_said};
 use crate::error::Result;
@@ -57,7 +56,7 @@ fn from_rest() -> Claim {
             "the coefficient of velocities is there whenever the limit is, that is for r·g ≠ 0",
             &[("e_rc", "r*g")],
             &[("e_rc", "r*g*t")],
-            |s, _| undefined_exactly_where(&solved().with_text("v_l", "a*t").with_text("omega", "g*t"), s),
+            |s, _| undefined_exactly_where(&disk_coefficient().with_text("v_l", "a*t").with_text("omega", "g*t"), s),
         )
         .on_domains()
         .proof(

@@ -1,6 +1,6 @@
 //! Section 2: rotation creep of a disk, equations (3)–(13).
 
-use super::domain::{solved_for, undefined_exactly_where};
+use super::domain::{disk_coefficient, undefined_exactly_where};
 use super::finite;
 use crate::claims::{Claim, Domain, Machine, Outcome, Sampling, Statement, Status, at_points, prove};
 use crate::formula::Expr;
@@ -20,12 +20,6 @@ fn disk() -> Machine {
     let by_x = rim.derivative(&"x".into());
     let velocity = &(&by_x * &Expr::sym("v_l")) + &(&by_u * &Expr::sym("theta'"));
     Machine::of("disk").with("v_A", velocity).with_text("f_R", "-b_R*v_A").with_text("omega", "theta'")
-}
-
-/// The derived speed of the disk solved for the coefficient, at any speed and rate.
-pub(crate) fn solved() -> Machine {
-    let speed = Machine::of("disk").with_text("theta'", "omega").written_out("v_l");
-    Machine::default().with("e_rc", solved_for("e_rc", &speed, &Expr::sym("v_l")))
 }
 
 fn on_disk(s: &Statement, _: &Sampling) -> Outcome {
@@ -100,10 +94,10 @@ fn kinematics() -> Vec<Claim> {
                 "the derived motion solved for its coefficient, only the disk at rest left out",
                 &[("e_rc", "v_l^2 + omega^2")],
                 &[("e_rc", "r*omega")],
-                |s, _| undefined_exactly_where(&solved(), s),
+                |s, _| undefined_exactly_where(&disk_coefficient(), s),
             )
             .proof("left out where r·ω vanishes", &[("e_rc", "r*omega")], |s, _| {
-                undefined_exactly_where(&solved(), s)
+                undefined_exactly_where(&disk_coefficient(), s)
             })
             .sabotaged_by(&[&[("e_rc", "v_l")], &[("e_rc", "omega")], &[("e_rc", "v_l*omega*r")]])
             .on_domains(),

@@ -4,7 +4,8 @@ use super::build::moving;
 use super::constraints::{
     bodies, direction, rolling, section_heading, trailer_creep, trailer_direction, trailer_lengths,
 };
-use super::{Model, trailer_heading};
+use super::trailer::trailer_heading;
+use super::vehicle_model::Model;
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Constraint, Definitions, Heading, Row, Sample, Velocity, solve};

@@ -1,6 +1,7 @@
 //! The equations of motion of a model, compiled.
 
-use super::{Model, trailer_heading};
+use super::trailer::trailer_heading;
+use super::vehicle_model::Model;
 use crate::error::{Error, Result};
 use crate::formula::{Changes, Expr, Graph, Isa, Lanes, Memory, NodeId, Program, Rows, Symbol};
 use std::collections::BTreeMap;

@@ -1,6 +1,6 @@
 //! Terms without a name: what a constraint might miss when no effect of the library explains it.
 
-use super::Model;
+use super::vehicle_model::Model;
 use crate::effects::{Effect, Parameter};
 use crate::error::Result;
 use crate::formula::{Expr, Size, Symbol};

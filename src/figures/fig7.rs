@@ -3,8 +3,8 @@
 use super::readings;
 use super::readings::CASES;
 use super::{Data, Drawing, Figure, Options, fixed, key, page, plane};
+use crate::energy_rule::{EndPoint, FIG7_DURATION, Reading, fig7_case, fig7_path};
 use crate::error::Result;
-use crate::motion::{EndPoint, FIG7_DURATION, Reading, fig7_case, fig7_path};
 use crate::number_format::plain;
 use crate::picture::plot::{Marker, Size};
 use crate::picture::svg::Element;

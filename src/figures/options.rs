@@ -1,7 +1,7 @@
 //! What a figure is drawn with.
 
+use crate::energy_rule::Reading;
 use crate::error::{Error, Result};
-use crate::motion::Reading;
 
 /// Coefficients and the reading of Fig. 7.
 ///

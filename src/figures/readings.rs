@@ -1,8 +1,8 @@
 //! What each reading of "conservative" makes of the paper's sentences about Fig. 7.
 
 use super::{Data, fixed};
+use crate::energy_rule::{EndPoint, FIG7_DURATION, Instantaneous, Reading, fig7_case, fig7_instants, fig7_path};
 use crate::error::Result;
-use crate::motion::{EndPoint, FIG7_DURATION, Instantaneous, Reading, fig7_case, fig7_instants, fig7_path};
 use std::fmt::Write;
 
 /// The cases of Fig. 7: name, e_rc, e_tc.

@@ -4,9 +4,9 @@ use crate::claims::simulated::{Creep, model, undefined};
 use crate::claims::{
     Claim, Domain, Fault, Machine, Outcome, Sampling, Statement, Status, Verdict, at_points, near, proving, value_said,
 };
+use crate::energy_rule::{Reading, fig7_case, fig7_path};
 use crate::formula::Symbol;
 use crate::model::{Model, Trailer};
-use crate::motion::{Reading, fig7_case, fig7_path};
 use proptest::prelude::*;
 
 const CHAPTER: &str = "08-simulation";

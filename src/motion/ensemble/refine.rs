@@ -1,9 +1,12 @@
 //! Runs with N and 2N steps, until they agree.
 
+use super::case::Case;
 use super::equations::LaneEquations;
+use super::lanes::{LANES, Lane};
+use super::model_ensemble::Ensemble;
+use super::plan::Plan;
 use super::rounding::{Estimate, Floor};
-use super::steps::{Block, Instants, Lane, Running, Scheme, Span, States, advance};
-use super::{Case, Ensemble, LANES, Plan, scheme};
+use super::steps::{Block, Instants, Running, Scheme, Span, States, advance};
 use crate::error::Result;
 use crate::formula::Memory;
 
@@ -42,7 +45,7 @@ impl Ensemble {
     /// The first number of steps that an order needs for most of the cases, and what it costs; without bound where the order
     /// does not get there, or not for less than `most`.
     pub(crate) fn effort_of(&self, order: i32, e: &LaneEquations, cases: &[&[f64]], most: f64) -> Result<(f64, f64)> {
-        let mut work = Work::new(e, scheme(order));
+        let mut work = Work::new(e, Scheme::of_order(order));
         let (stages, spans) = (work.scheme.stages, self.spans(e));
         let cost = |steps| (stages * spans.iter().map(|s| self.steps_in(s, steps)).sum::<usize>()) as f64;
         let shared = spans.len().checked_ilog2().unwrap_or(0);
@@ -77,7 +80,7 @@ impl Ensemble {
 
     /// Integrates cases until each is as exact as asked for.
     pub(crate) fn refined(&self, e: &LaneEquations, plan: &Plan, cases: &[&[f64]]) -> Result<Vec<Case>> {
-        let mut work = Work::new(e, scheme(plan.order));
+        let mut work = Work::new(e, Scheme::of_order(plan.order));
         let mut done: Vec<Option<Case>> = vec![None; cases.len()];
         // The first two runs of every case, then one more for those that need it, side by side again.
         let mut waiting: Vec<Waiting> = (0..cases.len()).map(|case| Waiting { case, before: None }).collect();
@@ -280,7 +283,7 @@ mod tests {
         for (order, tolerance) in [(4, 1e-10), (4, 1e-8), (8, 1e-13)] {
             let wheels = wheels(1.0, &[6.0], tolerance);
             let (steps, cost) = wheels.effort_of(order, &wheels.equations, &cases, f64::INFINITY).unwrap();
-            let mut work = Work::new(&wheels.equations, scheme(order));
+            let mut work = Work::new(&wheels.equations, Scheme::of_order(order));
             let z0 = wheels.begin(&mut work, &cases).unwrap();
             let [coarse, fine] = [0, 1].map(|doublings| wheels.integrate(&mut work, &z0, (steps, doublings)).0);
             let worst = (0..4).map(|l| error(&coarse, &fine, l, order)).fold(0.0, f64::max);

@@ -1,7 +1,7 @@
 //! What rounding adds to the error of a run.
 
-use super::LANES;
-use super::steps::{Lane, States};
+use super::lanes::{LANES, Lane};
+use super::steps::States;
 
 /// The error of a case, and what of it is due to steps that are too long.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,12 +1,9 @@
 //! Steps of fixed length on a block of lanes.
 
-use super::LANES;
 use super::equations::LaneEquations;
+use super::lanes::{LANES, Lane};
 use crate::formula::{Isa, Kernel, Memory, Rows};
-use crate::motion::integrators::tableau::Tableau;
-
-/// The lanes of one quantity.
-pub(crate) type Lane = [f64; LANES];
+use crate::motion::integrators::tableau::{ORDER_4, ORDER_8, Tableau};
 
 /// A stretch of time on which the inputs are smooth, cut into steps of equal length.
 #[derive(Clone, Copy, Debug)]
@@ -32,7 +29,12 @@ fn sparse(row: &[f64]) -> Vec<(usize, f64)> {
 }
 
 impl Scheme {
-    pub fn of(t: &Tableau) -> Self {
+    /// The method of order 8, or that of order 4.
+    pub fn of_order(order: i32) -> Self {
+        Self::of(if order == 8 { &ORDER_8 } else { &ORDER_4 })
+    }
+
+    fn of(t: &Tableau) -> Self {
         let a = std::iter::once(vec![]).chain(t.a.iter().map(|row| sparse(row))).collect();
         Self { stages: t.c.len(), order: t.order, c: t.c.to_vec(), a, b: sparse(t.b) }
     }

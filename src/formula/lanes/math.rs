@@ -1,6 +1,6 @@
 //! Elementary functions over a block of lanes, the same bits on every processor.
 
-use super::Fun;
+use crate::formula::Fun;
 use crate::formula::float::{finite, quotient};
 
 /// Largest argument whose whole quarter turns are taken away exactly: 2²⁰·π/2 and some margin below.

@@ -38,8 +38,8 @@ impl Machine {
     /// The same of any vehicle; one whose constraints do not determine its motion defines nothing.
     ///
     /// ```
-    /// use creepage::{claims::Machine, library};
-    /// let vehicles = library::vehicles_with_own("examples/bus/bus.toml").unwrap();
+    /// use creepage::{claims::Machine, extensions};
+    /// let vehicles = extensions::vehicles_with_own("examples/bus/bus.toml").unwrap();
     /// let bus = vehicles.iter().find(|v| v.id == "articulated-bus").unwrap();
     /// assert!(Machine::of_vehicle(bus, 0).formula("phi_1'").is_some());
     /// ```

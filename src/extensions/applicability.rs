@@ -1,7 +1,6 @@
 //! The vehicles that an effect applies to.
 
-use super::alone;
-use super::test_vehicle::Machine;
+use super::test_vehicle::{Machine, reached, visible};
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::files::OwnEffect;
@@ -66,7 +65,8 @@ fn obstacle(e: &Effect, trailer: Option<usize>, machine: &Machine) -> Option<Str
     if let Some(role) = e.needs.iter().find(|role| !model.vehicle.inputs.contains_key(*role)) {
         return Some(format!("no input {role}"));
     }
-    let is_missing = |(key, formula): &(&String, &Expr)| alone(key, formula).targets(&names, trailer).is_none();
+    let is_missing =
+        |(key, formula): &(&String, &Expr)| Effect::of_change(key, formula).targets(&names, trailer).is_none();
     if let Some((key, _)) = e.changes.iter().find(is_missing) {
         return Some(format!("no definition of {key}"));
     }
@@ -82,7 +82,7 @@ fn obstacle(e: &Effect, trailer: Option<usize>, machine: &Machine) -> Option<Str
     }
     let applied = Applied::new(e, trailer, e.parameters.values().map(|p| p.size).collect());
     let felt = model.clone().with_effect(applied).row_definitions().is_ok_and(|d| {
-        let seen = super::sensor::reached(&d, &super::sensor::visible(model));
+        let seen = reached(&d, &visible(model));
         targets.iter().any(|(name, _)| seen.contains(name))
     });
     (!felt && model.determined().is_ok()).then(|| "no influence on motion and sensor".into())
@@ -93,7 +93,7 @@ impl<'m> Place<'m> {
         let names = machine.defined();
         let sizes = e.parameters.values().map(|p| p.size).collect();
         let targets = e.changes.iter().flat_map(|(key, formula)| {
-            let found = alone(key, formula).targets(&names, trailer).unwrap_or_default();
+            let found = Effect::of_change(key, formula).targets(&names, trailer).unwrap_or_default();
             found.into_iter().map(|(name, _)| Target { name, key: key.clone() }).collect::<Vec<_>>()
         });
         Self { machine, targets: targets.collect(), applied: Applied::new(e, trailer, sizes) }

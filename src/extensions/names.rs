@@ -1,8 +1,8 @@
 //! Names in a user's formulas.
 
-use super::alone;
 use super::applicability::Place;
 use super::test_vehicle::Machine;
+use crate::effects::Effect;
 use crate::error::Result;
 use crate::files::{FormulaText, OwnEffect, advice};
 use crate::formula::{Expr, Symbol};
@@ -13,7 +13,7 @@ pub(crate) fn check(own: &OwnEffect, machines: &[Machine]) -> Result<()> {
     check_needs(own, machines)?;
     let defined = common(machines.iter().flat_map(Machine::defined));
     for (key, (spot, _)) in &own.changes {
-        let only = alone(key, &Expr::int(0));
+        let only = Effect::of_change(key, &Expr::int(0));
         let stands = |trailer: Option<usize>| only.targets(&defined, trailer).is_some();
         if !stands(None) && !stands(Some(1)) {
             let names: Vec<&str> = defined.iter().map(Symbol::as_str).collect();

@@ -4,7 +4,7 @@ use crate::describe::Symbols;
 use crate::error::Result;
 use crate::formula::{Symbol, Unit};
 use crate::mechanism::Definitions;
-use crate::model::{Model, Trailer, WITH_TRAILERS};
+use crate::model::{Model, Trailer, WITH_TRAILERS, trailer_heading};
 use crate::vehicles::Vehicle;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -64,6 +64,24 @@ impl Machine {
     pub fn defined(&self) -> Vec<Symbol> {
         self.definitions.iter().map(|(n, _)| n.clone()).collect()
     }
+}
+
+/// What a log can show of a model: the rates of the pose and what the sensor measures.
+pub(crate) fn visible(model: &Model) -> Vec<Symbol> {
+    let fixed = ["x'", "y'", "phi'", "x_m", "y_m", "heading_m", "delay"].map(Symbol::from);
+    let trailers = (1..=model.trailer_count()).map(|i| trailer_heading(i).rate());
+    fixed.into_iter().chain(trailers).collect()
+}
+
+/// Every name that the given ones are made of.
+pub(crate) fn reached(definitions: &Definitions, from: &[Symbol]) -> BTreeSet<Symbol> {
+    let mut found: BTreeSet<Symbol> = from.iter().cloned().collect();
+    let mut waiting = from.to_vec();
+    while let Some(name) = waiting.pop() {
+        let parts = definitions.get(&name).map(|f| f.symbols()).unwrap_or_default();
+        waiting.extend(parts.into_iter().filter(|s| found.insert(s.clone())));
+    }
+    found
 }
 
 #[cfg(test)]

@@ -22,8 +22,8 @@ pub fn known(library: &[Effect]) -> Known {
 /// What a model file may name: these vehicles and the effects of a library.
 ///
 /// ```
-/// use creepage::{effects, library, model};
-/// let vehicles = library::vehicles_with_own("examples/bus/bus.toml").unwrap();
+/// use creepage::{effects, extensions, model};
+/// let vehicles = extensions::vehicles_with_own("examples/bus/bus.toml").unwrap();
 /// assert!(model::known_on(&vehicles, effects::all()).vehicle("articulated-bus").is_some());
 /// ```
 pub fn known_on(vehicles: &[Vehicle], library: &[Effect]) -> Known {

@@ -1,9 +1,10 @@
 //! What the effects of the library do to a vehicle: they know quantities by their letters, L for a wheelbase.
 
 use crate::effects;
+use crate::effects::Effect;
 use crate::error::Result;
+use crate::extensions::formula_growth;
 use crate::extensions::test_vehicle::Machine;
-use crate::extensions::{alone, formula_growth};
 use crate::files::OwnVehicle;
 use crate::formula::{Expr, Symbol, Unit};
 use crate::vehicles;
@@ -35,7 +36,7 @@ fn of_catalogue(symbol: &Symbol) -> Option<&'static Definition> {
 /// Whether an effect of the library rewrites a symbol or has it in a formula.
 fn is_spoken_of(symbol: &Symbol) -> bool {
     let own = std::slice::from_ref(symbol);
-    let rewrites = |(key, f): (&String, &Expr)| alone(key, f).targets(own, Some(1)).is_some();
+    let rewrites = |(key, f): (&String, &Expr)| Effect::of_change(key, f).targets(own, Some(1)).is_some();
     effects::all().iter().any(|e| e.changes.iter().any(rewrites) || e.formulas().any(|f| f.mentions(symbol)))
 }
 

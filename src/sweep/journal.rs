@@ -1,6 +1,6 @@
 //! A table under way: a file beside the output that a later run goes on with.
 
-use super::Format;
+use super::table::Format;
 use crate::error::{Error, Result};
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File, OpenOptions, TryLockError};

@@ -1,8 +1,9 @@
 //! Running a sweep, block by block, in the order of the cases.
 
 use super::journal::Journal;
-use super::table::{csv, header};
-use super::{Format, Shard, Sweep};
+use super::prepared_sweep::Sweep;
+use super::shard::Shard;
+use super::table::{Format, csv, header};
 use crate::error::Result;
 use crate::motion::Case;
 use rayon::prelude::*;

@@ -63,5 +63,6 @@ pub mod picture;
 pub mod sweep;
 pub mod theory;
 pub mod vehicles;
+mod wording;
 
 pub use error::{Error, Result};

@@ -35,7 +35,7 @@ mod text;
 mod vehicles;
 
 pub use constraint::{ConstraintEntry, Part};
-pub use description::{Description, EffectInModel, Equation, MOST_TRAILERS};
+pub use description::{Description, EffectInModel, Equation, MAX_TRAILERS};
 pub use effects::{effects_json, effects_text};
 pub use found::Found;
 pub use holonomy::Holonomy;

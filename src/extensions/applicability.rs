@@ -8,7 +8,7 @@ use crate::formula::{Expr, Symbol};
 use std::collections::BTreeMap;
 
 /// Vehicles named for a reason in a message.
-const NAMED: usize = 3;
+const NAMED_VEHICLES: usize = 3;
 
 /// A vehicle that an effect applies to, and what it rewrites there.
 pub(crate) struct Place<'m> {
@@ -44,7 +44,7 @@ pub(crate) fn places<'m>(own: &OwnEffect, machines: &'m [Machine]) -> Result<Vec
     }
     let mut reasons: Vec<_> = reasons.into_iter().collect();
     reasons.sort_by_key(|(_, labels)| std::cmp::Reverse(labels.len()));
-    let reasons: Vec<String> = reasons.iter().take(NAMED).map(|(why, labels)| reason(why, labels)).collect();
+    let reasons: Vec<String> = reasons.iter().take(NAMED_VEHICLES).map(|(why, labels)| reason(why, labels)).collect();
     Err(own
         .id
         .error(format!("the effect \"{}\" applies to no vehicle: {}", own.effect.id, reasons.join("; ")))
@@ -54,8 +54,8 @@ pub(crate) fn places<'m>(own: &OwnEffect, machines: &'m [Machine]) -> Result<Vec
 fn reason(why: &str, labels: &[&str]) -> String {
     let mut distinct = labels.to_vec();
     distinct.dedup();
-    let more = distinct.len().saturating_sub(NAMED);
-    let named = distinct.iter().take(NAMED).copied().collect::<Vec<_>>().join(", ");
+    let more = distinct.len().saturating_sub(NAMED_VEHICLES);
+    let named = distinct.iter().take(NAMED_VEHICLES).copied().collect::<Vec<_>>().join(", ");
     if more > 0 { format!("{why} on {named} and {more} more") } else { format!("{why} on {named}") }
 }
 

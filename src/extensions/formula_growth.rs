@@ -8,7 +8,7 @@ use crate::formula::{Size, Symbol};
 use std::collections::BTreeMap;
 
 /// The most operations and nesting of a definition, and the most factors once all are put into one another.
-const MOST: Size = Size { nodes: 5000, depth: 300, degree: 1000 };
+const MAX_SIZE: Size = Size { nodes: 5000, depth: 300, degree: 1000 };
 
 /// That the definitions stay small with all effects of a library, the last of which is the user's.
 pub(crate) fn check(own: &OwnEffect, library: &[Effect], machines: &[Machine]) -> Result<()> {
@@ -41,7 +41,7 @@ fn outgrown(library: &[Effect], machine: &Machine) -> Option<Symbol> {
             let old = *sizes.get(&name).unwrap_or(&Size::SYMBOL);
             let is_old = |s: &Symbol| s.as_str() == "it" || *s == name;
             let new = Size::of(&formula, &|s| if is_old(s) { old } else { Size::SYMBOL });
-            if new.nodes > MOST.nodes || new.depth > MOST.depth {
+            if new.nodes > MAX_SIZE.nodes || new.depth > MAX_SIZE.depth {
                 return Some(name);
             }
             sizes.insert(name.clone(), new);
@@ -52,7 +52,7 @@ fn outgrown(library: &[Effect], machine: &Machine) -> Option<Symbol> {
     for (name, formula) in parts.sorted().unwrap_or_default() {
         let inner = |s: &Symbol| Size { degree: degrees.get(s).copied().unwrap_or(1), ..Size::SYMBOL };
         let degree = Size::of(formula, &inner).degree;
-        if degree > MOST.degree {
+        if degree > MAX_SIZE.degree {
             return Some(name.clone());
         }
         degrees.insert(name.clone(), degree);

@@ -40,8 +40,8 @@ impl Scheme {
     }
 }
 
-/// Most numbers that are kept of the instants of a run.
-const MOST: usize = 1 << 18;
+/// The most numbers that are kept of the instants of a run: 2 MiB.
+const MAX_KEPT_INSTANTS: usize = 1 << 18;
 
 /// What depends on the time alone, stage by stage of a run: the same for every block of cases, and kept for the next one
 /// where it is not too much.
@@ -68,7 +68,7 @@ impl Instants {
         if self.all == 0 || self.at < self.values.len() {
             return false;
         }
-        if self.all > MOST {
+        if self.all > MAX_KEPT_INSTANTS {
             self.values.clear();
             self.at = 0;
         }
@@ -242,7 +242,7 @@ mod tests {
         assert_eq!(at(0, 0, 0), (false, 0, 0), "nothing depends on the time");
         assert_eq!(at(10, 10, 5), (false, 10, 5));
         assert_eq!(at(10, 5, 5), (true, 5, 5));
-        assert_eq!(at(MOST, 5, 5), (true, 5, 5));
-        assert_eq!(at(MOST + 1, 5, 5), (true, 0, 0), "one step at a time");
+        assert_eq!(at(MAX_KEPT_INSTANTS, 5, 5), (true, 5, 5));
+        assert_eq!(at(MAX_KEPT_INSTANTS + 1, 5, 5), (true, 0, 0), "one step at a time");
     }
 }

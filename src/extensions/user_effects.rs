@@ -1,6 +1,6 @@
 //! A user's own effects, held against every vehicle they apply to.
 
-use super::test_vehicle::Machine;
+use super::test_vehicle::TestVehicle;
 use super::{applicability, formula_growth, names, neutral_value, sensor, units};
 use crate::effects;
 use crate::effects::Effect;
@@ -45,13 +45,13 @@ pub fn with_own(path: impl AsRef<Path>) -> Result<Vec<Effect>> {
 pub fn with_own_on(path: impl AsRef<Path>, vehicles: &[Vehicle]) -> Result<Vec<Effect>> {
     let file = EffectsFile::read(path.as_ref())?;
     let mut library = effects::all().to_vec();
-    let machines = Machine::all(vehicles)?;
+    let test_vehicles = TestVehicle::all(vehicles)?;
     for own in file.effects {
         distinct(&own, &library)?;
         check_limit(&own, &library)?;
-        check(&own, &machines)?;
+        check(&own, &test_vehicles)?;
         library.push(Effect { order: library.len(), ..own.effect.clone() });
-        formula_growth::check(&own, &library, &machines)?;
+        formula_growth::check(&own, &library, &test_vehicles)?;
     }
     Ok(library)
 }
@@ -97,9 +97,9 @@ fn distinct(own: &OwnEffect, library: &[Effect]) -> Result<()> {
     }
 }
 
-fn check(own: &OwnEffect, machines: &[Machine]) -> Result<()> {
-    names::check(own, machines)?;
-    let places = applicability::places(own, machines)?;
+fn check(own: &OwnEffect, test_vehicles: &[TestVehicle]) -> Result<()> {
+    names::check(own, test_vehicles)?;
+    let places = applicability::places(own, test_vehicles)?;
     for place in &places {
         names::check_clash(own, place)?;
         units::check(own, place)?;

@@ -4,14 +4,14 @@ use crate::effects;
 use crate::effects::Effect;
 use crate::error::Result;
 use crate::extensions::formula_growth;
-use crate::extensions::test_vehicle::Machine;
+use crate::extensions::test_vehicle::TestVehicle;
 use crate::files::OwnVehicle;
 use crate::formula::{Expr, Symbol, Unit};
 use crate::vehicles;
 use crate::vehicles::Definition;
 
 /// That letters of the catalogue mean what they mean there, and formulas stay small whatever effects do to them.
-pub(crate) fn check(own: &OwnVehicle, machines: &[Machine]) -> Result<()> {
+pub(crate) fn check(own: &OwnVehicle, test_vehicles: &[TestVehicle]) -> Result<()> {
     for (symbol, definition) in &own.vehicle.define {
         let usual = of_catalogue(symbol).filter(|usual| is_spoken_of(symbol) && !alike(usual, definition));
         let Some(usual) = usual else { continue };
@@ -19,7 +19,7 @@ pub(crate) fn check(own: &OwnVehicle, machines: &[Machine]) -> Result<()> {
         let message = format!("the effects of the library take {symbol} for the {meaning}, in {is}, not in {found}");
         return Err(own.names[symbol].error(message).help("give the symbol another letter"));
     }
-    match formula_growth::outgrown_of(effects::all(), machines) {
+    match formula_growth::outgrown_of(effects::all(), test_vehicles) {
         None => Ok(()),
         Some((name, on)) => {
             let message = format!("with all effects together the formula of {name} grows beyond all bounds on {on}");

@@ -2,7 +2,7 @@
 
 use super::{actions, constraints, motion, names, places, units};
 use crate::error::Result;
-use crate::extensions::test_vehicle::Machine;
+use crate::extensions::test_vehicle::TestVehicle;
 use crate::files::{ModelFile, OwnVehicle, VehiclesFile};
 use crate::model::WITH_TRAILERS;
 use crate::vehicles;
@@ -92,7 +92,7 @@ fn check(own: &OwnVehicle) -> Result<()> {
     places::check(own)?;
     constraints::check(own)?;
     motion::check(own)?;
-    actions::check(own, &Machine::of_vehicle(&own.vehicle)?)
+    actions::check(own, &TestVehicle::of_vehicle(&own.vehicle)?)
 }
 
 /// That the name of a vehicle is no other's.

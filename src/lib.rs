@@ -21,21 +21,26 @@
 //! | z, u, p | SI | pose and hidden states, logged inputs, parameters |
 //! | w, v | SI | what no effect of the model explains, over windows of W seconds; noise of the sensor |
 //!
-//! Modules, each using only those above it:
+//! Modules in their order; each imports only those above it:
 //!
 //! | module | what it is |
 //! |---|---|
-//! | [`error`], [`origin`] | one message with its place and an exit code; which file something comes from |
+//! | [`error`], [`provenance`] | one message with its place and an exit code; which file something comes from |
+//! | `wording`, [`number_format`] | phrases and numbers for people |
 //! | [`formula`] | expressions as data: values, derivatives, proofs, units, vector lanes |
-//! | [`mechanism`], [`vehicles`], [`effects`] | rows and what follows from them; the catalogues, as data |
+//! | [`mechanism`] | rows and what follows from them |
+//! | [`vehicles`], [`effects`] | the catalogues, as data |
 //! | [`files`] | model files, logs, results that are whole or absent |
 //! | [`model`], [`motion`] | a vehicle with parameters and effects; its trajectories and their sensitivities |
-//! | [`library`] | the catalogues together with a user's own, held against every vehicle |
+//! | [`energy_rule`] | the paper's rule for the energy of a creeping wheel, Fig. 7 |
+//! | [`equivalence`] | effects that are proved to give the same motions |
+//! | [`describe`], [`extensions`] | a model in formulas; a user's own effects and vehicles, held against every vehicle |
 //! | [`connection`], [`dynamics`] | shapes that turn a body; motion by forces |
-//! | [`describe`], [`starter`], [`sweep`] | what `describe`, `init` and `sweep` do |
-//! | [`picture`], [`figures`] | drawings as pure functions; the paper's figures |
-//! | [`claims`], [`theory`] | what the paper says with evidence that runs; the long form of it |
+//! | [`scaffold`], [`sweep`] | what `init` and `sweep` do |
+//! | [`picture`] | drawings as pure functions |
+//! | [`claims`] | what the paper says, with evidence that runs |
 //! | [`discrepancy`] | where model and measurement disagree, which effect is missing, how much it mends |
+//! | [`figures`], [`theory`] | the paper's figures; the long form of the paper |
 #![warn(missing_docs)]
 
 pub mod claims;
@@ -51,17 +56,16 @@ pub mod extensions;
 pub mod figures;
 pub mod files;
 pub mod formula;
-pub mod number_format;
-pub mod provenance;
-pub mod scaffold;
-
 pub mod mechanism;
 pub mod model;
 pub mod motion;
+pub mod number_format;
 pub mod picture;
-
+pub mod provenance;
+pub mod scaffold;
 pub mod sweep;
 pub mod theory;
 pub mod vehicles;
+mod wording;
 
 pub use error::{Error, Result};

@@ -108,7 +108,7 @@ fn a_new_vehicle_is_described_simulated_verified_discovered_and_listed() {
     assert!(describe::vehicles_text(&all).unwrap().contains("\n## pushed-bus\n"));
     assert!(describe::vehicles_json(&all).unwrap().to_string().contains("\"id\":\"pushed-bus\""));
     assert!(vehicle_effects_text("pushed-bus", &all, effects::all()).unwrap().contains("# Effects on pushed-bus"));
-    let told = claims::Machine::of_vehicle(&bus, 1);
+    let told = claims::DerivedFormulas::of_vehicle(&bus, 1);
     assert!(told.formula("phi_2'").is_some());
 }
 
@@ -121,7 +121,7 @@ fn a_new_effect_is_described_simulated_verified_discovered_and_listed() {
     assert!(describe::text(&Description::of(&model).unwrap()).contains("v_t = v_n - yaw_slip.q*phi'*abs(phi')"));
     let (steady, _) = driven(&model, [|_| 10.0, |_| 0.5]);
     assert!((steady.column("lateral_speed").unwrap()[9] + 0.12 * 0.25).abs() < 1e-12);
-    let machine = claims::Machine::of_model(&model);
+    let machine = claims::DerivedFormulas::of_model(&model);
     let free = ["r", "theta'", "e_rc", "e_tc", "phi'", "yaw_slip.q"].map(|name| (name, Domain::Any));
     let slides = claims::Claim::new("slides", Status::Sampled, "what the effect does to v_t").sample(
         "at exact points",
@@ -166,7 +166,7 @@ fn a_new_type_of_constraint_is_described_simulated_verified_discovered_and_liste
     assert!(said.contains("pays' - (1 - e)*drum*turns' = 0"), "{said}");
     let (steady, _) = driven(&model, [|_| 8.0, |_| 0.0]);
     assert!((steady.column("x").unwrap().last().unwrap() - 0.8 * 29.96).abs() < 1e-9);
-    let machine = claims::Machine::of_vehicle(&cart, 0);
+    let machine = claims::DerivedFormulas::of_vehicle(&cart, 0);
     let statement = claims::Statement::parse(&[("v_l", "drum_radius*theta'*(1 - e_rc)")]).unwrap();
     assert!(claims::prove(&machine.clone().with_text("e_tc", "0"), &statement).holds());
     let all = with(&cart);

@@ -29,7 +29,7 @@ pub fn wheel_cases() -> (Vec<[f64; 2]>, usize) {
 }
 
 fn exact_wheel([e_rc, e_tc]: [f64; 2]) -> [f64; 3] {
-    let p = creepage::motion::fig7_case(e_rc, e_tc, creepage::motion::Reading::A).unwrap();
+    let p = creepage::energy_rule::fig7_case(e_rc, e_tc, creepage::energy_rule::Reading::A).unwrap();
     [p.x, p.y, p.phi]
 }
 

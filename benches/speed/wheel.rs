@@ -5,7 +5,8 @@ use super::{adaptive, vector};
 use creepage::effects::{self, Applied};
 use creepage::formula::{Expr, Symbol};
 use creepage::model::{Equations, Model};
-use creepage::motion::{Ensemble, EnsembleInputs, FIG7_DURATION, Formulas, Integrator, Reading, Varied, simulate};
+use creepage::energy_rule::{FIG7_DURATION, Reading};
+use creepage::motion::{Ensemble, EnsembleInputs, Formulas, Integrator, Varied, simulate};
 
 const R: f64 = 0.5;
 /// I·w², m·r² + J and J of the figure.

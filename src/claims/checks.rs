@@ -3,7 +3,7 @@
 use super::exact_point;
 use super::exact_point::{Domain, Point, simplest, written};
 use super::sampling::Fault;
-use super::{Counterexample, Equation, Machine, Outcome, Sampling, Statement};
+use super::{Counterexample, DerivedFormulas, Equation, Outcome, Sampling, Statement};
 use crate::formula::{Exact, Expr, Normal, Scalar, Symbol};
 use std::collections::BTreeMap;
 
@@ -11,61 +11,61 @@ use std::collections::BTreeMap;
 /// simplest numbers at which the sides differ.
 ///
 /// ```
-/// use creepage::claims::{prove, Machine, Statement};
+/// use creepage::claims::{prove, DerivedFormulas, Statement};
 /// let group = [("cot(phi + atan(e))", "(cot(phi) - e)/(1 + e*cot(phi))")];
-/// assert!(prove(&Machine::default(), &Statement::parse(&group).unwrap()).holds());
+/// assert!(prove(&DerivedFormulas::default(), &Statement::parse(&group).unwrap()).holds());
 /// let slip = [("cot(phi + atan(e))", "(cot(phi) + e)/(1 + e*cot(phi))")];
-/// assert!(prove(&Machine::default(), &Statement::parse(&slip).unwrap()).fails());
+/// assert!(prove(&DerivedFormulas::default(), &Statement::parse(&slip).unwrap()).fails());
 /// ```
-pub fn prove(machine: &Machine, statement: &Statement) -> Outcome {
-    let values = machine.normal();
+pub fn prove(derived: &DerivedFormulas, statement: &Statement) -> Outcome {
+    let values = derived.normal();
     let value = |s: &Symbol| values.get(s).cloned().unwrap_or_else(|| Normal::symbol(s.clone()));
     Outcome::all(statement.in_question().iter().map(|equation| {
         let (left, right) = (equation.left.eval(&value), equation.right.eval(&value));
         match (left, right) {
             (Some(l), Some(r)) if l.equals(&r) => Outcome::PROVED,
             _ if statement.is_brief() => Outcome::failure("no identity"),
-            (Some(_), Some(_)) => refute(machine, equation),
-            _ => refuted_or_undefined(machine, equation),
+            (Some(_), Some(_)) => refute(derived, equation),
+            _ => refuted_or_undefined(derived, equation),
         }
     }))
 }
 
-/// The check that [`prove`]s statements about a machine.
-pub fn proving(machine: Machine) -> impl Fn(&Statement, &Sampling) -> Outcome + Send + Sync + 'static {
-    move |statement, _| prove(&machine, statement)
+/// The check that [`prove`]s statements about derived formulas.
+pub fn proving(derived: DerivedFormulas) -> impl Fn(&Statement, &Sampling) -> Outcome + Send + Sync + 'static {
+    move |statement, _| prove(&derived, statement)
 }
 
 /// The simplest counterexample to an equation that is known to be no identity.
-fn refute(machine: &Machine, equation: &Equation) -> Outcome {
-    match counterexample(machine, equation) {
+fn refute(derived: &DerivedFormulas, equation: &Equation) -> Outcome {
+    match counterexample(derived, equation) {
         Some(found) => Outcome::Fails(found),
         None => Outcome::failure(format!("{equation} is no identity")),
     }
 }
 
-fn refuted_or_undefined(machine: &Machine, equation: &Equation) -> Outcome {
-    match counterexample(machine, equation) {
+fn refuted_or_undefined(derived: &DerivedFormulas, equation: &Equation) -> Outcome {
+    match counterexample(derived, equation) {
         Some(found) => Outcome::Fails(found),
         None => Outcome::Undefined(format!("{equation} lies outside what the normal form decides")),
     }
 }
 
 /// The simplest values of the free symbols at which the sides of an equation differ.
-pub fn counterexample(machine: &Machine, equation: &Equation) -> Option<Counterexample> {
-    let (mut formulas, mut free) = machine.rests_on(&equation.left);
-    let (others, more) = machine.rests_on(&equation.right);
+pub fn counterexample(derived: &DerivedFormulas, equation: &Equation) -> Option<Counterexample> {
+    let (mut formulas, mut free) = derived.rests_on(&equation.left);
+    let (others, more) = derived.rests_on(&equation.right);
     formulas.extend(others);
     free.extend(more);
     let uses = exact_point::domains(&formulas);
     let names: BTreeMap<Symbol, Domain> =
         free.iter().map(|s| (s.clone(), uses.get(s).copied().unwrap_or(Domain::Any))).collect();
-    simplest(&names, |point| differs(machine, equation, point))
+    simplest(&names, |point| differs(derived, equation, point))
 }
 
 /// What is found and said at a point where they differ; `None` where they agree or either is undefined.
-fn differs(machine: &Machine, equation: &Equation, point: &Point) -> Option<String> {
-    let (left, right) = sides(machine, equation, point);
+fn differs(derived: &DerivedFormulas, equation: &Equation, point: &Point) -> Option<String> {
+    let (left, right) = sides(derived, equation, point);
     let (left, right) = (left?, right?);
     (!left.equals(&right)).then(|| said(equation, &left, &right))
 }
@@ -74,9 +74,9 @@ fn said(equation: &Equation, left: &Exact, right: &Exact) -> String {
     format!("{} is {}, the statement says {}", equation.left, written(left), written(right))
 }
 
-fn sides(machine: &Machine, equation: &Equation, point: &Point) -> (Option<Exact>, Option<Exact>) {
+fn sides(derived: &DerivedFormulas, equation: &Equation, point: &Point) -> (Option<Exact>, Option<Exact>) {
     let free = |s: &Symbol| point.get(s).unwrap_or_else(|| Exact::ratio(1, 0));
-    let values = machine.values(&free);
+    let values = derived.values(&free);
     let value = |s: &Symbol| values.get(s).cloned().unwrap_or_else(|| free(s));
     (equation.left.eval(&value), equation.right.eval(&value))
 }
@@ -85,9 +85,14 @@ fn sides(machine: &Machine, equation: &Equation, point: &Point) -> (Option<Exact
 ///
 /// A point at which the left side is undefined lies outside the hypotheses and is not counted; a right side that is
 /// undefined where the left one is not is false.
-pub fn at_points(machine: &Machine, statement: &Statement, names: &[(&str, Domain)], sampling: &Sampling) -> Outcome {
+pub fn at_points(
+    derived: &DerivedFormulas,
+    statement: &Statement,
+    names: &[(&str, Domain)],
+    sampling: &Sampling,
+) -> Outcome {
     sampling.cases(exact_point::points(names), Point::shown, |point| {
-        statement.equations().iter().try_for_each(|equation| match sides(machine, equation, point) {
+        statement.equations().iter().try_for_each(|equation| match sides(derived, equation, point) {
             (Some(l), Some(r)) if l.equals(&r) => Ok(()),
             (Some(l), Some(r)) => Err(Fault::False(said(equation, &l, &r))),
             (Some(l), None) => {

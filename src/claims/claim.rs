@@ -7,11 +7,11 @@ use std::sync::Arc;
 /// Something that is said to be true, where it is said, and how one finds out.
 ///
 /// ```
-/// use creepage::claims::{prove, Claim, Machine, Options, Status, verify};
+/// use creepage::claims::{prove, Claim, DerivedFormulas, Options, Status, verify};
 /// let claim = Claim::new("eq-24", Status::Proved, "the speed of a creeping wheel")
 ///     .at("section 4, (24)")
 ///     .under("the wheel rate is measured")
-///     .proof("the derived row gives it", &[("v_l", "r*theta'*(1 - e_rc)")], |s, _| prove(&Machine::of("unicycle"), s));
+///     .proof("the derived row gives it", &[("v_l", "r*theta'*(1 - e_rc)")], |s, _| prove(&DerivedFormulas::of("unicycle"), s));
 /// let ledger = verify(&[claim], &Options::default(), &|_| ());
 /// assert!(ledger.all_earned());
 /// ```

@@ -10,19 +10,19 @@ use std::sync::{Arc, OnceLock};
 
 /// Named formulas derived by the program; what they do not define is free.
 ///
-/// | machine | names |
+/// | formulas | names |
 /// |---|---|
-/// | [`Machine::of`] a vehicle | v_d, v_l, v_n, v_t, x', y', phi' of its equations of motion; r, a, L, rates and creeps are free |
-/// | [`Machine::train`] | the same with v_i, vt_i, phi_i' of trailers; d_i, c_i, e_tc_i are free |
-/// | [`Machine::with`] | any formula one adds: a row, a derivative |
+/// | [`DerivedFormulas::of`] a vehicle | v_d, v_l, v_n, v_t, x', y', phi' of its equations of motion; r, a, L, rates and creeps are free |
+/// | [`DerivedFormulas::train`] | the same with v_i, vt_i, phi_i' of trailers; d_i, c_i, e_tc_i are free |
+/// | [`DerivedFormulas::with`] | any formula one adds: a row, a derivative |
 #[derive(Clone, Debug, Default)]
-pub struct Machine {
+pub struct DerivedFormulas {
     definitions: Definitions,
-    /// The normal forms of all of them, worked out when first asked for: many statements are put to one machine.
+    /// The normal forms of all of them, worked out when first asked for: many statements are put to the same formulas.
     normal: Arc<OnceLock<BTreeMap<Symbol, Normal>>>,
 }
 
-impl Machine {
+impl DerivedFormulas {
     /// The equations of motion of a vehicle of the catalogue with every creep left free.
     ///
     /// An unknown vehicle defines nothing, so that every statement about it is undefined.
@@ -38,10 +38,10 @@ impl Machine {
     /// The same of any vehicle; one whose constraints do not determine its motion defines nothing.
     ///
     /// ```
-    /// use creepage::{claims::Machine, library};
-    /// let vehicles = library::vehicles_with_own("examples/bus/bus.toml").unwrap();
+    /// use creepage::{claims::DerivedFormulas, extensions};
+    /// let vehicles = extensions::vehicles_with_own("examples/bus/bus.toml").unwrap();
     /// let bus = vehicles.iter().find(|v| v.id == "articulated-bus").unwrap();
-    /// assert!(Machine::of_vehicle(bus, 0).formula("phi_1'").is_some());
+    /// assert!(DerivedFormulas::of_vehicle(bus, 0).formula("phi_1'").is_some());
     /// ```
     pub fn of_vehicle(vehicle: &Vehicle, trailers: usize) -> Self {
         let behind = vec![Trailer { length: 1.0, hitch: 0.0 }; trailers];

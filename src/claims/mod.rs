@@ -35,7 +35,7 @@ pub(crate) mod with_forces;
 
 pub use checks::{at_points, counterexample, near, prove, proving, value_said};
 pub use claim::{Check, Claim, Evidence, Gives, Relation};
-pub use derived_formulas::Machine;
+pub use derived_formulas::DerivedFormulas;
 pub use exact_point::{Domain, Point, domains, points, simplest, value, written};
 pub use mutants::{Mutant, mutants};
 pub use outcome::{Counterexample, Outcome};

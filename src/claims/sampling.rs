@@ -17,8 +17,8 @@ pub struct Sampling {
     pub shrink: bool,
 }
 
-/// Cases of one lot.
-const LOT: u32 = 100;
+/// Cases of one lot: lots are run on several threads, each with its own seed.
+const LOT_CASES: u32 = 100;
 
 /// Why a case does not agree with a statement.
 #[derive(Clone, Debug)]
@@ -58,7 +58,7 @@ impl Sampling {
     where
         S::Value: Debug,
     {
-        let lots: Vec<Sampling> = (0..self.cases.div_ceil(LOT)).map(|i| self.lot(i)).collect();
+        let lots: Vec<Sampling> = (0..self.cases.div_ceil(LOT_CASES)).map(|i| self.lot(i)).collect();
         let outcomes: Vec<Outcome> = lots.par_iter().map(|lot| lot.run(&values, &show, &law)).collect();
         Outcome::all(outcomes)
     }
@@ -66,7 +66,7 @@ impl Sampling {
     /// The i-th lot; its seed is far from those of the others.
     fn lot(&self, i: u32) -> Sampling {
         let seed = self.seed.wrapping_add(u64::from(i).wrapping_mul(0x9e37_79b9_7f4a_7c15));
-        Sampling { cases: LOT.min(self.cases - i * LOT), seed, ..*self }
+        Sampling { cases: LOT_CASES.min(self.cases - i * LOT_CASES), seed, ..*self }
     }
 
     fn run<S: Strategy>(

@@ -4,7 +4,7 @@ use crate::error::Result;
 use crate::formula::{Expr, Symbol};
 use std::fmt;
 
-/// left = right. The left side is what the machine derives or measures, the right side what is said of it.
+/// left = right. The left side is what the program derives or measures, the right side what is said of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equation {
     /// What is spoken of.

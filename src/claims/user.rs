@@ -1,6 +1,6 @@
 //! Claims from a file.
 
-use super::{Claim, Machine, Status, prove};
+use super::{Claim, DerivedFormulas, Status, prove};
 use crate::error::Result;
 use crate::files::{ClaimEntry, read_claims};
 use crate::vehicles::Vehicle;
@@ -32,14 +32,15 @@ fn claim(entry: ClaimEntry, path: &Path, vehicles: &[Vehicle]) -> Claim {
         "refuted" => Status::Refuted,
         _ => Status::Open,
     };
-    let spoken_of = |(id, n): &(String, usize)| Some(Machine::of_vehicle(vehicles.iter().find(|v| v.id == *id)?, *n));
-    let machine = entry.vehicle.as_ref().and_then(spoken_of).unwrap_or_default();
+    let spoken_of =
+        |(id, n): &(String, usize)| Some(DerivedFormulas::of_vehicle(vehicles.iter().find(|v| v.id == *id)?, *n));
+    let derived = entry.vehicle.as_ref().and_then(spoken_of).unwrap_or_default();
     let claim = Claim::new(&entry.id, status, &entry.says).at(&path.display().to_string()).under(&entry.under);
     let claim = match entry.equations.is_empty() {
         true => claim,
         false => {
-            let machine = machine.clone();
-            claim.proof("as the file states", &pairs(&entry.equations), move |s, _| prove(&machine, s))
+            let derived = derived.clone();
+            claim.proof("as the file states", &pairs(&entry.equations), move |s, _| prove(&derived, s))
         }
     };
     match entry.printed.is_empty() {
@@ -51,7 +52,7 @@ fn claim(entry: ClaimEntry, path: &Path, vehicles: &[Vehicle]) -> Claim {
                 true => printed.iter().map(|(left, _)| (*left, *left)).collect(),
                 false => pairs(&entry.equations),
             };
-            claim.refutation("as the file says is printed", &printed, &truth, move |s, _| prove(&machine, s))
+            claim.refutation("as the file says is printed", &printed, &truth, move |s, _| prove(&derived, s))
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Equations of motion with forces for claims to look at: as formulas under the paper's letters, and as runs.
 
-use super::{Machine, Outcome, Statement, prove};
+use super::{DerivedFormulas, Outcome, Statement, prove};
 use crate::dynamics::{Dynamics, Formulas, Masses};
 use crate::error::Result;
 use crate::formula::{Expr, Node, Symbol};
@@ -50,17 +50,20 @@ pub fn along_motion(e: &Expr, coordinates: &[Symbol]) -> Expr {
     moving.fold(Expr::int(0), |sum, s| &sum + &(&e.derivative(&s) * &Expr::sym(s.rate())))
 }
 
-/// A check that puts what a statement says of some names into a machine and proves that formulas of it are zero.
-pub fn vanishing(machine: Machine, zero: Vec<Expr>) -> impl Fn(&Statement, &super::Sampling) -> Outcome + Send + Sync {
+/// A check that puts what a statement says of some names into derived formulas and proves that formulas of it are zero.
+pub fn vanishing(
+    derived: DerivedFormulas,
+    zero: Vec<Expr>,
+) -> impl Fn(&Statement, &super::Sampling) -> Outcome + Send + Sync {
     move |statement, _| {
-        let with = |m: Machine, e: &super::Equation| m.with(&e.left.to_string(), e.right.clone());
-        let said = statement.equations().iter().fold(machine.clone(), with);
+        let with = |m: DerivedFormulas, e: &super::Equation| m.with(&e.left.to_string(), e.right.clone());
+        let said = statement.equations().iter().fold(derived.clone(), with);
         let nothing = zero.iter().map(|e| (e.clone(), Expr::int(0)));
         prove(&said, &Statement::of(nothing).in_brief())
     }
 }
 
-/// The machine of a derivation, or an empty one, about which every statement is undefined.
-pub fn machine_of(build: impl FnOnce() -> Result<Machine>) -> Machine {
+/// The formulas of a derivation, or none, about which every statement is undefined.
+pub fn machine_of(build: impl FnOnce() -> Result<DerivedFormulas>) -> DerivedFormulas {
     build().unwrap_or_default()
 }

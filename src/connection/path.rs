@@ -18,8 +18,8 @@ pub struct Path {
     pub times: [f64; 2],
 }
 
-/// As far as the ends of a closed path may lie apart.
-const CLOSED: f64 = 1e-9;
+/// The distance within which the ends of a path count as the same point, as a share of their size.
+const CLOSED_TOLERANCE: f64 = 1e-9;
 
 impl Path {
     /// A path by its formulas in `t`.
@@ -77,7 +77,7 @@ impl Path {
     /// As [`Path::at`].
     pub fn is_closed(&self, values: &[(&str, f64)]) -> Result<bool> {
         let (first, last) = (self.at(self.times[0], values)?, self.at(self.times[1], values)?);
-        Ok(first.iter().zip(&last).all(|(a, b)| (a - b).abs() <= CLOSED * (1.0 + a.abs())))
+        Ok(first.iter().zip(&last).all(|(a, b)| (a - b).abs() <= CLOSED_TOLERANCE * (1.0 + a.abs())))
     }
 }
 

@@ -3,24 +3,24 @@
 use crate::error::{Error, Result};
 use std::sync::LazyLock;
 
-/// Points of Gauss's rule in each panel.
-const POINTS: usize = 16;
-/// The most panels along a direction.
-const MOST: usize = 1024;
+/// Points of the Gauss–Legendre rule in each panel.
+const GAUSS_POINTS: usize = 16;
+/// The most panels along a direction; an integrand that needs more is not smooth.
+const MAX_PANELS: usize = 1024;
 /// The change, as a share of the sizes that are added, under which a further halving brings nothing but rounding.
-const SETTLED: f64 = 1e-14;
+const RELATIVE_CHANGE: f64 = 1e-14;
 
 /// Nodes within −1 and 1, and weights.
-static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| (1..=POINTS).map(node).collect());
+static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| (1..=GAUSS_POINTS).map(node).collect());
 
 /// The k-th zero of Legendre's polynomial by Newton's method, with its weight 2/((1 − x²)·P′²).
 fn node(k: usize) -> (f64, f64) {
-    let n = POINTS as f64;
+    let n = GAUSS_POINTS as f64;
     let mut x = (std::f64::consts::PI * (k as f64 - 0.25) / (n + 0.5)).cos();
     let mut slope = 1.0;
     for _ in 0..100 {
         let (mut before, mut p) = (1.0, x);
-        for j in 2..=POINTS {
+        for j in 2..=GAUSS_POINTS {
             let j = j as f64;
             (before, p) = (p, ((2.0 * j - 1.0) * x * p - (j - 1.0) * before) / j);
         }
@@ -67,12 +67,12 @@ pub(super) fn double_integral(s: [f64; 2], t: [f64; 2], mut f: impl FnMut(f64, f
 fn settled(mut sum: impl FnMut(usize) -> (f64, f64)) -> Result<f64> {
     let mut last = sum(2).0;
     let mut count = 4;
-    while count <= MOST {
+    while count <= MAX_PANELS {
         let (next, size) = sum(count);
         if !next.is_finite() {
             return Err(Error::run("a formula is undefined on the path"));
         }
-        if (next - last).abs() <= SETTLED * size.max(f64::MIN_POSITIVE) {
+        if (next - last).abs() <= RELATIVE_CHANGE * size.max(f64::MIN_POSITIVE) {
             return Ok(next);
         }
         (last, count) = (next, 2 * count);

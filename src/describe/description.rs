@@ -61,18 +61,18 @@ pub struct EffectInModel {
 }
 
 /// The most trailers that are written out: matrix, derivatives and ranks grow with the cube of their number.
-pub const MOST_TRAILERS: usize = 64;
+pub const MAX_TRAILERS: usize = 64;
 
 impl Description {
     /// Derives everything from a model.
     ///
     /// # Errors
-    /// When an effect does not apply, formulas use each other in a circle, or there are more than [`MOST_TRAILERS`].
+    /// When an effect does not apply, formulas use each other in a circle, or there are more than [`MAX_TRAILERS`].
     pub fn of(model: &Model) -> Result<Self> {
-        if model.trailers.len() > MOST_TRAILERS {
+        if model.trailers.len() > MAX_TRAILERS {
             let found = model.trailers.len();
             return Err(Error::input(format!("{found} trailers are too many to write out"))
-                .help(format!("describe at most {MOST_TRAILERS}; `creepage simulate` takes more")));
+                .help(format!("describe at most {MAX_TRAILERS}; `creepage simulate` takes more")));
         }
         let definitions = model.row_definitions()?;
         let plain = Model { effects: vec![], ..model.clone() }.row_definitions()?;

@@ -1,11 +1,11 @@
 //! The holonomic and the nonholonomic constraints of a model.
 
-use super::structure::Found;
+use super::found::Found;
 use crate::formula::Expr;
 use crate::mechanism::{Mechanism, Nonholonomy, Point};
 
-/// The longest brackets tried.
-const DEPTH: usize = 9;
+/// The length of the longest Lie brackets that are computed; where they still add a dimension, the description says so.
+const MAX_BRACKET_LENGTH: usize = 9;
 
 /// How many of the ideal constraints restrict where a vehicle can go, and how many only how it gets there.
 ///
@@ -47,8 +47,9 @@ pub struct Holonomy {
 impl Holonomy {
     /// The same numbers at two configurations, or in words what is known.
     pub(super) fn of(mechanism: &Mechanism, points: &[Point; 2]) -> Found<Self> {
-        let at =
-            |p: &Point| mechanism.nonholonomy(p, DEPTH).map_err(|e| e.message().to_string()).and_then(Self::settled);
+        let at = |p: &Point| {
+            mechanism.nonholonomy(p, MAX_BRACKET_LENGTH).map_err(|e| e.message().to_string()).and_then(Self::settled)
+        };
         Self::agreed(at(&points[0])?, at(&points[1])?)
     }
 
@@ -69,7 +70,7 @@ impl Holonomy {
         if !found.growth.is_final {
             return Err(format!(
                 "of {} independent constraints at least {} and at most {} are holonomic: integrals bound the number \
-                 from below, brackets of up to {DEPTH} from above, and the two do not agree",
+                 from below, brackets of up to {MAX_BRACKET_LENGTH} from above, and the two do not agree",
                 found.growth.rank,
                 found.integrals.len(),
                 found.holonomic

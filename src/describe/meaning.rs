@@ -1,6 +1,6 @@
 //! Units and meanings of the names that every model has.
 
-use super::Kind;
+use super::symbol_entry::Kind;
 
 /// Name, kind, unit, meaning.
 type Known = (&'static str, Kind, &'static str, &'static str);

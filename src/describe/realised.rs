@@ -1,17 +1,17 @@
 //! Which coefficients of creep make the motion of a model, given what it measures.
 
 use super::Signature;
-use super::structure::Found;
+use super::found::Found;
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Mechanism, Point, Realisation};
 use crate::model::{Model, trailer_heading};
 
-/// As many other smallest sets as are shown.
-const SHOWN: usize = 5;
-/// The largest set for which passive coefficients are solved for.
-const SOLVED: usize = 8;
-/// The longest formula of a passive coefficient that is shown, in characters.
-const LONGEST: usize = 400;
+/// The number of other smallest sets that are shown.
+const SHOWN_SETS: usize = 5;
+/// The largest set for which passive coefficients are solved for: determinants of larger ones fill pages.
+const MAX_SOLVED_SET: usize = 8;
+/// The longest formula of a passive coefficient that is shown, in characters: about four lines.
+const MAX_FORMULA_LENGTH: usize = 400;
 
 /// The signature RᵏTᵐ by ranks, with the sets of coefficients that realise the motion.
 ///
@@ -74,16 +74,16 @@ impl Realised {
         let names = |set: &[usize]| set.iter().map(creep).collect::<Vec<_>>();
         let is_train = mechanism.coordinates.contains(&trailer_heading(1));
         let formula = |r: &usize| {
-            let is_small = found.canonical().len() <= SOLVED && !is_train;
+            let is_small = found.canonical().len() <= MAX_SOLVED_SET && !is_train;
             let formula = is_small.then(|| mechanism.passive_coefficient_ahead(found, *r)).flatten()?;
-            Some(formula).filter(|f| f.to_string().len() <= LONGEST)
+            Some(formula).filter(|f| f.to_string().len() <= MAX_FORMULA_LENGTH)
         };
         Self {
             measured,
             unknown: found.unknown.clone(),
             signature: counted(found),
             canonical: names(found.canonical()),
-            others: found.sets.iter().skip(1).take(SHOWN).map(|s| names(s)).collect(),
+            others: found.sets.iter().skip(1).take(SHOWN_SETS).map(|s| names(s)).collect(),
             other_count: found.sets.len().saturating_sub(1),
             is_complete: found.is_complete,
             passive: found.passive.iter().map(|r| (creep(r), formula(r))).collect(),

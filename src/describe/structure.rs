@@ -1,6 +1,7 @@
 //! What the constraints of a model forbid, and which coefficients of creep make its motion.
 
 use super::Signature;
+use super::found::Found;
 use super::general::General;
 use super::holonomy::{Holonomy, vector};
 use super::realised::Realised;
@@ -12,9 +13,6 @@ use crate::model::{Model, mechanism, trailer_heading};
 const TRAILERS_OF_GROWTH: usize = 5;
 /// As many trailers as the ranks of sets are taken for: about a second for the last.
 const TRAILERS_OF_RANKS: usize = 20;
-
-/// A part of the structure, or in words why it is not known.
-pub type Found<T> = std::result::Result<T, String>;
 
 /// The holonomic and nonholonomic part of a model, and its RT signature by ranks.
 ///

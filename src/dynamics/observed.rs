@@ -1,8 +1,7 @@
 //! What one sees of a motion with forces: speeds, slips, energy and power.
 
-use super::system::undefined;
 use super::{Dynamics, Law};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::formula::{Expr, Graph, NodeId, Program, Symbol};
 
 /// Names and formulas of what is tabulated beside the pose.
@@ -20,6 +19,11 @@ impl Observed {
         let program = Program::compile(graph, slots, &nodes).map_err(undefined)?;
         Ok(Self { names: found.into_iter().map(|(name, _)| name).collect(), program })
     }
+}
+
+/// The error of a formula of the motion that uses a name without a definition.
+pub(super) fn undefined(name: Symbol) -> Error {
+    Error::input(format!("a formula of the motion uses {name}, which nothing defines"))
 }
 
 fn sum(parts: impl Iterator<Item = Expr>) -> Expr {

@@ -33,7 +33,7 @@ pub struct Start {
 }
 
 /// A slip that an ideal contact may have at the start, for each m/s of the motion.
-const ROUNDING: f64 = 1e-9;
+const SLIP_TOLERANCE: f64 = 1e-9;
 
 impl Dynamics {
     /// The states at the start, given the inputs and their slopes there.
@@ -104,7 +104,7 @@ impl Dynamics {
         let left = slips(&rates);
         let size = 1.0 + rates.amax();
         // What is undefined slips, too.
-        let holds = |i: usize| left[i].abs() <= ROUNDING * size;
+        let holds = |i: usize| left[i].abs() <= SLIP_TOLERANCE * size;
         let slipping = self.ideal().find(|(i, _)| !holds(*i));
         match slipping {
             None => Ok(rates.as_slice().to_vec()),

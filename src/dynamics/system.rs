@@ -1,7 +1,7 @@
 //! The equations of motion compiled: accelerations, and their exact slopes for a stiff integration.
 
 use super::derive::Derived;
-use super::observed::Observed;
+use super::observed::{Observed, undefined};
 use super::{Dynamics, Law};
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Graph, NodeId, Program, Symbol};
@@ -148,10 +148,6 @@ impl Dynamics {
     }
 }
 
-pub(super) fn undefined(name: Symbol) -> Error {
-    Error::input(format!("a formula of the motion uses {name}, which nothing defines"))
-}
-
 /// Symbols of accelerations and multipliers.
 fn unknowns(free: &[Symbol], ideal: usize) -> Vec<Symbol> {
     let accelerations = free.iter().map(|q| q.rate().rate());
@@ -189,10 +185,10 @@ fn residual_slopes(d: &mut Derived, difference: &[NodeId], unknown: &[Symbol], s
     (0..residual.len()).flat_map(|i| columns.iter().map(move |c| c[i])).collect()
 }
 
-/// A pivot this much smaller than the largest is rounding.
-const SINGULAR: f64 = 1e-12;
+/// A pivot below this share of the largest is rounding, and its matrix counts as singular.
+const SINGULAR_PIVOT: f64 = 1e-12;
 /// How far beside a kink slopes are taken, as a share of one.
-const BESIDE: f64 = 1e-9;
+const KINK_DISTANCE: f64 = 1e-9;
 
 impl System {
     pub(super) fn work(&self) -> Work {
@@ -276,7 +272,7 @@ impl System {
     pub(super) fn write_slopes(&self, w: &mut Work, z: &[f64], u: &[f64], slope: &[f64], out: &mut [f64]) {
         self.slopes_at(w, z, u, slope, out);
         if out.iter().any(|v| !v.is_finite()) {
-            let beside: Vec<f64> = z.iter().map(|z| z + BESIDE * (1.0 + z.abs())).collect();
+            let beside: Vec<f64> = z.iter().map(|z| z + KINK_DISTANCE * (1.0 + z.abs())).collect();
             self.slopes_at(w, &beside, u, slope, out);
         }
     }
@@ -322,11 +318,11 @@ fn solutions(matrix: DMatrix<f64>, right: DMatrix<f64>) -> DMatrix<f64> {
     let right = DMatrix::from_fn(rows, columns, |i, k| right[(i, k)] / scale[i]);
     let lu = matrix.clone().full_piv_lu();
     let pivots = lu.u().diagonal().map(f64::abs);
-    if pivots.min() > SINGULAR * pivots.max() {
+    if pivots.min() > SINGULAR_PIVOT * pivots.max() {
         return lu.solve(&right).unwrap_or_else(nothing);
     }
     let svd = matrix.svd(true, true);
-    let cut = SINGULAR * svd.singular_values.max();
+    let cut = SINGULAR_PIVOT * svd.singular_values.max();
     svd.solve(&right, cut).unwrap_or_else(|_| nothing())
 }
 
@@ -360,7 +356,7 @@ impl System {
         let svd = scaled.svd(false, true);
         let Some(v) = svd.v_t else { return Ok(()) };
         let most = svd.singular_values.max();
-        let still = (0..svd.singular_values.len()).filter(|i| svd.singular_values[*i] <= SINGULAR * most);
+        let still = (0..svd.singular_values.len()).filter(|i| svd.singular_values[*i] <= SINGULAR_PIVOT * most);
         for i in still {
             let moving = (0..self.n).max_by(|a, b| v[(i, *a)].abs().total_cmp(&v[(i, *b)].abs()));
             if let Some(q) = moving.filter(|q| v[(i, *q)].abs() > 1e-6) {

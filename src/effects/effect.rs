@@ -87,6 +87,11 @@ fn neutral_start() -> Vec<f64> {
 }
 
 impl Effect {
+    /// An effect with one change and no parameters.
+    pub(crate) fn of_change(key: &str, formula: &Expr) -> Self {
+        Self { changes: [(key.to_string(), formula.clone())].into(), ..Self::default() }
+    }
+
     /// Where it may stand behind a tractor with so many trailers: once for each of them, or once for the vehicle.
     pub fn trailers(&self, n: usize) -> Vec<Option<usize>> {
         if self.per_trailer { (1..=n).map(Some).collect() } else { vec![None] }

@@ -1,5 +1,5 @@
 //! The effects that may be missing from a model: data. To add one, add it to `catalogue.toml`;
-//! a user adds one without recompiling, see [`library`](crate::extensions).
+//! a user adds one without recompiling, see [`extensions`](crate::extensions).
 
 mod applied;
 mod effect;

@@ -1,8 +1,8 @@
 //! Rates and energy of the wheel of Fig. 7 at an instant.
 
 use super::readings::{DATA, at, wheel};
+use crate::energy_rule::Reading;
 use crate::error::{Error, Result};
-use crate::motion::Reading;
 
 /// What the wheel of Fig. 7 does at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,7 +30,7 @@ pub struct Instantaneous {
 /// When the rule leaves nothing for a rate.
 ///
 /// ```
-/// use creepage::motion::{Reading, fig7_instants};
+/// use creepage::energy_rule::{Reading, fig7_instants};
 /// let ideal = fig7_instants(0.0, 0.0, Reading::NonConservative, &[0.0]).unwrap()[0];
 /// assert!((ideal.energy - 5.5).abs() < 1e-12);
 /// let crept = fig7_instants(-0.1, -0.2, Reading::A, &[0.0]).unwrap()[0];

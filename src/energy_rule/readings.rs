@@ -153,7 +153,7 @@ pub struct EndPoint {
 /// When the energy rule has no solution on the way: creep so strong that C1 or D leave nothing for φ̇.
 ///
 /// ```
-/// use creepage::motion::{fig7_case, Reading};
+/// use creepage::energy_rule::{fig7_case, Reading};
 /// let ideal = fig7_case(0.0, 0.0, Reading::NonConservative).unwrap();
 /// assert!(ideal.x.abs() < 1e-11 && (ideal.y - std::f64::consts::PI / 20.0).abs() < 1e-11);
 /// ```
@@ -168,7 +168,7 @@ pub fn fig7_case(e_rc: f64, e_tc: f64, reading: Reading) -> Result<EndPoint> {
 /// As [`fig7_case`].
 ///
 /// ```
-/// use creepage::motion::{fig7_path, Reading};
+/// use creepage::energy_rule::{fig7_path, Reading};
 /// let path = fig7_path(-0.1, -0.2, Reading::A, &[0.0, 0.5, 1.0]).unwrap();
 /// assert_eq!(path[0].distance, 0.0);
 /// ```
@@ -201,7 +201,7 @@ pub enum Instant {
 /// As [`fig7_case`]; and for no step at all.
 ///
 /// ```
-/// use creepage::motion::{fig7_case, fig7_stepwise, Instant, Reading};
+/// use creepage::energy_rule::{fig7_case, fig7_stepwise, Instant, Reading};
 /// let limit = fig7_case(-0.1, -0.2, Reading::A).unwrap();
 /// let steps = fig7_stepwise(-0.1, -0.2, Reading::A, 100, Instant::Middle).unwrap();
 /// assert!((steps.x - limit.x).abs() < 1e-4);

@@ -1,7 +1,6 @@
 //! The vehicles that an effect applies to.
 
-use super::alone;
-use super::test_vehicle::Machine;
+use super::test_vehicle::{TestVehicle, reached, visible};
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::files::OwnEffect;
@@ -9,11 +8,11 @@ use crate::formula::{Expr, Symbol};
 use std::collections::BTreeMap;
 
 /// Vehicles named for a reason in a message.
-const NAMED: usize = 3;
+const NAMED_VEHICLES: usize = 3;
 
 /// A vehicle that an effect applies to, and what it rewrites there.
 pub(crate) struct Place<'m> {
-    pub machine: &'m Machine,
+    pub vehicle: &'m TestVehicle,
     pub applied: Applied,
     /// Each definition and the key of its change.
     pub targets: Vec<Target>,
@@ -26,17 +25,17 @@ pub(crate) struct Target {
 }
 
 /// Where an effect applies; an error with reasons where that is nowhere.
-pub(crate) fn places<'m>(own: &OwnEffect, machines: &'m [Machine]) -> Result<Vec<Place<'m>>> {
+pub(crate) fn places<'m>(own: &OwnEffect, test_vehicles: &'m [TestVehicle]) -> Result<Vec<Place<'m>>> {
     let (mut found, mut reasons) = (Vec::new(), BTreeMap::<String, Vec<&str>>::new());
-    for machine in machines {
-        let trailers = own.effect.trailers(machine.model.trailer_count());
+    for test_vehicle in test_vehicles {
+        let trailers = own.effect.trailers(test_vehicle.model.trailer_count());
         if trailers.is_empty() {
-            reasons.entry("no trailer".into()).or_default().push(&machine.label);
+            reasons.entry("no trailer".into()).or_default().push(&test_vehicle.label);
         }
         for trailer in trailers {
-            match obstacle(&own.effect, trailer, machine) {
-                Some(why) => reasons.entry(why).or_default().push(&machine.label),
-                None => found.push(Place::of(&own.effect, trailer, machine)),
+            match obstacle(&own.effect, trailer, test_vehicle) {
+                Some(why) => reasons.entry(why).or_default().push(&test_vehicle.label),
+                None => found.push(Place::of(&own.effect, trailer, test_vehicle)),
             }
         }
     }
@@ -45,7 +44,7 @@ pub(crate) fn places<'m>(own: &OwnEffect, machines: &'m [Machine]) -> Result<Vec
     }
     let mut reasons: Vec<_> = reasons.into_iter().collect();
     reasons.sort_by_key(|(_, labels)| std::cmp::Reverse(labels.len()));
-    let reasons: Vec<String> = reasons.iter().take(NAMED).map(|(why, labels)| reason(why, labels)).collect();
+    let reasons: Vec<String> = reasons.iter().take(NAMED_VEHICLES).map(|(why, labels)| reason(why, labels)).collect();
     Err(own
         .id
         .error(format!("the effect \"{}\" applies to no vehicle: {}", own.effect.id, reasons.join("; ")))
@@ -55,18 +54,19 @@ pub(crate) fn places<'m>(own: &OwnEffect, machines: &'m [Machine]) -> Result<Vec
 fn reason(why: &str, labels: &[&str]) -> String {
     let mut distinct = labels.to_vec();
     distinct.dedup();
-    let more = distinct.len().saturating_sub(NAMED);
-    let named = distinct.iter().take(NAMED).copied().collect::<Vec<_>>().join(", ");
+    let more = distinct.len().saturating_sub(NAMED_VEHICLES);
+    let named = distinct.iter().take(NAMED_VEHICLES).copied().collect::<Vec<_>>().join(", ");
     if more > 0 { format!("{why} on {named} and {more} more") } else { format!("{why} on {named}") }
 }
 
 /// Why an effect does not apply.
-fn obstacle(e: &Effect, trailer: Option<usize>, machine: &Machine) -> Option<String> {
-    let (model, names) = (&machine.model, machine.defined());
+fn obstacle(e: &Effect, trailer: Option<usize>, test_vehicle: &TestVehicle) -> Option<String> {
+    let (model, names) = (&test_vehicle.model, test_vehicle.defined());
     if let Some(role) = e.needs.iter().find(|role| !model.vehicle.inputs.contains_key(*role)) {
         return Some(format!("no input {role}"));
     }
-    let is_missing = |(key, formula): &(&String, &Expr)| alone(key, formula).targets(&names, trailer).is_none();
+    let is_missing =
+        |(key, formula): &(&String, &Expr)| Effect::of_change(key, formula).targets(&names, trailer).is_none();
     if let Some((key, _)) = e.changes.iter().find(is_missing) {
         return Some(format!("no definition of {key}"));
     }
@@ -77,25 +77,25 @@ fn obstacle(e: &Effect, trailer: Option<usize>, machine: &Machine) -> Option<Str
     if let Some(stranger) = model.stranger(e, &names) {
         return Some(format!("no {stranger}"));
     }
-    if !model.stays_open(&machine.definitions, e, trailer) {
+    if !model.stays_open(&test_vehicle.definitions, e, trailer) {
         return Some("formulas that use each other in a circle".into());
     }
     let applied = Applied::new(e, trailer, e.parameters.values().map(|p| p.size).collect());
     let felt = model.clone().with_effect(applied).row_definitions().is_ok_and(|d| {
-        let seen = super::sensor::reached(&d, &super::sensor::visible(model));
+        let seen = reached(&d, &visible(model));
         targets.iter().any(|(name, _)| seen.contains(name))
     });
     (!felt && model.determined().is_ok()).then(|| "no influence on motion and sensor".into())
 }
 
 impl<'m> Place<'m> {
-    fn of(e: &Effect, trailer: Option<usize>, machine: &'m Machine) -> Self {
-        let names = machine.defined();
+    fn of(e: &Effect, trailer: Option<usize>, test_vehicle: &'m TestVehicle) -> Self {
+        let names = test_vehicle.defined();
         let sizes = e.parameters.values().map(|p| p.size).collect();
         let targets = e.changes.iter().flat_map(|(key, formula)| {
-            let found = alone(key, formula).targets(&names, trailer).unwrap_or_default();
+            let found = Effect::of_change(key, formula).targets(&names, trailer).unwrap_or_default();
             found.into_iter().map(|(name, _)| Target { name, key: key.clone() }).collect::<Vec<_>>()
         });
-        Self { machine, targets: targets.collect(), applied: Applied::new(e, trailer, sizes) }
+        Self { vehicle: test_vehicle, targets: targets.collect(), applied: Applied::new(e, trailer, sizes) }
     }
 }

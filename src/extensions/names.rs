@@ -1,19 +1,19 @@
 //! Names in a user's formulas.
 
-use super::alone;
 use super::applicability::Place;
-use super::test_vehicle::Machine;
+use super::test_vehicle::TestVehicle;
+use crate::effects::Effect;
 use crate::error::Result;
 use crate::files::{FormulaText, OwnEffect, advice};
 use crate::formula::{Expr, Symbol};
 use std::collections::BTreeMap;
 
 /// That some vehicle knows every name.
-pub(crate) fn check(own: &OwnEffect, machines: &[Machine]) -> Result<()> {
-    check_needs(own, machines)?;
-    let defined = common(machines.iter().flat_map(Machine::defined));
+pub(crate) fn check(own: &OwnEffect, test_vehicles: &[TestVehicle]) -> Result<()> {
+    check_needs(own, test_vehicles)?;
+    let defined = common(test_vehicles.iter().flat_map(TestVehicle::defined));
     for (key, (spot, _)) in &own.changes {
-        let only = alone(key, &Expr::int(0));
+        let only = Effect::of_change(key, &Expr::int(0));
         let stands = |trailer: Option<usize>| only.targets(&defined, trailer).is_some();
         if !stands(None) && !stands(Some(1)) {
             let names: Vec<&str> = defined.iter().map(Symbol::as_str).collect();
@@ -21,15 +21,15 @@ pub(crate) fn check(own: &OwnEffect, machines: &[Machine]) -> Result<()> {
             return Err(error.help(advice(key, "there are", &names)));
         }
     }
-    let known = common(machines.iter().flat_map(|m| m.units.keys().cloned()));
+    let known = common(test_vehicles.iter().flat_map(|m| m.units.keys().cloned()));
     for (_, formula) in own.changes.values() {
         check_formula(own, formula, &known, true)?;
     }
     own.rates.values().try_for_each(|rate| check_formula(own, rate, &known, false))
 }
 
-fn check_needs(own: &OwnEffect, machines: &[Machine]) -> Result<()> {
-    let inputs = common(machines.iter().flat_map(|m| m.model.vehicle.inputs.keys().map(|i| Symbol::new(i))));
+fn check_needs(own: &OwnEffect, test_vehicles: &[TestVehicle]) -> Result<()> {
+    let inputs = common(test_vehicles.iter().flat_map(|m| m.model.vehicle.inputs.keys().map(|i| Symbol::new(i))));
     let inputs: Vec<&str> = inputs.iter().map(Symbol::as_str).collect();
     for (role, spot) in own.effect.needs.iter().zip(&own.needs) {
         if !inputs.contains(&role.as_str()) {
@@ -70,8 +70,8 @@ fn check_formula(own: &OwnEffect, formula: &FormulaText, known: &[Symbol], is_ch
 /// That no parameter or state hides a name of a vehicle.
 pub(crate) fn check_clash(own: &OwnEffect, place: &Place) -> Result<()> {
     for (name, spot) in &own.names {
-        if place.machine.units.contains_key(&Symbol::new(name)) {
-            let error = spot.error(format!("{name} is also a name of the vehicle {}", place.machine.label));
+        if place.vehicle.units.contains_key(&Symbol::new(name)) {
+            let error = spot.error(format!("{name} is also a name of the vehicle {}", place.vehicle.label));
             return Err(error.help("give the parameter or state another name"));
         }
     }

@@ -6,10 +6,10 @@ use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Definitions, Sample};
 
 /// Points of moderate size, at which formulas must be defined, and further ones up to ten times as far.
-const NEAR: u32 = 8;
-const FAR: u32 = 24;
+const MODERATE_POINTS: u32 = 8;
+const ALL_POINTS: u32 = 24;
 /// Largest difference that counts as rounding, relative to the numbers around.
-const ROUNDING: f64 = 1e-9;
+const RELATIVE_ROUNDING: f64 = 1e-9;
 
 /// The values of names at a point; parameters and states as a reading gives them.
 struct Situation<'a> {
@@ -26,7 +26,7 @@ pub(crate) fn check(own: &OwnEffect) -> Result<()> {
     let rests = |rate: &FormulaText| all(own, true, |s| s.value(&rate.formula).is_none_or(|v| close(v, 0.0)));
     let restless = own.rates.iter().find(|(_, rate)| !rests(rate));
     for (key, (_, formula)) in &own.changes {
-        if !all(own, true, |s| s.point >= NEAR || s.value(&formula.formula).is_some()) {
+        if !all(own, true, |s| s.point >= MODERATE_POINTS || s.value(&formula.formula).is_some()) {
             return Err(undefined(own, formula, has_neutral));
         }
         let unchanged = |s: &Situation| s.value(&formula.formula).is_none_or(|v| close(v, s.number("it")));
@@ -61,11 +61,11 @@ fn neutral(own: &OwnEffect) -> String {
 }
 
 fn all(own: &OwnEffect, states_at_rest: bool, holds: impl Fn(&Situation) -> bool) -> bool {
-    (0..FAR).all(|point| holds(&Situation { own, point, states_at_rest }))
+    (0..ALL_POINTS).all(|point| holds(&Situation { own, point, states_at_rest }))
 }
 
 fn close(a: f64, b: f64) -> bool {
-    (a - b).abs() <= ROUNDING * (1.0 + a.abs().max(b.abs()))
+    (a - b).abs() <= RELATIVE_ROUNDING * (1.0 + a.abs().max(b.abs()))
 }
 
 impl Situation<'_> {
@@ -89,7 +89,7 @@ impl Situation<'_> {
             |k: u32| Sample::of(&Definitions::default(), k).and_then(|s| s.value(&Expr::sym(Symbol::new(name))));
         let size = within(2 * self.point).unwrap_or(1.0);
         let sign = if within(2 * self.point + 1).is_some_and(|x| x < 0.7) { -1.0 } else { 1.0 };
-        sign * size * if self.point < NEAR { 1.0 } else { 10.0 }
+        sign * size * if self.point < MODERATE_POINTS { 1.0 } else { 10.0 }
     }
 }
 
@@ -110,7 +110,7 @@ mod tests {
     fn points_are_of_either_sign_and_of_two_sizes() {
         let own = warm_creep();
         let at = |name: &str, point: u32| Situation { own: &own, point, states_at_rest: false }.scattered(name);
-        for (points, size) in [(0..NEAR, 1.0), (NEAR..FAR, 10.0)] {
+        for (points, size) in [(0..MODERATE_POINTS, 1.0), (MODERATE_POINTS..ALL_POINTS, 10.0)] {
             let found: Vec<f64> = points.clone().map(|p| at("v_l", p)).collect();
             assert!(found.iter().all(|x| (0.2 * size..=1.2 * size).contains(&x.abs())), "{found:?}");
             assert!(found.iter().any(|x| *x < 0.0) && found.iter().any(|x| *x > 0.0), "{found:?}");

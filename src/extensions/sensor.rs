@@ -1,38 +1,19 @@
 //! What a model can measure: the pose, and nothing that moves it.
 
 use super::applicability::Place;
+use super::test_vehicle::reached;
 use crate::error::Result;
 use crate::files::OwnEffect;
 use crate::formula::Symbol;
-use crate::mechanism::Definitions;
-use crate::model::{Model, trailer_heading};
 use std::collections::BTreeSet;
-
-/// What a log can show of a model: the rates of the pose and what the sensor measures.
-pub(crate) fn visible(model: &Model) -> Vec<Symbol> {
-    let fixed = ["x'", "y'", "phi'", "x_m", "y_m", "heading_m", "delay"].map(Symbol::from);
-    let trailers = (1..=model.trailer_count()).map(|i| trailer_heading(i).rate());
-    fixed.into_iter().chain(trailers).collect()
-}
-
-/// Every name that the given ones are made of.
-pub(crate) fn reached(definitions: &Definitions, from: &[Symbol]) -> BTreeSet<Symbol> {
-    let mut found: BTreeSet<Symbol> = from.iter().cloned().collect();
-    let mut waiting = from.to_vec();
-    while let Some(name) = waiting.pop() {
-        let parts = definitions.get(&name).map(|f| f.symbols()).unwrap_or_default();
-        waiting.extend(parts.into_iter().filter(|s| found.insert(s.clone())));
-    }
-    found
-}
 
 /// That the sensor sees no more than the pose, and that the delay is constant: they are evaluated without inputs.
 pub(crate) fn check(own: &OwnEffect, place: &Place) -> Result<()> {
-    let model = place.machine.model.clone().with_effect(place.applied.clone());
+    let model = place.vehicle.model.clone().with_effect(place.applied.clone());
     let definitions = model.row_definitions()?;
     let mut moving: BTreeSet<Symbol> = model.inputs.iter().map(|i| Symbol::new(i)).collect();
     moving.extend(place.applied.states().into_iter().map(|(s, _)| s));
-    let pose: Vec<Symbol> = place.machine.model.states();
+    let pose: Vec<Symbol> = place.vehicle.model.states();
     let still: BTreeSet<Symbol> = moving.iter().cloned().chain(pose).collect();
     let sensor = ["x_m", "y_m", "heading_m"].map(Symbol::from);
     let table = [
@@ -43,7 +24,7 @@ pub(crate) fn check(own: &OwnEffect, place: &Place) -> Result<()> {
         let seen = reached(&definitions, from);
         let Some(culprit) = barred.iter().find(|s| seen.contains(s)) else { continue };
         let at = place.targets.iter().find(|t| seen.contains(&t.name)).and_then(|t| own.changes.get(&t.key));
-        let message = format!("{what} would depend on {culprit} on {}", place.machine.label);
+        let message = format!("{what} would depend on {culprit} on {}", place.vehicle.label);
         let error = at.map_or_else(|| own.id.error(message.clone()), |(_, formula)| formula.error(message.clone()));
         return Err(error.help(format!("it may depend on {may} only")));
     }

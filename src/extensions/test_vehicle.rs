@@ -4,12 +4,12 @@ use crate::describe::Symbols;
 use crate::error::Result;
 use crate::formula::{Symbol, Unit};
 use crate::mechanism::Definitions;
-use crate::model::{Model, Trailer, WITH_TRAILERS};
+use crate::model::{Model, Trailer, WITH_TRAILERS, trailer_heading};
 use crate::vehicles::Vehicle;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A model without effects, with the unit of every name that a formula may speak of.
-pub(crate) struct Machine {
+pub(crate) struct TestVehicle {
     /// What a user calls it.
     pub label: String,
     pub model: Model,
@@ -17,7 +17,7 @@ pub(crate) struct Machine {
     pub units: BTreeMap<Symbol, Unit>,
 }
 
-impl Machine {
+impl TestVehicle {
     /// Every vehicle, once for each column that may stand for an input; then each that pulls, with two trailers.
     pub fn all(vehicles: &[Vehicle]) -> Result<Vec<Self>> {
         let each: Vec<Vec<Self>> = vehicles.iter().map(Self::alone).collect::<Result<_>>()?;
@@ -66,6 +66,24 @@ impl Machine {
     }
 }
 
+/// What a log can show of a model: the rates of the pose and what the sensor measures.
+pub(crate) fn visible(model: &Model) -> Vec<Symbol> {
+    let fixed = ["x'", "y'", "phi'", "x_m", "y_m", "heading_m", "delay"].map(Symbol::from);
+    let trailers = (1..=model.trailer_count()).map(|i| trailer_heading(i).rate());
+    fixed.into_iter().chain(trailers).collect()
+}
+
+/// Every name that the given ones are made of.
+pub(crate) fn reached(definitions: &Definitions, from: &[Symbol]) -> BTreeSet<Symbol> {
+    let mut found: BTreeSet<Symbol> = from.iter().cloned().collect();
+    let mut waiting = from.to_vec();
+    while let Some(name) = waiting.pop() {
+        let parts = definitions.get(&name).map(|f| f.symbols()).unwrap_or_default();
+        waiting.extend(parts.into_iter().filter(|s| found.insert(s.clone())));
+    }
+    found
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -76,13 +94,14 @@ mod tests {
     fn one_input_is_logged_by_another_column() {
         let mut seen = 0;
         for vehicle in vehicles::all() {
-            let machines = Machine::of_vehicle(vehicle).unwrap();
-            let plain = &machines[0].model.inputs;
-            for machine in machines.iter().filter(|m| m.label.contains(" logged by ")) {
-                let (_, column) = machine.label.split_once(" logged by ").unwrap();
-                let changed: Vec<usize> = (0..plain.len()).filter(|i| plain[*i] != machine.model.inputs[*i]).collect();
-                let [i] = changed[..] else { panic!("{}: {:?}", machine.label, machine.model.inputs) };
-                assert_eq!(machine.model.inputs[i], column);
+            let test_vehicles = TestVehicle::of_vehicle(vehicle).unwrap();
+            let plain = &test_vehicles[0].model.inputs;
+            for test_vehicle in test_vehicles.iter().filter(|m| m.label.contains(" logged by ")) {
+                let (_, column) = test_vehicle.label.split_once(" logged by ").unwrap();
+                let changed: Vec<usize> =
+                    (0..plain.len()).filter(|i| plain[*i] != test_vehicle.model.inputs[*i]).collect();
+                let [i] = changed[..] else { panic!("{}: {:?}", test_vehicle.label, test_vehicle.model.inputs) };
+                assert_eq!(test_vehicle.model.inputs[i], column);
                 assert_eq!(vehicle.inputs[&plain[i]].instead.as_ref().unwrap().role, column);
                 seen += 1;
             }

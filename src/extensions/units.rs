@@ -37,7 +37,7 @@ fn unit_of(own: &OwnEffect, place: &Place, s: &Symbol, target: &Symbol) -> Unit 
     }
     let s = if name == "it" { target } else { s };
     // Every name is known by now.
-    place.machine.units.get(s).copied().unwrap_or(Unit::number_unit())
+    place.vehicle.units.get(s).copied().unwrap_or(Unit::number_unit())
 }
 
 fn expect(
@@ -47,7 +47,7 @@ fn expect(
     name: &Symbol,
     place: &Place,
 ) -> Result<()> {
-    let on = &place.machine.label;
+    let on = &place.vehicle.label;
     match formula.formula.eval(of) {
         None => Err(mixed(formula, of, &format!(" on {on}"))),
         Some(found) if found.fits(wanted) => Ok(()),

@@ -97,7 +97,7 @@ fn velocities(map: &mut Map, here: [f64; 2]) -> Element {
     panel.series("help", &[[0.0, -1.6], [0.0, 1.6]]);
     for (class, line) in grid() {
         let image: Vec<[f64; 2]> = line.iter().map(|e| map.at(e[0], e[1])).map(|v| [v[0], v[1]]).collect();
-        panel.pieces(class, &[image], plane::MOST_POINTS);
+        panel.pieces(class, &[image], plane::MAX_POINTS);
     }
     let place = |v: [f64; 3]| [v[0], v[1]];
     panel.markers("crept", Marker::Square, &[place(map.at(1.0, 0.0))]);

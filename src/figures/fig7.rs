@@ -3,8 +3,8 @@
 use super::readings;
 use super::readings::CASES;
 use super::{Data, Drawing, Figure, Options, fixed, key, page, plane};
+use crate::energy_rule::{EndPoint, FIG7_DURATION, Reading, fig7_case, fig7_path};
 use crate::error::Result;
-use crate::motion::{EndPoint, FIG7_DURATION, Reading, fig7_case, fig7_path};
 use crate::number_format::plain;
 use crate::picture::plot::{Marker, Size};
 use crate::picture::svg::Element;
@@ -95,7 +95,7 @@ fn panel(case: &Case, ranges: [[f64; 2]; 2]) -> Element {
     let mut panel = plane::plane(PANEL, ranges);
     // The solid line lies on the dashed one where they agree, and leaves its edges to be seen.
     for (class, path) in [("ideal", &case.ideal), ("crept", &case.plain), ("kept", &case.kept)] {
-        panel.pieces(class, &[xy(path)], plane::MOST_POINTS);
+        panel.pieces(class, &[xy(path)], plane::MAX_POINTS);
     }
     // Small marks on large ones: all three are seen where they end together.
     for (class, marker, path) in [

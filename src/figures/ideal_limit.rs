@@ -147,7 +147,7 @@ fn slope(panel: &mut crate::picture::plot::Panel, low: f64, high: f64) {
     let (e, y) = (0.003, (low * high).sqrt() * 0.03);
     let corner = [[e, y], [10.0 * e, y], [10.0 * e, 10.0 * y], [e, y]];
     panel.series("hair", &corner[..3]);
-    panel.pieces("hair", &[corner.to_vec()], plane::MOST_POINTS);
+    panel.pieces("hair", &[corner.to_vec()], plane::MAX_POINTS);
     let at = panel.place([10.0 * e, 3.2 * y]);
     panel.note(maths("soft", [at[0] + 6.0, at[1] + 4.0], "start", "1"));
     let at = panel.place([3.2 * e, y]);

@@ -20,6 +20,7 @@ mod fig5;
 mod fig6;
 mod fig7;
 mod fig8;
+mod figure;
 mod gap;
 mod ideal_limit;
 mod key;
@@ -33,24 +34,12 @@ mod rig;
 mod understeer;
 
 pub use data::{Data, fixed, scientific};
+pub use figure::{Drawing, Figure};
 pub use options::Options;
 pub use rig::{Rig, RigWheel};
 
 use crate::error::{Error, Result};
 use rayon::prelude::*;
-
-/// A figure that can be drawn.
-#[derive(Clone, Copy, Debug)]
-pub struct Figure {
-    /// What it is asked for by, and how its files begin.
-    pub name: &'static str,
-    /// What it shows.
-    pub title: &'static str,
-    /// Where the paper has it.
-    pub source: &'static str,
-    /// Draws it.
-    pub draw: fn(&Options) -> Result<Drawing>,
-}
 
 /// Every figure, in the order of the paper.
 pub const FIGURES: &[Figure] = &[
@@ -69,26 +58,6 @@ pub const FIGURES: &[Figure] = &[
     planning::FIGURE,
     gap::FIGURE,
 ];
-
-/// A figure drawn.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Drawing {
-    /// The picture, a file of its own.
-    pub svg: String,
-    /// The numbers in it.
-    pub tables: Vec<Data>,
-    /// What is to be said beside the files.
-    pub text: String,
-}
-
-impl Drawing {
-    /// Names and contents of the files of a figure.
-    pub fn files(&self, name: &str) -> Vec<(String, String)> {
-        let svg = (format!("{name}.svg"), self.svg.clone());
-        let csv = self.tables.iter().map(|t| (format!("{name}{}.csv", t.suffix()), t.csv()));
-        std::iter::once(svg).chain(csv).collect()
-    }
-}
 
 /// The figure of that name.
 ///

@@ -118,14 +118,14 @@ fn above(ideal: &Train, crept: &Train) -> Element {
     let all: Vec<[f64; 2]> =
         [ideal, crept].iter().flat_map(|t| [&t.paths[0], &t.paths[TRAILERS]]).flat_map(shown).collect();
     let mut panel = plane::plane(PATHS, plane::ranges(all.iter(), 0.08));
-    panel.pieces("hair", &[shown(&ideal.paths[0])], plane::MOST_POINTS);
-    panel.pieces("ideal", &[shown(&ideal.paths[TRAILERS])], plane::MOST_POINTS);
-    panel.pieces("kept", &[shown(&crept.paths[TRAILERS])], plane::MOST_POINTS);
+    panel.pieces("hair", &[shown(&ideal.paths[0])], plane::MAX_POINTS);
+    panel.pieces("ideal", &[shown(&ideal.paths[TRAILERS])], plane::MAX_POINTS);
+    panel.pieces("kept", &[shown(&crept.paths[TRAILERS])], plane::MAX_POINTS);
     for (class, marker, train) in [("kept", Marker::Circle, crept), ("ideal", Marker::Ring, ideal)] {
         panel.markers(class, marker, &train.paths[TRAILERS][SHOWN..=SHOWN]);
     }
     let bodies = outlines(&crept.shown);
-    panel.pieces("hair", &bodies, 4 * plane::MOST_POINTS);
+    panel.pieces("hair", &bodies, 4 * plane::MAX_POINTS);
     plane::name(&mut panel, PATHS, "rear axle of the car, and axle of the fifth trailer");
     panel.finish("paths", "Paths", "Paths of the car's rear axle and of the fifth trailer.")
 }

@@ -1,7 +1,7 @@
 //! What a figure is drawn with.
 
+use crate::energy_rule::Reading;
 use crate::error::{Error, Result};
-use crate::motion::Reading;
 
 /// Coefficients and the reading of Fig. 7.
 ///
@@ -36,7 +36,7 @@ impl Default for Options {
 }
 
 /// Creep beyond this would leave the paper.
-const LARGEST: f64 = 0.6;
+const MAX_CREEP: f64 = 0.6;
 
 impl Options {
     /// Options as they are typed.
@@ -45,8 +45,8 @@ impl Options {
     /// When a coefficient is not a number within ±0.6, or no reading has that name.
     pub fn new(e_rc: Option<f64>, e_tc: Option<f64>, reading: &str) -> Result<Self> {
         for (name, e) in [("e_rc", e_rc), ("e_tc", e_tc)] {
-            if e.is_some_and(|e| !e.is_finite() || e.abs() > LARGEST) {
-                return Err(Error::input(format!("{name} has to lie within −{LARGEST} and {LARGEST}"))
+            if e.is_some_and(|e| !e.is_finite() || e.abs() > MAX_CREEP) {
+                return Err(Error::input(format!("{name} has to lie within −{MAX_CREEP} and {MAX_CREEP}"))
                     .help("the figures are drawn for creep, not for sliding; try 0.2"));
             }
         }

@@ -5,7 +5,7 @@ use crate::picture::maths::maths;
 use crate::picture::plot::{Panel, Size};
 
 /// Points that a path in a panel may have.
-pub const MOST_POINTS: usize = 400;
+pub const MAX_POINTS: usize = 400;
 
 /// Pixels between ticks along x in a narrow panel.
 const TICKS: f64 = 40.0;

@@ -71,7 +71,7 @@ fn draw(options: &Options) -> Result<Drawing> {
         ("crept", Marker::Square, &paths[1]),
         ("ideal", Marker::Ring, &paths[0]),
     ] {
-        panel.pieces(class, std::slice::from_ref(path), plane::MOST_POINTS);
+        panel.pieces(class, std::slice::from_ref(path), plane::MAX_POINTS);
         if class == "crept" {
             panel.markers(class, marker, &path[path.len() - 1..]);
         }

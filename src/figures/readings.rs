@@ -1,8 +1,8 @@
 //! What each reading of "conservative" makes of the paper's sentences about Fig. 7.
 
 use super::{Data, fixed};
+use crate::energy_rule::{EndPoint, FIG7_DURATION, Instantaneous, Reading, fig7_case, fig7_instants, fig7_path};
 use crate::error::Result;
-use crate::motion::{EndPoint, FIG7_DURATION, Instantaneous, Reading, fig7_case, fig7_instants, fig7_path};
 use std::fmt::Write;
 
 /// The cases of Fig. 7: name, e_rc, e_tc.
@@ -12,11 +12,11 @@ pub const CASES: [(&str, f64, f64); 4] =
 /// The cases in which type R and type T dominate, by their place in [`CASES`].
 const MOSTLY_R: usize = 2;
 const MOSTLY_T: usize = 3;
-/// What "at the beginning" is taken to be, s, and the equal coefficients of the fair comparison.
-const EARLY: f64 = 0.5;
-const EQUAL: f64 = -0.05;
-/// Differences no larger than this are none, in SI units.
-const NONE: f64 = 1e-9;
+/// The time that stands for "at the beginning", s, and the equal coefficients of the fair comparison.
+const BEGINNING: f64 = 0.5;
+const EQUAL_CREEP: f64 = -0.05;
+/// Values that differ by no more than this are the same, in SI units.
+const SAME_WITHIN: f64 = 1e-9;
 /// Instants at which energies are compared.
 const INSTANTS: usize = 9;
 
@@ -45,35 +45,36 @@ const SENTENCES: [Sentence; 9] = [
     Sentence {
         id: "S1",
         says: "early on (iv), mostly T, is farther off than (iii), mostly R",
-        holds: |f| f.early[MOSTLY_T] > f.early[MOSTLY_R] + NONE,
+        holds: |f| f.early[MOSTLY_T] > f.early[MOSTLY_R] + SAME_WITHIN,
     },
-    Sentence { id: "S1'", says: "so it is at equal coefficients", holds: |f| f.ratio > 1.0 + NONE },
+    Sentence { id: "S1'", says: "so it is at equal coefficients", holds: |f| f.ratio > 1.0 + SAME_WITHIN },
     Sentence {
         id: "S2a",
         says: "in (iii) the wheel has turned less than the ideal one",
-        holds: |f| f.ends[MOSTLY_R].phi < f.ideal.phi - NONE,
+        holds: |f| f.ends[MOSTLY_R].phi < f.ideal.phi - SAME_WITHIN,
     },
     Sentence {
         id: "S2b",
         says: "in (iii) it has rolled by less than the ideal one",
-        holds: |f| f.ends[MOSTLY_R].theta < f.ideal.theta - NONE,
+        holds: |f| f.ends[MOSTLY_R].theta < f.ideal.theta - SAME_WITHIN,
     },
     Sentence {
         id: "S2c",
         says: "in (iii) it has travelled farther",
-        holds: |f| f.ends[MOSTLY_R].distance > f.ideal.distance + NONE,
+        holds: |f| f.ends[MOSTLY_R].distance > f.ideal.distance + SAME_WITHIN,
     },
     Sentence {
         id: "S2",
         says: "in every case it has turned less",
-        holds: |f| f.ends.iter().all(|e| e.phi < f.ideal.phi - NONE),
+        holds: |f| f.ends.iter().all(|e| e.phi < f.ideal.phi - SAME_WITHIN),
     },
     Sentence {
         id: "S3",
         says: "both initial rates differ from the ideal ones",
         holds: |f| {
             let differ = |s: &Instantaneous| {
-                (s.yaw_rate - f.start.yaw_rate).abs() > NONE && (s.wheel_rate - f.start.wheel_rate).abs() > NONE
+                (s.yaw_rate - f.start.yaw_rate).abs() > SAME_WITHIN
+                    && (s.wheel_rate - f.start.wheel_rate).abs() > SAME_WITHIN
             };
             f.starts.iter().all(differ)
         },
@@ -81,12 +82,12 @@ const SENTENCES: [Sentence; 9] = [
     Sentence {
         id: "S4",
         says: "the energy is that of the ideal wheel at every instant",
-        holds: |f| f.energies[0].iter().zip(&f.energies[1]).all(|(a, b)| (a - b).abs() < NONE),
+        holds: |f| f.energies[0].iter().zip(&f.energies[1]).all(|(a, b)| (a - b).abs() < SAME_WITHIN),
     },
     Sentence {
         id: "S4b",
         says: "the energy is constant in time",
-        holds: |f| f.energies[0].iter().all(|e| (e - f.energies[0][0]).abs() < NONE),
+        holds: |f| f.energies[0].iter().all(|e| (e - f.energies[0][0]).abs() < SAME_WITHIN),
     },
 ];
 
@@ -120,9 +121,9 @@ pub fn table() -> Result<Judged> {
 fn facts(reading: Reading) -> Result<Facts> {
     let each =
         |of: &dyn Fn(f64, f64) -> Result<f64>| CASES.iter().map(|(_, r, t)| of(*r, *t)).collect::<Result<Vec<_>>>();
-    let ideal_early = fig7_path(0.0, 0.0, Reading::NonConservative, &[EARLY])?[0];
+    let ideal_early = fig7_path(0.0, 0.0, Reading::NonConservative, &[BEGINNING])?[0];
     let off = |e_rc: f64, e_tc: f64| -> Result<f64> {
-        let p = fig7_path(e_rc, e_tc, reading, &[EARLY])?[0];
+        let p = fig7_path(e_rc, e_tc, reading, &[BEGINNING])?[0];
         Ok((p.x - ideal_early.x).hypot(p.y - ideal_early.y))
     };
     let times: Vec<f64> = (0..INSTANTS).map(|i| FIG7_DURATION * i as f64 / (INSTANTS - 1) as f64).collect();
@@ -134,7 +135,7 @@ fn facts(reading: Reading) -> Result<Facts> {
         ideal: fig7_case(0.0, 0.0, Reading::NonConservative)?,
         ends: CASES.iter().map(|(_, r, t)| fig7_case(*r, *t, reading)).collect::<Result<_>>()?,
         early: each(&off)?,
-        ratio: off(0.0, EQUAL)? / off(EQUAL, 0.0)?,
+        ratio: off(0.0, EQUAL_CREEP)? / off(EQUAL_CREEP, 0.0)?,
         start: start(0.0, 0.0, Reading::NonConservative)?,
         starts: CASES.iter().map(|(_, r, t)| start(*r, *t, reading)).collect::<Result<_>>()?,
         energies: [energies(CASES[1].1, CASES[1].2, reading)?, energies(0.0, 0.0, Reading::NonConservative)?],

@@ -89,7 +89,7 @@ fn above(paths: &[Vec<Vec<f64>>]) -> Element {
     let mut panel = plane::plane(PATHS, plane::ranges(points.iter().flatten(), 0.05));
     for ((class, marker, ..), path) in CASES.iter().zip(points) {
         panel.markers(class, *marker, &path[path.len() - 1..]);
-        panel.pieces(class, &[path], plane::MOST_POINTS);
+        panel.pieces(class, &[path], plane::MAX_POINTS);
     }
     plane::name(&mut panel, PATHS, "paths of the rear axle");
     panel.finish("paths", "Paths", "Paths of the rear axle.")

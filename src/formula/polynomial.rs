@@ -208,12 +208,13 @@ impl Polynomial {
     }
 }
 
-/// Terms of a sum that stand one after the other; longer sums are nested, so that no walk goes deep.
-const RUN: usize = 200;
+/// The most terms of a sum that are chained one after the other; longer sums are split in halves, so that no recursion
+/// goes deep.
+const FLAT_TERMS: usize = 200;
 
 /// A sum of terms, with which of them are subtracted.
 pub(super) fn signed_sum(terms: &[(bool, Expr)]) -> Expr {
-    if terms.len() > RUN {
+    if terms.len() > FLAT_TERMS {
         let (a, b) = terms.split_at(terms.len() / 2);
         return &signed_sum(a) + &signed_sum(b);
     }

@@ -122,3 +122,27 @@ impl Constraint {
         self.kind().letter
     }
 }
+
+impl Momentum {
+    /// The constraint that this momentum is zero, with a coefficient of creep: J = e·h.
+    ///
+    /// # Errors
+    /// When no rate is left in it.
+    pub fn constraint(&self, name: &str, creep: &str) -> Result<Constraint> {
+        if self.map.terms().iter().all(|(_, c)| c.is_zero()) {
+            return Err(Error::input(format!("the momentum of \"{name}\" is zero in every motion"))
+                .help("take a symmetry that moves something with inertia"));
+        }
+        let mut slots = vec![
+            ("s", Part::Factor(self.locked.clone())),
+            ("q1'", Part::rate(&self.along.rate())),
+            ("h", Part::Rates(self.shape.clone())),
+        ];
+        if let [(_, carried)] = self.shape.terms() {
+            let keeps = &Expr::int(1) - &Expr::sym(creep);
+            slots.push(("sigma", Part::Factor(&-&(&keeps * carried) / &self.locked)));
+        }
+        let slots: Vec<(Symbol, Part)> = slots.into_iter().map(|(name, part)| (name.into(), part)).collect();
+        Constraint::of(name, &ConstraintType::named("momentum")?, &slots, creep.into())
+    }
+}

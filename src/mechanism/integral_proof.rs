@@ -7,8 +7,8 @@ use super::zero_test::vanishes;
 use crate::formula::{BigRational, Exact, Expr, Fun, Scalar, Symbol};
 use num_traits::One;
 
-/// The size of the largest determinant that is written out.
-const LARGEST: usize = 6;
+/// The size of the largest determinant that is written out: one of size n has n! terms.
+const MAX_DETERMINANT: usize = 6;
 
 /// The fewest rows, by leaving out later ones first, of which gradients are combinations at every sample.
 ///
@@ -42,7 +42,7 @@ pub(crate) fn follows(h: &Expr, rows: &[Row], coordinates: &[Symbol], samples: &
         let values: Option<Vec<_>> = rows.iter().map(|r| at.point.row(r, &rates)).collect();
         Some(Echelon::of(rates.len(), &values?).pivots()).filter(|p| p.len() == rows.len())
     });
-    let Some(pivots) = pivots.filter(|p| p.len() < LARGEST) else { return false };
+    let Some(pivots) = pivots.filter(|p| p.len() < MAX_DETERMINANT) else { return false };
     let mut matrix: Vec<Vec<Expr>> = rows.iter().map(|r| rates.iter().map(|q| r.coefficient(q)).collect()).collect();
     matrix.push(coordinates.iter().map(|q| h.derivative(q)).collect());
     let others = (0..rates.len()).filter(|c| !pivots.contains(c));

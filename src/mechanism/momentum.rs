@@ -1,7 +1,7 @@
 //! Momentum maps: what a symmetry of the kinetic energy conserves.
 
 use super::zero_test::vanishes;
-use super::{Constraint, ConstraintType, Part, Row};
+use super::{Part, Row};
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Node, Symbol};
 use std::collections::BTreeMap;
@@ -73,28 +73,6 @@ impl Momentum {
         let mut shape = map.clone();
         shape.add(along.rate(), &-&locked);
         Ok(Self { map: atoms.shown(&map), locked: atoms.restored(&locked), shape: atoms.shown(&shape), along })
-    }
-
-    /// The constraint that this momentum is zero, with a coefficient of creep: J = e·h.
-    ///
-    /// # Errors
-    /// When no rate is left in it.
-    pub fn constraint(&self, name: &str, creep: &str) -> Result<Constraint> {
-        if self.map.terms().iter().all(|(_, c)| c.is_zero()) {
-            return Err(Error::input(format!("the momentum of \"{name}\" is zero in every motion"))
-                .help("take a symmetry that moves something with inertia"));
-        }
-        let mut slots = vec![
-            ("s", Part::Factor(self.locked.clone())),
-            ("q1'", Part::rate(&self.along.rate())),
-            ("h", Part::Rates(self.shape.clone())),
-        ];
-        if let [(_, carried)] = self.shape.terms() {
-            let keeps = &Expr::int(1) - &Expr::sym(creep);
-            slots.push(("sigma", Part::Factor(&-&(&keeps * carried) / &self.locked)));
-        }
-        let slots: Vec<(Symbol, Part)> = slots.into_iter().map(|(name, part)| (name.into(), part)).collect();
-        Constraint::of(name, &ConstraintType::named("momentum")?, &slots, creep.into())
     }
 }
 

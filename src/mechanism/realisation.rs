@@ -6,8 +6,8 @@ use crate::error::{Error, Result};
 use crate::formula::{BigRational, Expr, Symbol};
 use num_traits::Zero;
 
-/// As many smallest sets as are listed at most.
-const LISTED: usize = 1000;
+/// The most smallest sets that are listed; their number grows as a binomial coefficient.
+const MAX_SETS: usize = 1000;
 
 /// The sets of coefficients that realise the motion of a mechanism near an ideal motion.
 ///
@@ -155,8 +155,8 @@ fn not_determined(unknown: &[Symbol]) -> Error {
 fn bases(order: &[usize], rows: &[Vec<BigRational>], size: usize) -> (Vec<Vec<usize>>, bool) {
     let mut found = Vec::new();
     extend(&Echelon::new(size), &[], order, rows, &mut found);
-    let is_complete = found.len() <= LISTED;
-    found.truncate(LISTED);
+    let is_complete = found.len() <= MAX_SETS;
+    found.truncate(MAX_SETS);
     (found, is_complete)
 }
 
@@ -168,7 +168,7 @@ fn extend(known: &Echelon, chosen: &[usize], rest: &[usize], rows: &[Vec<BigRati
     }
     for (i, r) in rest.iter().enumerate() {
         let (mut grown, later) = (known.clone(), &rest[i + 1..]);
-        if found.len() > LISTED || !grown.insert(&rows[*r]) {
+        if found.len() > MAX_SETS || !grown.insert(&rows[*r]) {
             continue;
         }
         // Only ways that lead to a set are gone.

@@ -31,7 +31,7 @@ pub struct Sample {
 }
 
 /// Largest sum over the sum of sizes that counts as rounding.
-const ROUNDING: f64 = 1e-10;
+const RELATIVE_ROUNDING: f64 = 1e-10;
 
 impl Sample {
     /// The values at a point; `None` when definitions use each other in a circle.
@@ -54,7 +54,7 @@ impl Sample {
         let term = |(rate, c): &(Symbol, Expr)| self.value(&(c * &Expr::sym(rate.clone()))).unwrap_or(f64::NAN);
         let terms: Vec<f64> = row.terms().iter().map(term).collect();
         let size: f64 = terms.iter().copied().map(f64::abs).sum();
-        terms.iter().sum::<f64>().abs() <= ROUNDING * size
+        terms.iter().sum::<f64>().abs() <= RELATIVE_ROUNDING * size
     }
 }
 

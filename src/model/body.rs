@@ -4,7 +4,8 @@ use super::build::moving;
 use super::constraints::{
     bodies, direction, rolling, section_heading, trailer_creep, trailer_direction, trailer_lengths,
 };
-use super::{Model, trailer_heading};
+use super::trailer::trailer_heading;
+use super::vehicle_model::Model;
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Constraint, Definitions, Heading, Row, Sample, Velocity, solve};
@@ -12,7 +13,7 @@ use crate::vehicles::Wheel;
 
 /// Points at which rows that are left over must vanish; they are analytic, so that one point is as good as proof
 /// but for rounding and bad luck.
-const POINTS: u32 = 5;
+const TEST_POINTS: u32 = 5;
 
 impl Model {
     /// Solves the wheels' constraints for v_d, v_n and, where it is known otherwise, phi'.
@@ -145,7 +146,7 @@ impl Model {
     pub(super) fn broken(&self, d: &Definitions, rows: &[Constraint]) -> Vec<String> {
         let free = d.without(&|name| self.vehicle.creeps().any(|creep| creep == name));
         let holds =
-            |c: &&Constraint| (0..POINTS).all(|k| Sample::of(&free, k).is_some_and(|s| s.annihilates(&c.row())));
+            |c: &&Constraint| (0..TEST_POINTS).all(|k| Sample::of(&free, k).is_some_and(|s| s.annihilates(&c.row())));
         rows.iter().filter(|c| !holds(c)).map(|c| c.name.clone()).collect()
     }
 

@@ -1,42 +1,17 @@
 //! The definitions of a model: constraints solved for the motion, effects applied.
 
 use super::constraints::{behind, section_heading, trailer_creep, trailer_direction, trailer_lengths};
-use super::{Model, trailer_heading};
+use super::trailer::trailer_heading;
+use super::vehicle_model::Model;
 use crate::effects::{Applied, Effect};
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Definitions, Velocity, solve};
-use crate::vehicles::Vehicle;
 use std::collections::BTreeSet;
-use std::sync::{Arc, Mutex, PoisonError};
 
 /// A formula of this file; a malformed one would be a fault of the program, seen by every test.
 fn formula(text: &str) -> Expr {
     Expr::parse(text).unwrap_or_else(|e| unreachable!("{e}"))
-}
-
-/// The constraints of a vehicle solved once, for all models that differ in their effects, values and sensor alone.
-#[derive(Clone, Debug, Default)]
-pub struct Solution(Arc<Mutex<Known>>);
-
-type Known = Option<Box<(Key, Definitions)>>;
-
-/// What a solution depends on.
-#[derive(Debug)]
-struct Key {
-    vehicle: Vehicle,
-    trailers: usize,
-    inputs: Vec<String>,
-}
-
-impl Key {
-    fn of(model: &Model) -> Self {
-        Self { vehicle: model.vehicle.clone(), trailers: model.trailers.len(), inputs: model.inputs.clone() }
-    }
-
-    fn is_of(&self, model: &Model) -> bool {
-        self.trailers == model.trailers.len() && self.inputs == model.inputs && self.vehicle == model.vehicle
-    }
 }
 
 impl Model {
@@ -155,15 +130,7 @@ impl Model {
         if !self.vehicle.coordinates.is_empty() {
             return self.solved();
         }
-        let mut kept = self.solution.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((of, known)) = kept.as_deref()
-            && of.is_of(self)
-        {
-            return Ok(known.clone());
-        }
-        let solved = self.solved()?;
-        *kept = Some(Box::new((Key::of(self), solved.clone())));
-        Ok(solved)
+        self.solution.or_solve(&self.vehicle, self.trailers.len(), &self.inputs, || self.solved())
     }
 
     /// The constraints solved, whatever is known of them.

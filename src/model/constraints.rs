@@ -1,6 +1,7 @@
 //! The constraints of a model, in the world's coordinates.
 
-use super::{Model, trailer_heading};
+use super::trailer::trailer_heading;
+use super::vehicle_model::Model;
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Constraint, Direction, Heading, Mechanism, Rolling, Velocity};
 use crate::vehicles::{Vehicle, Wheel};
@@ -147,6 +148,17 @@ pub(super) fn section_heading(i: usize) -> Heading {
 }
 
 impl Model {
+    /// Coordinates: x, y, phi (along a line s), the angles of castors, the angles turned by the wheels, and phi_1,
+    /// phi_2, … of the trailers. An angle that is steered is an input here.
+    pub fn coordinates(&self) -> Vec<Symbol> {
+        let mut found = body_coordinates(&self.vehicle);
+        found.extend(self.vehicle.wheels.iter().filter_map(|w| w.steering.clone().filter(|s| self.vehicle.is_free(s))));
+        let rates = self.vehicle.wheels.iter().filter_map(|w| w.rate.as_ref());
+        found.extend(rates.map(|r| Symbol::new(r.as_str().trim_end_matches('\''))));
+        found.extend((1..=self.trailer_count()).map(trailer_heading));
+        found
+    }
+
     /// The constraints of the vehicle and its trailers in their generic forms, derived from the description.
     ///
     /// Each wheel gives its rolling constraint and its direction constraint, each trailer a direction constraint;

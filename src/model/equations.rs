@@ -1,6 +1,7 @@
 //! The equations of motion of a model, compiled.
 
-use super::{Model, trailer_heading};
+use super::trailer::trailer_heading;
+use super::vehicle_model::Model;
 use crate::error::{Error, Result};
 use crate::formula::{Changes, Expr, Graph, Isa, Lanes, Memory, NodeId, Program, Rows, Symbol};
 use std::collections::BTreeMap;
@@ -35,7 +36,7 @@ pub struct Equations {
 }
 
 /// How far beside a kink derivatives are taken, as a share of one.
-const BESIDE: f64 = 1e-9;
+const KINK_DISTANCE: f64 = 1e-9;
 
 impl Model {
     /// Values of every fixed symbol of the model's formulas.
@@ -340,7 +341,7 @@ impl Equations {
     #[inline(never)]
     fn beside<const L: usize>(&self, w: &mut Workspace<L>, z: &[[f64; L]], u: &[[f64; L]]) {
         let here = w.slopes.clone();
-        let beside: Vec<[f64; L]> = u.iter().map(|u| u.map(|u| u + BESIDE * (1.0 + u.abs()))).collect();
+        let beside: Vec<[f64; L]> = u.iter().map(|u| u.map(|u| u + KINK_DISTANCE * (1.0 + u.abs()))).collect();
         self.differentiated(w, z, &beside);
         let (rates, slopes) = here.split_at(self.n());
         let all = |values: &[[f64; L]], l: usize| values.iter().all(|v| v[l].is_finite());

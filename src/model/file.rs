@@ -1,6 +1,8 @@
 //! Models from files: what a file may say, and the model it says.
 
-use super::{Model, Sensor, Trailer};
+use super::terms;
+use super::trailer::Trailer;
+use super::vehicle_model::{Model, Sensor};
 use crate::effects::{Applied, Effect};
 use crate::error::{Error, Result};
 use crate::files::{
@@ -20,8 +22,8 @@ pub fn known(library: &[Effect]) -> Known {
 /// What a model file may name: these vehicles and the effects of a library.
 ///
 /// ```
-/// use creepage::{effects, library, model};
-/// let vehicles = library::vehicles_with_own("examples/bus/bus.toml").unwrap();
+/// use creepage::{effects, extensions, model};
+/// let vehicles = extensions::vehicles_with_own("examples/bus/bus.toml").unwrap();
 /// assert!(model::known_on(&vehicles, effects::all()).vehicle("articulated-bus").is_some());
 /// ```
 pub fn known_on(vehicles: &[Vehicle], library: &[Effect]) -> Known {
@@ -29,13 +31,13 @@ pub fn known_on(vehicles: &[Vehicle], library: &[Effect]) -> Known {
     Known {
         vehicles: vehicles.iter().map(known_vehicle).chain([train]).collect(),
         effects: library.iter().map(known_effect).collect(),
-        terms: super::terms::ids().into_iter().map(known_term).collect(),
+        terms: terms::ids().into_iter().map(known_term).collect(),
     }
 }
 
 fn known_term(id: String) -> KnownEffect {
-    let [min, max] = super::terms::RANGE;
-    let k = KnownParameter { name: super::COEFFICIENT.into(), min, max };
+    let [min, max] = terms::RANGE;
+    let k = KnownParameter { name: terms::COEFFICIENT.into(), min, max };
     KnownEffect { id, parameters: vec![k], per_trailer: false }
 }
 
@@ -107,7 +109,7 @@ impl Model {
             model.inputs = vehicle.inputs.keys().cloned().collect();
         }
         for entry in &file.effects {
-            let term = if entry.id.starts_with(super::PREFIX) { model.term(&entry.id)? } else { None };
+            let term = if entry.id.starts_with(terms::PREFIX) { model.term(&entry.id)? } else { None };
             let known = applied(entry, library).or_else(|| applied(entry, term.as_slice()));
             model.effects.push(known.ok_or_else(|| {
                 Error::input(format!("unknown effect {:?}", entry.id)).at_file(&file.path).at(entry.line, 1)

@@ -1,6 +1,7 @@
 //! What of a model is still to be fitted.
 
-use super::{Equations, Model};
+use super::equations::Equations;
+use super::vehicle_model::Model;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::formula::Symbol;

@@ -3,6 +3,7 @@
 //! From the description everything else is derived: the constraints in the two forms, and by solving
 //! them the equations of motion as [`Definitions`](crate::mechanism::Definitions).
 
+mod applicable;
 mod body;
 mod build;
 mod constraints;
@@ -11,173 +12,15 @@ mod equations;
 mod file;
 mod free;
 mod own;
+mod solution;
 mod terms;
+mod trailer;
+mod vehicle_model;
 
 pub(crate) use constraints::behind as axle_behind;
 pub use constraints::mechanism;
 pub use equations::{Equations, Workspace};
 pub use file::{WITH_TRAILERS, known, known_on};
 pub use terms::{COEFFICIENT, PREFIX, is_term};
-
-use crate::effects::{Applied, Effect};
-use crate::error::{Error, Result};
-use crate::formula::Symbol;
-use crate::vehicles::Vehicle;
-use std::collections::BTreeMap;
-
-/// A trailer by its nominal lengths.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Trailer {
-    /// From its hitch to its axle, m.
-    pub length: f64,
-    /// The hitch behind the axle ahead of it, m.
-    pub hitch: f64,
-}
-
-/// Where the measured pose sits on the body.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Sensor {
-    /// Forward and left of the reference point, m.
-    pub lever_arm: [f64; 2],
-    /// Measured heading minus body heading, rad.
-    pub heading_offset: f64,
-}
-
-/// A vehicle with its parameters, its sensor and its effects.
-///
-/// ```
-/// use creepage::model::Model;
-/// let car = Model::new("car", &[("wheel_radius", 0.3), ("wheelbase", 2.6)]).unwrap();
-/// let front = &car.constraints()[2];
-/// assert_eq!(front.ideal_row().to_string(), "sin(phi + delta)*x' - cos(phi + delta)*y' - cos(delta)*L*phi'");
-/// ```
-#[derive(Clone, Debug)]
-pub struct Model {
-    /// The tractor.
-    pub vehicle: Vehicle,
-    /// The trailers behind it, nearest first; those that are a part of the vehicle stand ahead of them.
-    pub trailers: Vec<Trailer>,
-    /// Values of the vehicle's parameters.
-    pub parameters: BTreeMap<String, f64>,
-    /// The sensor as far as it is known.
-    pub sensor: Sensor,
-    /// Inputs as they are logged.
-    pub inputs: Vec<String>,
-    /// The effects the model includes.
-    pub effects: Vec<Applied>,
-    /// What has been found out about its constraints; `Default::default()` where there is nothing yet.
-    pub solution: build::Solution,
-}
-
-impl Model {
-    /// A vehicle of the catalogue by its id; otherwise as [`Model::of`].
-    ///
-    /// # Errors
-    /// When the vehicle or a parameter is unknown, or a parameter is missing.
-    pub fn new(vehicle: &str, parameters: &[(&str, f64)]) -> Result<Self> {
-        let found =
-            crate::vehicles::named(vehicle).ok_or_else(|| Error::input(format!("no vehicle is called {vehicle:?}")))?;
-        Self::of(found, parameters)
-    }
-
-    /// Any vehicle with parameters, logged by its own inputs, without trailers behind it or effects.
-    ///
-    /// ```
-    /// use creepage::model::Model;
-    /// use creepage::vehicles::{Vehicle, Wheel};
-    /// let blade = Wheel { name: "blade".into(), traverse_creep: Some("e_tc".into()), ..Wheel::default() };
-    /// let skate = Vehicle { id: "skate".into(), wheels: vec![blade], ..Vehicle::default() };
-    /// let skate = Model::of(&skate, &[]).unwrap();
-    /// assert_eq!(skate.constraints()[0].ideal_row().to_string(), "sin(phi)*x' - cos(phi)*y'");
-    /// ```
-    ///
-    /// # Errors
-    /// When a parameter is unknown or missing.
-    pub fn of(found: &Vehicle, parameters: &[(&str, f64)]) -> Result<Self> {
-        let vehicle = &found.id;
-        let parameters: BTreeMap<String, f64> = parameters.iter().map(|(k, v)| ((*k).to_string(), *v)).collect();
-        if let Some(extra) = parameters.keys().find(|k| !found.parameters.contains_key(*k)) {
-            return Err(Error::input(format!("{vehicle} has no parameter {extra:?}")));
-        }
-        if let Some(missing) =
-            found.parameters.iter().find(|(k, p)| !p.optional && !parameters.contains_key(*k)).map(|(k, _)| k)
-        {
-            return Err(Error::input(format!("{vehicle} needs the parameter {missing:?}")));
-        }
-        Ok(Self {
-            vehicle: found.clone(),
-            trailers: vec![],
-            parameters,
-            sensor: Sensor::default(),
-            inputs: found.inputs.keys().cloned().collect(),
-            effects: vec![],
-            solution: build::Solution::default(),
-        })
-    }
-
-    /// A vehicle with every parameter one: enough for its formulas.
-    ///
-    /// # Errors
-    /// As [`Model::of`].
-    pub fn sample(vehicle: &Vehicle) -> Result<Self> {
-        let ones: Vec<(&str, f64)> = vehicle.parameters.keys().map(|name| (name.as_str(), 1.0)).collect();
-        Self::of(vehicle, &ones)
-    }
-
-    /// The same with every effect kept at its values: nothing of it is fitted.
-    pub fn fixed(&self) -> Self {
-        let fixed = |e: &Applied| Applied { free: false, ..e.clone() };
-        Self { effects: self.effects.iter().map(fixed).collect(), ..self.clone() }
-    }
-
-    /// How many trailers it has: those that are a part of the vehicle, then those behind it.
-    pub fn trailer_count(&self) -> usize {
-        self.vehicle.trailers.len() + self.trailers.len()
-    }
-
-    /// The model with trailers behind it.
-    pub fn with_trailers(mut self, trailers: &[Trailer]) -> Self {
-        self.trailers = trailers.to_vec();
-        self
-    }
-
-    /// The model with one more effect; a value of the same effect and trailer is replaced.
-    pub fn with_effect(mut self, applied: Applied) -> Self {
-        self.effects.retain(|e| !e.same_as(&applied));
-        self.effects.push(applied);
-        self
-    }
-
-    /// The effects of a library that apply to the vehicle, one entry for each trailer they may belong to.
-    ///
-    /// One does not where its formulas would close a circle with those of the model; in the catalogues none can.
-    pub fn applicable<'a>(&self, library: &'a [Effect]) -> Vec<(&'a Effect, Option<usize>)> {
-        let bare = self.bare_definitions();
-        let names: Vec<Symbol> = bare.iter().map(|(n, _)| n.clone()).collect();
-        let open = |e: &Effect, t: Option<usize>| self.is_of_catalogue(e) || self.stays_open(&bare, e, t);
-        let fits = |e: &Effect, t: Option<usize>| self.targets(e, t, &names).is_some() && open(e, t);
-        let all = library.iter().flat_map(|e| e.trailers(self.trailer_count()).into_iter().map(move |t| (e, t)));
-        all.filter(|(e, t)| fits(e, *t)).collect()
-    }
-
-    fn is_of_catalogue(&self, e: &Effect) -> bool {
-        let known = crate::effects::named(&e.id).is_some() || e.id.starts_with(PREFIX);
-        known && e.origin.is_none() && crate::vehicles::named(&self.vehicle.id).is_some()
-    }
-
-    /// Coordinates: x, y, phi (along a line s), the angles of castors, the angles turned by the wheels, and phi_1,
-    /// phi_2, … of the trailers. An angle that is steered is an input here.
-    pub fn coordinates(&self) -> Vec<Symbol> {
-        let mut found = constraints::body_coordinates(&self.vehicle);
-        found.extend(self.vehicle.wheels.iter().filter_map(|w| w.steering.clone().filter(|s| self.vehicle.is_free(s))));
-        let rates = self.vehicle.wheels.iter().filter_map(|w| w.rate.as_ref());
-        found.extend(rates.map(|r| Symbol::new(r.as_str().trim_end_matches('\''))));
-        found.extend((1..=self.trailer_count()).map(trailer_heading));
-        found
-    }
-}
-
-/// The heading of a trailer.
-pub fn trailer_heading(i: usize) -> Symbol {
-    Symbol::new(&format!("phi_{i}"))
-}
+pub use trailer::{Trailer, trailer_heading};
+pub use vehicle_model::{Model, Sensor};

@@ -1,6 +1,6 @@
 //! The motion of a vehicle with coordinates of its own: its constraints solved for the rates that are not given.
 
-use super::Model;
+use super::vehicle_model::Model;
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Constraint, Definitions, Printed, solve};

@@ -1,6 +1,6 @@
 //! Terms without a name: what a constraint might miss when no effect of the library explains it.
 
-use super::Model;
+use super::vehicle_model::Model;
 use crate::effects::{Effect, Parameter};
 use crate::error::Result;
 use crate::formula::{Expr, Size, Symbol};
@@ -13,7 +13,7 @@ pub const PREFIX: &str = "unnamed-";
 pub const COEFFICIENT: &str = "k";
 
 /// Terms are applied after whatever the library holds.
-const LAST: usize = 1 << 20;
+const AFTER_LIBRARY: usize = 1 << 20;
 
 /// A factor of a term: its name, its formula, and its powers of length and time.
 struct Factor {
@@ -115,7 +115,7 @@ impl Model {
         }
         let mut found: Vec<Effect> = found.into_iter().flatten().collect();
         // After every effect that has a name.
-        found.iter_mut().enumerate().for_each(|(i, e)| e.order = LAST + i);
+        found.iter_mut().enumerate().for_each(|(i, e)| e.order = AFTER_LIBRARY + i);
         Ok(found)
     }
 
@@ -188,7 +188,7 @@ impl Symbols {
 }
 
 /// The most operations of a formula that is written out; a few short ones put into one another may fill any memory.
-const LONGEST: usize = 5000;
+const MAX_WRITTEN_OPERATIONS: usize = 5000;
 
 /// Everything that hangs on v_l, written out with another speed for it, and how long that is; none where it is too long.
 ///
@@ -202,7 +202,7 @@ fn written_out(speed: &str, definitions: &Definitions) -> Result<BTreeMap<Symbol
         }
         let of = |s: &Symbol| hanging.get(s).cloned().flatten();
         let size = Size::of(formula, &|s| of(s).map_or(Size::SYMBOL, |(_, size)| size));
-        let short = parts.iter().all(|p| p.is_some()) && size.nodes <= LONGEST;
+        let short = parts.iter().all(|p| p.is_some()) && size.nodes <= MAX_WRITTEN_OPERATIONS;
         let out = short.then(|| (formula.substitute(&|s| of(s).map(|(formula, _)| formula)), size));
         hanging.insert(name.clone(), out);
     }

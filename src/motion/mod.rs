@@ -8,10 +8,6 @@ pub mod sensitivity;
 mod simulate;
 mod trajectory;
 
-pub use crate::energy_rule::instants::{Instantaneous, fig7_instants};
-pub use crate::energy_rule::readings::{
-    EndPoint, FIG7_DURATION, Instant, Reading, fig7_case, fig7_path, fig7_stepwise,
-};
 pub use catalogue_model::{Creep, assembled, driven};
 pub use ensemble::{Case, Ensemble, EnsembleInputs, Plan, Varied};
 pub use inputs::drive::{Drive, Formulas};
@@ -19,7 +15,8 @@ pub use inputs::signals::{Signals, Timing};
 pub use integrators::integrator::{Integrator, Method};
 pub use sensitivity::equilibrium::{initial_hidden, visible_state};
 pub(crate) use sensitivity::lane_stepper::LaneStepper;
-pub use sensitivity::single_stepper::{Arc, Stepper};
+pub use sensitivity::single_stepper::Stepper;
+pub use sensitivity::states::Arc;
 pub(crate) use sensitivity::states::Arcs;
 pub use simulate::{Table, simulate_model};
 pub use trajectory::{integrate, simulate, with_sensitivities};

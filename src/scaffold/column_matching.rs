@@ -14,7 +14,7 @@ pub(crate) struct Match {
 }
 
 /// Other columns that are mentioned.
-const MENTIONED: usize = 4;
+const MENTIONED_COLUMNS: usize = 4;
 
 /// A column for every role, each column once: the likeliest pair of all first.
 ///
@@ -42,7 +42,7 @@ pub(crate) fn matched(roles: &[String], instead: &[(String, String)], header: &[
     }
     let others = |r: usize| {
         let more = all.iter().filter(|(_, role, c)| *role == r && !taken.contains(&Some(*c)));
-        more.map(|(_, _, c)| header[*c].clone()).take(MENTIONED).collect()
+        more.map(|(_, _, c)| header[*c].clone()).take(MENTIONED_COLUMNS).collect()
     };
     let one = |(r, role): (usize, &String)| Match {
         role: role.clone(),

@@ -45,7 +45,7 @@ const USUAL: [(&str, f64); 3] = [("wheel_radius", 0.1), ("track_width", 0.4), ("
 /// Roles of time and pose, the first ones.
 const POSE: usize = 4;
 /// Most trailers of a file to begin with.
-const MOST_TRAILERS: usize = 100;
+const MAX_TRAILERS: usize = 100;
 
 impl Starter {
     /// A model file for a vehicle.
@@ -72,9 +72,9 @@ impl Starter {
         let train = wanted.vehicle == WITH_TRAILERS;
         let vehicle = if train { tractor(vehicles, wanted)? } else { single(vehicles, wanted)? };
         let trailers = if train { wanted.trailers.unwrap_or(1) } else { 0 };
-        if trailers > MOST_TRAILERS {
+        if trailers > MAX_TRAILERS {
             return Err(Error::input(format!("{trailers} trailers are too many to begin with"))
-                .help(format!("give at most {MOST_TRAILERS}, and add lengths to the file")));
+                .help(format!("give at most {MAX_TRAILERS}, and add lengths to the file")));
         }
         let mut starter = Self {
             text: String::new(),
@@ -290,11 +290,12 @@ fn plain(text: &str) -> String {
 }
 
 /// Column names shown in a comment.
-const SHOWN: usize = 40;
+const SHOWN_COLUMNS: usize = 40;
 
 fn listed(header: &[String]) -> String {
-    let mut text = header.iter().take(SHOWN).map(|name| crate::files::shown(name)).collect::<Vec<_>>().join(", ");
-    if header.len() > SHOWN {
+    let mut text =
+        header.iter().take(SHOWN_COLUMNS).map(|name| crate::files::shown(name)).collect::<Vec<_>>().join(", ");
+    if header.len() > SHOWN_COLUMNS {
         text.push_str(&format!(", … ({} in all)", header.len()));
     }
     text

@@ -7,8 +7,9 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution as _, StandardNormal};
 
-/// How often a draw that is not allowed is drawn again.
-const DRAWS: usize = 1000;
+/// How often a draw that is not allowed is drawn again: a distribution with a hundredth of its mass in the
+/// allowed range gives a value all the same.
+const MAX_DRAWS: usize = 1000;
 
 /// Cases in their order: the grid, its last axis fastest, and for each point the draws.
 ///
@@ -62,5 +63,5 @@ fn draw(from: Distribution, allowed: Allowed, rng: &mut ChaCha8Rng) -> f64 {
         }
     };
     // A distribution that hardly ever gives an allowed value leaves the case undefined.
-    (0..DRAWS).map(|_| once()).find(|v| allowed.holds(*v)).unwrap_or(f64::NAN)
+    (0..MAX_DRAWS).map(|_| once()).find(|v| allowed.holds(*v)).unwrap_or(f64::NAN)
 }

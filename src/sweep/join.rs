@@ -1,7 +1,7 @@
 //! Parts of a sweep put together.
 
-use super::table::header;
-use super::{Format, Sweep};
+use super::prepared_sweep::Sweep;
+use super::table::{Format, header};
 use crate::error::{Error, Result};
 use crate::files::{unwritable, write_whole_with};
 use std::fs::File;

@@ -1,6 +1,6 @@
 //! A table under way: a file beside the output that a later run goes on with.
 
-use super::Format;
+use super::table::Format;
 use crate::error::{Error, Result};
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// How often the state is noted, at most; what was done since is done again after a kill.
-const NOTED: Duration = Duration::from_millis(100);
+const NOTE_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Rows already computed, and how far they can be trusted.
 pub(super) struct Journal {
@@ -77,7 +77,7 @@ impl Journal {
         self.state.cases += cases;
         self.state.undefined += undefined;
         self.state.not_converged += not_converged;
-        if self.noted.elapsed() >= NOTED {
+        if self.noted.elapsed() >= NOTE_INTERVAL {
             self.note()?;
         }
         Ok(())

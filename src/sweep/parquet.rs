@@ -17,7 +17,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Rows of a row group; the same for every way a table comes about, so that its bytes are.
-const GROUP: usize = 1 << 16;
+const GROUP_ROWS: usize = 1 << 16;
 
 /// Writes the rows of a journal as a table.
 pub(super) fn write(journal: &mut File, out: &Path, columns: &[String]) -> Result<()> {
@@ -59,7 +59,7 @@ impl<'f> Writer<'f> {
 
     pub fn push(&mut self, row: &[f64]) -> Result<()> {
         self.columns.iter_mut().zip(row).for_each(|(column, value)| column.push(*value));
-        if self.columns[0].len() == GROUP { self.group() } else { Ok(()) }
+        if self.columns[0].len() == GROUP_ROWS { self.group() } else { Ok(()) }
     }
 
     pub fn finish(mut self) -> Result<()> {

@@ -1,8 +1,9 @@
 //! Running a sweep, block by block, in the order of the cases.
 
 use super::journal::Journal;
-use super::table::{csv, header};
-use super::{Format, Shard, Sweep};
+use super::prepared_sweep::Sweep;
+use super::shard::Shard;
+use super::table::{Format, csv, header};
 use crate::error::Result;
 use crate::motion::Case;
 use rayon::prelude::*;
@@ -11,13 +12,13 @@ use std::ops::Range;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Numbers a block of cases holds, about.
-const BLOCK: usize = 1 << 16;
+/// Numbers that a block of cases holds, about: 512 KiB.
+const BLOCK_NUMBERS: usize = 1 << 16;
 /// Blocks that are computed between two writes, for each thread: at first, and at most.
-const ROUND: [usize; 2] = [4, 64];
+const ROUND_BLOCKS: [usize; 2] = [4, 64];
 /// A round that takes less than this may be longer: at its end threads wait for one another. What is longer would be lost
 /// by a kill.
-const QUICK: Duration = Duration::from_millis(50);
+const QUICK_ROUND: Duration = Duration::from_millis(50);
 
 /// How far a sweep is, in cases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,7 +70,7 @@ impl Sweep {
         let all = range.len();
         let mut next = range.start + journal.cases();
         let mut computed: Vec<Result<Rows>> = vec![];
-        let mut blocks = ROUND[0];
+        let mut blocks = ROUND_BLOCKS[0];
         loop {
             tell(Progress { found: journal.found, done: journal.cases(), all });
             let began = Instant::now();
@@ -84,8 +85,8 @@ impl Sweep {
             if last {
                 break;
             }
-            if began.elapsed() < QUICK {
-                blocks = ROUND[1].min(2 * blocks);
+            if began.elapsed() < QUICK_ROUND {
+                blocks = ROUND_BLOCKS[1].min(2 * blocks);
             }
         }
         let ([undefined, not_converged], found) = (journal.troubles(), journal.found);
@@ -95,7 +96,7 @@ impl Sweep {
 
     /// Cases of a block: whole vectors, and not more numbers than fit near the processor.
     fn block(&self) -> usize {
-        (BLOCK / (self.rows * self.width)).clamp(32, 1024) / 32 * 32
+        (BLOCK_NUMBERS / (self.rows * self.width)).clamp(32, 1024) / 32 * 32
     }
 
     fn compute(&self, cases: Range<usize>, format: Format) -> Vec<Result<Rows>> {

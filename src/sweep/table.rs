@@ -1,6 +1,6 @@
 //! What a sweep writes, as rows of numbers and as text.
 
-use super::Sweep;
+use super::prepared_sweep::Sweep;
 use crate::error::{Error, Result};
 use crate::motion::Case;
 use std::path::Path;

@@ -1,5 +1,5 @@
 //! The vehicles: descriptions as data. To add one, add it to `catalogue.toml`; a user adds one without recompiling,
-//! see [`library`](crate::extensions).
+//! see [`extensions`](crate::extensions).
 
 mod vehicle;
 

@@ -1,8 +1,9 @@
 //! What evidence is made of: comparing, searching for the simplest counterexample, drawing cases, reading statements.
 
 use creepage::claims::{
-    Claim, Counterexample, Domain, Fault, Machine, Options, Outcome, Point, Sampling, Statement, Status, at_points,
-    counterexample, domains, mutants, near, points, prove, read, simplest, value, value_said, verify, written,
+    Claim, Counterexample, DerivedFormulas, Domain, Fault, Options, Outcome, Point, Sampling, Statement, Status,
+    at_points, counterexample, domains, mutants, near, points, prove, read, simplest, value, value_said, verify,
+    written,
 };
 use creepage::effects::{self, Applied};
 use creepage::formula::{Exact, Expr, Fun, Scalar, Symbol};
@@ -92,23 +93,23 @@ fn the_search_for_a_counterexample_ends() {
 
 #[test]
 fn the_first_point_that_differs_is_told_with_both_values() {
-    let at = |machine: &Machine, left: &str, right: &str| {
+    let at = |machine: &DerivedFormulas, left: &str, right: &str| {
         counterexample(machine, &statement(&[(left, right)]).equations()[0]).map(|c| c.to_string())
     };
-    let none = Machine::default();
+    let none = DerivedFormulas::default();
     assert_eq!(at(&none, "x", "abs(x)").as_deref(), Some("x = -1: x is -1, the statement says 1"));
     assert_eq!(at(&none, "x + e", "x").as_deref(), Some("e = 1/2, x = 1: x + e is 3/2, the statement says 1"));
     assert_eq!(at(&none, "abs(x)^2", "x^2"), None);
     // Where either side is undefined nothing is said.
     assert_eq!(at(&none, "1/(x - 1)", "2").as_deref(), Some("x = 2: 1/(x - 1) is 1, the statement says 2"));
     assert_eq!(at(&none, "1/(x - x)", "2"), None);
-    let doubled = Machine::default().with_text("y", "2*x");
+    let doubled = DerivedFormulas::default().with_text("y", "2*x");
     assert_eq!(at(&doubled, "y", "3*x").as_deref(), Some("x = 1: y is 2, the statement says 3"));
 }
 
 #[test]
 fn a_proof_says_where_a_statement_fails_and_never_less() {
-    let machine = Machine::default();
+    let machine = DerivedFormulas::default();
     assert_eq!(prove(&machine, &statement(&[("x + x", "2*x"), ("x - x", "0")])), Outcome::Holds { cases: 2 });
     let Outcome::Fails(found) = prove(&machine, &statement(&[("x", "x"), ("x*y", "x")])) else { panic!() };
     assert_eq!(found.values, [("x".to_string(), "1".to_string()), ("y".to_string(), "2".to_string())]);
@@ -126,7 +127,7 @@ fn of(cases: u32) -> Sampling {
 #[test]
 fn equations_are_compared_at_points() {
     let names = [("x", Domain::Nonzero), ("y", Domain::Any)];
-    let compare = |l: &str, r: &str| at_points(&Machine::default(), &statement(&[(l, r)]), &names, &of(50));
+    let compare = |l: &str, r: &str| at_points(&DerivedFormulas::default(), &statement(&[(l, r)]), &names, &of(50));
     assert_eq!(compare("abs(x)^2", "x^2"), Outcome::Holds { cases: 50 });
     let Outcome::Fails(found) = compare("x", "abs(x)") else { panic!() };
     assert_eq!(found.values.iter().map(|(n, _)| n.as_str()).collect::<Vec<_>>(), ["x", "y"]);
@@ -260,8 +261,8 @@ fn a_point_has_values_by_name() {
 
 #[test]
 fn a_machine_derives_what_it_names() {
-    let wheel = Machine::of("unicycle");
-    let text = |m: &Machine, name: &str| m.formula(name).map(ToString::to_string);
+    let wheel = DerivedFormulas::of("unicycle");
+    let text = |m: &DerivedFormulas, name: &str| m.formula(name).map(ToString::to_string);
     assert_eq!(wheel.written_out("v_t").to_string(), wheel.written_out("v_n").to_string());
     assert!(prove(&wheel, &statement(&[("v_t", "e_tc*v_l")])).holds());
     // Parameters and creeps are free, the chain from wheel to pose is not.
@@ -269,11 +270,11 @@ fn a_machine_derives_what_it_names() {
         assert_eq!(text(&wheel, free), None, "{free}");
     }
     assert!(["v_l", "v_t", "x'", "y'"].iter().all(|n| wheel.formula(n).is_some()));
-    let train = Machine::train("unicycle", 2);
+    let train = DerivedFormulas::train("unicycle", 2);
     assert!(train.formula("v_2").is_some() && wheel.formula("v_1").is_none() && train.formula("d_1").is_none());
     assert!(train.formula("e_tc_1").is_none());
-    assert!(Machine::of("no such vehicle").formula("v_l").is_none());
-    let m = Machine::default().with_text("a", "b + 1").with_text("b", "c^2").with_text("broken", "1 +");
+    assert!(DerivedFormulas::of("no such vehicle").formula("v_l").is_none());
+    let m = DerivedFormulas::default().with_text("a", "b + 1").with_text("b", "c^2").with_text("broken", "1 +");
     assert_eq!((text(&m, "a").as_deref(), text(&m, "broken")), (Some("b + 1"), None));
     assert_eq!(m.written_out("a").to_string(), "c^2 + 1");
     assert!(m.written_out("z").is_zero());
@@ -385,7 +386,7 @@ fn a_machine_keeps_coefficients_that_several_effects_make() {
     let made = Model::new("differential-drive", &[("wheel_radius", 0.1), ("track_width", 0.4)]).unwrap();
     let effect = |id: &str| effects::named(id).map(|e| Applied::new(e, None, e.starts().swap_remove(0))).unwrap();
     let made = made.with_effect(effect("rotation-creep")).with_effect(effect("unequal-rotation-creep"));
-    let machine = Machine::of_model(&made);
+    let machine = DerivedFormulas::of_model(&made);
     let coefficient = machine.formula("e_rc_1").unwrap();
     assert!(
         ["rotation_creep.e_rc", "unequal_rotation_creep.e_right"].iter().all(|s| coefficient.mentions(&(*s).into()))

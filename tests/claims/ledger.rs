@@ -1,7 +1,7 @@
 //! The ledger: every stated status is earned, the same for any number of threads, and a false claim is found out.
 
 use creepage::claims::{
-    self, Claim, Gives, Ledger, Machine, Options, Outcome, Sampling, Statement, Status, ledger, mutants, prove,
+    self, Claim, DerivedFormulas, Gives, Ledger, Options, Outcome, Sampling, Statement, Status, ledger, mutants, prove,
     proving, verify,
 };
 use std::path::Path;
@@ -110,7 +110,7 @@ fn a_case_that_fails_is_shown() {
 /// One claim of each kind that must not be believed.
 #[test]
 fn what_is_not_earned_is_open() {
-    let prove_group = || proving(Machine::default());
+    let prove_group = || proving(DerivedFormulas::default());
     let (law, slip) = ("(cot(phi) - e)/(1 + e*cot(phi))", "(cot(phi) + e)/(1 + e*cot(phi))");
     let left = "cot(phi + atan(e))";
     let cases = [
@@ -169,9 +169,9 @@ fn statuses_follow_from_the_evidence() {
     let (law, slip) = ("(cot(phi) - e)/(1 + e*cot(phi))", "(cot(phi) + e)/(1 + e*cot(phi))");
     let left = "cot(phi + atan(e))";
     let base = || Claim::new("x", Status::Open, "");
-    let proof = |c: Claim| c.proof("", &[(left, law)], proving(Machine::default()));
-    let sample = |c: Claim| c.sample("", &[(left, law)], proving(Machine::default()));
-    let refutation = |c: Claim| c.refutation("", &[(left, slip)], &[(left, law)], proving(Machine::default()));
+    let proof = |c: Claim| c.proof("", &[(left, law)], proving(DerivedFormulas::default()));
+    let sample = |c: Claim| c.sample("", &[(left, law)], proving(DerivedFormulas::default()));
+    let refutation = |c: Claim| c.refutation("", &[(left, slip)], &[(left, law)], proving(DerivedFormulas::default()));
     let earned = |c: Claim| verify(&[c], &FEW, &|_| ()).entries[0].earned;
     assert_eq!(earned(proof(base())), Status::Proved);
     assert_eq!(earned(sample(base())), Status::Sampled);
@@ -179,7 +179,7 @@ fn statuses_follow_from_the_evidence() {
     assert_eq!(earned(refutation(base())), Status::Refuted);
     assert_eq!(earned(refutation(proof(base()))), Status::Corrected);
     assert_eq!(earned(sample(refutation(base()))), Status::Corrected);
-    let echo = |c: Claim| c.confirmation("", &[(left, law)], proving(Machine::default()));
+    let echo = |c: Claim| c.confirmation("", &[(left, law)], proving(DerivedFormulas::default()));
     assert_eq!(earned(echo(proof(base()))), Status::Proved);
     assert_eq!(earned(echo(base())), Status::Open);
 }
@@ -378,12 +378,12 @@ fn bad_input_is_one_clear_message() {
 
 #[test]
 fn a_proof_is_not_believed_outside_its_reach() {
-    let machine = Machine::default();
+    let machine = DerivedFormulas::default();
     let statement = |l: &str, r: &str| claims::Statement::parse(&[(l, r)]).unwrap();
     assert!(matches!(prove(&machine, &statement("exp(x)", "exp(x)")), Outcome::Undefined(_)));
     // Equal here and there is no proof; different somewhere is a refutation, also outside the reach.
     assert!(prove(&machine, &statement("abs(x)", "x")).fails());
     assert!(prove(&machine, &statement("sin(x)^2", "1 - cos(x)^2")).holds());
-    let unknown = Machine::of("no such vehicle");
+    let unknown = DerivedFormulas::of("no such vehicle");
     assert!(!prove(&unknown, &statement("v_l", "r*theta'")).holds());
 }

@@ -1,7 +1,8 @@
 //! The measured order of every integrator on right-hand sides that depend on time, and what it does with bad ones.
 
 use creepage::Result;
-use creepage::motion::{Drive, Integrator, Method, Reading, fig7_case};
+use creepage::energy_rule::{Reading, fig7_case};
+use creepage::motion::{Drive, Integrator, Method};
 use std::f64::consts::TAU;
 
 /// y′ = cos(t)·y, y(0) = 1: y = exp(sin t).

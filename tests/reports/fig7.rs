@@ -1,9 +1,11 @@
 //! Fig. 7: the wheel under every reading of "conservative", against numbers this project did not make.
 
 use creepage::effects::{self, Applied};
+use creepage::energy_rule::{EndPoint, Instant, Reading};
+use creepage::energy_rule::{fig7_case, fig7_path, fig7_stepwise};
 use creepage::model::Model;
-use creepage::motion::{Drive, EndPoint, Formulas, Instant, Integrator, Reading};
-use creepage::motion::{fig7_case, fig7_path, fig7_stepwise, simulate};
+use creepage::motion::simulate;
+use creepage::motion::{Drive, Formulas, Integrator};
 use std::f64::consts::{PI, TAU};
 
 const CASES: [(&str, f64, f64); 4] =

@@ -1,8 +1,8 @@
 //! Figures: their data against numbers this project did not make, against themselves as reviewed, and their files.
 
 use crate::reviewed::reviewed;
+use creepage::energy_rule::Reading;
 use creepage::figures::{self, Drawing, FIGURES, Options, Rig, readings};
-use creepage::motion::Reading;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 

@@ -1,6 +1,6 @@
 //! Constraint types as data: those of the catalogue, and one of one's own through every door of the library.
 
-use creepage::claims::{Machine, Statement, prove};
+use creepage::claims::{DerivedFormulas, Statement, prove};
 use creepage::describe::{self, Description, Signature};
 use creepage::formula::{Expr, Symbol, identical};
 use creepage::mechanism::{Constraint, ConstraintType, Form, Part, Row, constraint_types};
@@ -147,7 +147,7 @@ fn a_type_of_ones_own_moves_and_is_proved() {
     let inputs = [("wheel_rate", "3 + cos(t)"), ("yaw_rate", "1/2")];
     let other = driven(&wheel, &inputs, &[], &[0.0, 0.0, 0.3], &[0.0, 2.0]).unwrap();
     path[1].iter().zip(&other[1]).for_each(|(a, b)| assert!((a - b).abs() < 1e-11, "{a} {b}"));
-    let machine = Machine::of_model(&model);
+    let machine = DerivedFormulas::of_model(&model);
     let holds = |says: &str| prove(&machine, &Statement::parse(&[("v_l", says)]).unwrap()).holds();
     assert!(holds("r*q'*(1 - e_b)") && !holds("r*q'*(1 + e_b)"));
     model.parameters.insert("pulley".into(), 0.4);
@@ -167,7 +167,7 @@ fn a_constraint_of_ones_own_stands_beside_wheels() {
     let mut model = Model::new("unicycle", &[("wheel_radius", 0.2)]).unwrap();
     model.vehicle = vehicle;
     assert_eq!(Signature::of(&model.constraints()).to_string(), "T B");
-    let machine = Machine::of_model(&model);
+    let machine = DerivedFormulas::of_model(&model);
     let says = [("v_l", "r*theta'*(1 - e_b)"), ("v_t", "e_tc*v_l")];
     assert!(prove(&machine, &Statement::parse(&says).unwrap()).holds());
 }

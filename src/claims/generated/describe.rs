@@ -1,6 +1,7 @@
 //! A generated vehicle as a description, its coordinates and constraints, and its configuration.
 
-use super::{Drive, Facing, Generated, Placed};
+use super::stand::{Facing, Placed};
+use super::vehicle::{Drive, Generated};
 use crate::formula::{Exact, Expr, Symbol};
 use crate::mechanism::{Mechanism, Point};
 use crate::model::mechanism;

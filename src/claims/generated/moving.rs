@@ -2,7 +2,8 @@
 
 use super::describe::{TRAIL, symbol};
 use super::plane::{Pair, dot, is_nonzero, left_of, plus, times, toward};
-use super::{Facing, Generated, Placed};
+use super::stand::{Facing, Placed};
+use super::vehicle::Generated;
 use crate::claims::exact_point::written;
 use crate::formula::{Exact, Scalar, Symbol};
 use crate::mechanism::Point;

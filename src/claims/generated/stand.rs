@@ -1,7 +1,7 @@
 //! Where the wheels of a generated vehicle stand.
 
 use super::plane::{Pair, is_nonzero, left_of, plus, times, toward};
-use super::{Drive, Generated, Own, Stand};
+use super::vehicle::{Drive, Generated, Own, Stand};
 use crate::claims::exact_point::written;
 use crate::formula::{Exact, Fun, Scalar};
 use std::fmt;

@@ -1,6 +1,7 @@
 //! How vehicles and their motions are drawn.
 
-use super::{Drive, Further, Generated, Moving, Own, Stand};
+use super::moving::Moving;
+use super::vehicle::{Drive, Further, Generated, Own, Stand};
 use crate::claims::exact_point::{Domain, value};
 use crate::formula::Exact;
 use proptest::prelude::*;

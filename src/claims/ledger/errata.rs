@@ -3,7 +3,7 @@
 use crate::claims::{Entry, Gives, Ledger, Outcome, Status};
 use std::fmt::Write;
 
-/// `theory/ERRATA.md`: what the paper prints that is not so, with the counterexample the machine found, and what is.
+/// `theory/ERRATA.md`: what the paper prints that is not so, with the counterexample the program found, and what is.
 ///
 /// The numbers come from a run, so that the file can be no older than the claims.
 pub fn errata(ledger: &Ledger) -> String {

@@ -1,6 +1,6 @@
 //! The blade of the sleigh: what the program derives of its one constraint, for several groups of claims.
 
-use crate::claims::{Machine, Outcome, Sampling, Statement, prove};
+use crate::claims::{DerivedFormulas, Outcome, Sampling, Statement, prove};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Form, Part};
 use crate::model::mechanism;
@@ -18,8 +18,8 @@ pub(crate) fn formula(text: &str) -> Expr {
 }
 
 /// Velocities of the sleigh in the world, its row g with creep and without, s, p and σ, and derivatives of all.
-pub(crate) fn sleigh() -> Machine {
-    let velocities = Machine::default()
+pub(crate) fn sleigh() -> DerivedFormulas {
+    let velocities = DerivedFormulas::default()
         .with_text("x'", "v_l*cos(phi) - v_t*sin(phi)")
         .with_text("y'", "v_l*sin(phi) + v_t*cos(phi)");
     let Some(form) = direction() else { return velocities };
@@ -47,21 +47,21 @@ pub(crate) fn sleigh() -> Machine {
 }
 
 /// The row with x' and y' left free.
-pub(crate) fn row() -> Machine {
-    let machine = sleigh();
+pub(crate) fn row() -> DerivedFormulas {
+    let derived = sleigh();
     let keep = ["g", "g_phi", "g_e", "ideal", "s", "p", "sigma", "s_phi", "p_phi", "s_e", "p_e"];
-    keep.iter().fold(Machine::default(), |m, name| match machine.formula(name) {
+    keep.iter().fold(DerivedFormulas::default(), |m, name| match derived.formula(name) {
         Some(f) => m.with(name, f.clone()),
         None => m,
     })
 }
 
 pub(crate) fn on_row(s: &Statement, _: &Sampling) -> Outcome {
-    static MACHINE: LazyLock<Machine> = LazyLock::new(row);
-    prove(&MACHINE, s)
+    static DERIVED: LazyLock<DerivedFormulas> = LazyLock::new(row);
+    prove(&DERIVED, s)
 }
 
 pub(crate) fn on_sleigh(s: &Statement, _: &Sampling) -> Outcome {
-    static MACHINE: LazyLock<Machine> = LazyLock::new(sleigh);
-    prove(&MACHINE, s)
+    static DERIVED: LazyLock<DerivedFormulas> = LazyLock::new(sleigh);
+    prove(&DERIVED, s)
 }

@@ -2,7 +2,7 @@
 
 use super::blade::{formula, on_row, on_sleigh, row};
 use super::domain::defined_everywhere;
-use crate::claims::{Claim, Machine, Status, prove};
+use crate::claims::{Claim, DerivedFormulas, Status, prove};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Row, solve};
 
@@ -37,9 +37,9 @@ fn intrinsic() -> Vec<Claim> {
                 &[("sigma", "cot(phi)"), ("g/sin(phi)", "x' - cot(phi)*y'")],
                 |s, _| {
                     let ideal = |e: &Expr| e.substitute(&|s| (s.as_str() == "e_tc").then(|| Expr::int(0)));
-                    let machine = row();
-                    let of = |name: &str| machine.formula(name).map_or_else(|| Expr::int(0), ideal);
-                    prove(&Machine::default().with("sigma", of("sigma")).with("g", of("g")), s)
+                    let derived = row();
+                    let of = |name: &str| derived.formula(name).map_or_else(|| Expr::int(0), ideal);
+                    prove(&DerivedFormulas::default().with("sigma", of("sigma")).with("g", of("g")), s)
                 },
             ),
         Claim::new(
@@ -100,8 +100,8 @@ fn intrinsic() -> Vec<Claim> {
     ]
 }
 
-fn row_machine(name: &str, e: Expr) -> Machine {
-    Machine::default().with(name, e)
+fn row_machine(name: &str, e: Expr) -> DerivedFormulas {
+    DerivedFormulas::default().with(name, e)
 }
 
 fn regular() -> Vec<Claim> {
@@ -109,7 +109,7 @@ fn regular() -> Vec<Claim> {
         let e = formula("tan(alpha)");
         let turned = |s: &Symbol| (s.as_str() == "e_tc").then(|| e.clone());
         let g = row().formula("g").map_or_else(|| Expr::int(0), |g| g.substitute(&turned));
-        Machine::default().with("g", g)
+        DerivedFormulas::default().with("g", g)
     };
     vec![
         Claim::new(
@@ -174,7 +174,7 @@ fn regular() -> Vec<Claim> {
             |s, _| {
                 let sigma = formula("(q - e)/(1 + e*q)");
                 let by = |name: &str| sigma.derivative(&name.into());
-                prove(&Machine::default().with("by_q", by("q")).with("by_e", by("e")), s)
+                prove(&DerivedFormulas::default().with("by_q", by("q")).with("by_e", by("e")), s)
             },
         ),
     ]
@@ -182,7 +182,7 @@ fn regular() -> Vec<Claim> {
 
 fn group() -> Vec<Claim> {
     let twice = || {
-        Machine::default()
+        DerivedFormulas::default()
             .with_text("once", "(q - e_1)/(1 + e_1*q)")
             .with_text("twice", "(once - e_2)/(1 + e_2*once)")
             .with_text("inverse", "(once + e_1)/(1 - e_1*once)")

@@ -1,16 +1,16 @@
 //! Where formulas are undefined.
 
-use crate::claims::{Counterexample, Equation, Machine, Outcome, Point, Statement, domains, simplest, written};
+use crate::claims::{Counterexample, DerivedFormulas, Equation, Outcome, Point, Statement, domains, simplest, written};
 use crate::formula::{Exact, Expr, Fun, Node, Normal, Scalar, Symbol};
 
-/// Shows, for each equation, that what a machine derives of its left side is undefined exactly where its right side is
+/// Shows, for each equation, that what the formulas derive for its left side is undefined exactly where its right side is
 /// zero.
 ///
 /// Proved by comparing the product of the left side's divisors with the right side in normal form; refuted by the
 /// simplest numbers at which one is the case and not the other.
-pub(crate) fn undefined_exactly_where(machine: &Machine, statement: &Statement) -> Outcome {
+pub(crate) fn undefined_exactly_where(formulas: &DerivedFormulas, statement: &Statement) -> Outcome {
     Outcome::all(statement.equations().iter().map(|equation| {
-        let derived = machine.put_into(equation.left.clone());
+        let derived = formulas.put_into(equation.left.clone());
         match mismatch(equation, &derived) {
             Some(found) => Outcome::Fails(found),
             None if same_zeros(&divisors(&derived), &equation.right) => Outcome::PROVED,
@@ -24,6 +24,12 @@ pub(crate) fn solved_for(coefficient: &str, formula: &Expr, value: &Expr) -> Exp
     let name = Symbol::from(coefficient);
     let without = formula.substitute(&|s| (*s == name).then(|| Expr::int(0)));
     &(value - &without) / &formula.derivative(&name)
+}
+
+/// The derived speed of the disk solved for the coefficient, at any speed and rate.
+pub(crate) fn disk_coefficient() -> DerivedFormulas {
+    let speed = DerivedFormulas::of("disk").with_text("theta'", "omega").written_out("v_l");
+    DerivedFormulas::default().with("e_rc", solved_for("e_rc", &speed, &Expr::sym("v_l")))
 }
 
 /// Shows that every right side has a value everywhere, whatever the values of its symbols.
@@ -106,7 +112,8 @@ mod tests {
 
     #[test]
     fn what_is_undefined_elsewhere_is_told_in_numbers() {
-        let asked = |left: &str, right: &str| undefined_exactly_where(&Machine::default(), &statement(left, right));
+        let asked =
+            |left: &str, right: &str| undefined_exactly_where(&DerivedFormulas::default(), &statement(left, right));
         let told = |left: &str, right: &str| match asked(left, right) {
             Outcome::Fails(found) => found.says,
             other => format!("{other:?}"),
@@ -124,9 +131,9 @@ mod tests {
 
     #[test]
     fn what_is_derived_is_asked_and_named_as_it_is_stated() {
-        let machine = Machine::default().with_text("q", "u/v").with_text("v", "1 - w");
-        assert!(undefined_exactly_where(&machine, &statement("q", "1 - w")).holds());
-        let Outcome::Fails(found) = undefined_exactly_where(&machine, &statement("q", "w")) else {
+        let formulas = DerivedFormulas::default().with_text("q", "u/v").with_text("v", "1 - w");
+        assert!(undefined_exactly_where(&formulas, &statement("q", "1 - w")).holds());
+        let Outcome::Fails(found) = undefined_exactly_where(&formulas, &statement("q", "w")) else {
             panic!("q is undefined at w = 1 alone")
         };
         assert!(found.says.starts_with("q is "), "{}", found.says);

@@ -1,9 +1,10 @@
 //! Finite motions and their limits, (5)–(7) and (15)–(16), on simulated runs of the single wheel.
 
-use super::domain::undefined_exactly_where;
-use super::rotation::solved;
+use super::domain::{disk_coefficient, undefined_exactly_where};
 use crate::claims::simulated::{Creep, driven, model, undefined};
-use crate::claims::{Claim, Fault, Machine, Outcome, Sampling, Statement, Status, Verdict, near, proving, value_said};
+use crate::claims::{
+    Claim, DerivedFormulas, Fault, Outcome, Sampling, Statement, Status, Verdict, near, proving, value_said,
+};
 use crate::error::Result;
 use proptest::prelude::*;
 
@@ -42,7 +43,7 @@ pub(crate) fn claims() -> Vec<Claim> {
 
 /// Constant accelerations from rest: v_l = a·t and ω = g·t.
 fn from_rest() -> Claim {
-    let rest = Machine::default().with_text("d", "a*t^2/2").with_text("theta", "g*t^2/2");
+    let rest = DerivedFormulas::default().with_text("d", "a*t^2/2").with_text("theta", "g*t^2/2");
     Claim::new("start-from-rest", Status::Corrected, "the definitions (7) and (8) are equivalent")
         .at("section 2, (7)–(8); also (16)–(17)")
         .about(&[7, 8, 16, 17])
@@ -57,7 +58,7 @@ fn from_rest() -> Claim {
             "the coefficient of velocities is there whenever the limit is, that is for r·g ≠ 0",
             &[("e_rc", "r*g")],
             &[("e_rc", "r*g*t")],
-            |s, _| undefined_exactly_where(&solved().with_text("v_l", "a*t").with_text("omega", "g*t"), s),
+            |s, _| undefined_exactly_where(&disk_coefficient().with_text("v_l", "a*t").with_text("omega", "g*t"), s),
         )
         .on_domains()
         .proof(

@@ -2,7 +2,7 @@
 
 use super::wheel::wheel;
 use crate::claims::simulated::{Creep, TURN, WHEEL, driven, model, undefined};
-use crate::claims::{Claim, Fault, Machine, Status, near, prove, proving, value_said};
+use crate::claims::{Claim, DerivedFormulas, Fault, Status, near, prove, proving, value_said};
 use crate::error::Result;
 use crate::model::Trailer;
 use proptest::prelude::*;
@@ -10,10 +10,10 @@ use proptest::prelude::*;
 const CHAPTER: &str = "07-ideal-limit";
 
 /// κ as its two parts, and its derivatives at zero creep.
-fn kappa() -> Machine {
-    let machine = Machine::default().with_text("re", "1 - e_rc").with_text("im", "(1 - e_rc)*e_tc");
-    ["re", "im"].into_iter().fold(machine.clone(), |m, part| {
-        let whole = machine.written_out(part);
+fn kappa() -> DerivedFormulas {
+    let derived = DerivedFormulas::default().with_text("re", "1 - e_rc").with_text("im", "(1 - e_rc)*e_tc");
+    ["re", "im"].into_iter().fold(derived.clone(), |m, part| {
+        let whole = derived.written_out(part);
         ["e_rc", "e_tc"].into_iter().fold(m, |m, e| {
             let ideal = |s: &crate::formula::Symbol| s.as_str().starts_with("e_").then(|| crate::formula::Expr::int(0));
             m.with(&format!("{part}_by_{e}"), whole.derivative(&e.into()).substitute(&ideal))

@@ -1,7 +1,7 @@
 //! Section 1: the pneumatic tyre, equations (1) and (2), as far as kinematics can tell.
 
 use crate::claims::simulated::{driven, model, undefined};
-use crate::claims::{Claim, Machine, Outcome, Sampling, Statement, Status, near, proving, value_said};
+use crate::claims::{Claim, DerivedFormulas, Outcome, Sampling, Statement, Status, near, proving, value_said};
 use crate::effects;
 use crate::effects::Applied;
 use crate::model::Model;
@@ -47,11 +47,13 @@ pub(crate) fn claims() -> Vec<Claim> {
 }
 
 /// A wheel whose lateral velocity follows its load; without other creep.
-fn rocard() -> Machine {
+fn rocard() -> DerivedFormulas {
     let effect = effects::named("load-dependent-creep").map(|e| Applied::new(e, None, vec![0.1]));
     let wheel = Model::new("unicycle", &[("wheel_radius", 1.0)]).ok();
-    let Some((wheel, effect)) = wheel.zip(effect) else { return Machine::default() };
-    Machine::of_model(&wheel.with_effect(effect)).with_text("load_dependent_creep.c", "m/k_r").with_text("e_tc", "0")
+    let Some((wheel, effect)) = wheel.zip(effect) else { return DerivedFormulas::default() };
+    DerivedFormulas::of_model(&wheel.with_effect(effect))
+        .with_text("load_dependent_creep.c", "m/k_r")
+        .with_text("e_tc", "0")
 }
 
 fn relaxation(s: &Statement, sampling: &Sampling) -> Outcome {

@@ -1,6 +1,6 @@
 //! Section 1 and (18): what the laws of contact say.
 
-use crate::claims::{Claim, Domain, Machine, Sampling, Statement, Status, at_points, proving};
+use crate::claims::{Claim, DerivedFormulas, Domain, Sampling, Statement, Status, at_points, proving};
 use crate::dynamics::laws;
 use crate::formula::{Expr, Symbol};
 
@@ -28,9 +28,9 @@ fn force(id: &str, names: &[(&str, &str)]) -> Expr {
 fn growth() -> Claim {
     let names = [("slip", "0"), ("speed", "v"), ("deflection", "x_c"), ("relaxation_length", "1/k_g")];
     let rate = law("elastic", |l| l.rate.clone(), &names);
-    let machine = Machine::default().with("x_c'", rate).with_text("printed", "-k_g*v*x_c");
+    let derived = DerivedFormulas::default().with("x_c'", rate).with_text("printed", "-k_g*v*x_c");
     let points: &[(&str, Domain)] = &[("k_g", Domain::Positive), ("v", Domain::Positive), ("x_c", Domain::Nonzero)];
-    let check = move |s: &Statement, sampling: &Sampling| at_points(&machine, s, points, sampling);
+    let check = move |s: &Statement, sampling: &Sampling| at_points(&derived, s, points, sampling);
     Claim::new("E13", Status::Corrected, "k_g of (1) is a growth parameter")
         .at("section 1, (1); errata E13")
         .about(&[1])
@@ -52,7 +52,7 @@ fn growth() -> Claim {
 
 fn elastic() -> Claim {
     let printed = || {
-        Machine::default()
+        DerivedFormulas::default()
             .with_text("f", "-k_r*theta_c")
             .with_text("theta_c", "x_c'/v")
             .with_text("f_twice", "-k_r*x_c'/(2*v)")
@@ -86,13 +86,13 @@ fn elastic() -> Claim {
 fn two_laws() -> Claim {
     let at = |speed: &'static str| [("stiffness", "k_r"), ("slip", "v_t"), ("speed", speed)];
     let viscous = [("coefficient", "b_T"), ("slip", "v_t")];
-    let machine = Machine::default()
+    let derived = DerivedFormulas::default()
         .with("rocard", force("rocard", &at("v")))
         .with("rocard_twice", force("rocard", &at("2*v")))
         .with("viscous", force("viscous", &viscous))
         .with_text("b_T", "k_r/v");
     let points: &[(&str, Domain)] = &[("k_r", Domain::Positive), ("v", Domain::Positive), ("v_t", Domain::Nonzero)];
-    let check = move |s: &Statement, sampling: &Sampling| at_points(&machine, s, points, sampling);
+    let check = move |s: &Statement, sampling: &Sampling| at_points(&derived, s, points, sampling);
     Claim::new("E15", Status::Corrected, "Rocard's law (2) and the viscous law (18) describe the same friction")
         .at("(2) and (18); errata E15")
         .about(&[2, 18, 19])

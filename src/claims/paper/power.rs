@@ -3,7 +3,7 @@
 use crate::claims::generated_forced::{Pushed, pushed};
 use crate::claims::simulated::undefined;
 use crate::claims::with_forces::{along_motion, ideal, lettered, machine_of, residuals, viscous};
-use crate::claims::{Claim, Machine, Statement, Status, Verdict, near, proving, value_said};
+use crate::claims::{Claim, DerivedFormulas, Statement, Status, Verdict, near, proving, value_said};
 use crate::dynamics::Dynamics;
 use crate::error::Result;
 use crate::formula::Expr;
@@ -28,17 +28,23 @@ const WHEEL: [(&str, &str); 6] = [
 ///
 /// q̈ is free in it: what the equations make zero is taken off, multiplied with q̇, so that it holds whatever they are
 /// solved for.
-fn energy_rate(dynamics: &Dynamics, letters: &[(&str, &str)], slips: &[&str]) -> Result<Machine> {
+fn energy_rate(dynamics: &Dynamics, letters: &[(&str, &str)], slips: &[&str]) -> Result<DerivedFormulas> {
     let f = dynamics.formulas()?;
     let rate = along_motion(&dynamics.energy(), &dynamics.mechanism.coordinates);
     let work = residuals(&f).into_iter().zip(&f.coordinates);
     let work = work.map(|(residual, q)| &Expr::sym(q.rate()) * &residual).fold(Expr::int(0), |sum, e| &sum + &e);
-    let machine = Machine::default().with("E'", lettered(&(&rate - &work), letters));
+    let derived = DerivedFormulas::default().with("E'", lettered(&(&rate - &work), letters));
     let named = slips.iter().zip(&f.slips);
-    Ok(named.fold(machine, |m, (name, slip)| m.with(name, lettered(slip, letters))))
+    Ok(named.fold(derived, |m, (name, slip)| m.with(name, lettered(slip, letters))))
 }
 
-fn of(vehicle: &'static str, trailers: usize, forces: &[&str], letters: &[(&str, &str)], slips: &[&str]) -> Machine {
+fn of(
+    vehicle: &'static str,
+    trailers: usize,
+    forces: &[&str],
+    letters: &[(&str, &str)],
+    slips: &[&str],
+) -> DerivedFormulas {
     machine_of(|| energy_rate(&viscous(vehicle, trailers, forces)?, letters, slips))
 }
 

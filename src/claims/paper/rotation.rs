@@ -1,8 +1,8 @@
 //! Section 2: rotation creep of a disk, equations (3)–(13).
 
-use super::domain::{solved_for, undefined_exactly_where};
+use super::domain::{disk_coefficient, undefined_exactly_where};
 use super::finite;
-use crate::claims::{Claim, Domain, Machine, Outcome, Sampling, Statement, Status, at_points, prove};
+use crate::claims::{Claim, DerivedFormulas, Domain, Outcome, Sampling, Statement, Status, at_points, prove};
 use crate::formula::Expr;
 use crate::mechanism::Part;
 use crate::model::mechanism;
@@ -13,24 +13,18 @@ const CHAPTER: &str = "02-rotation-creep";
 const FORMS: &str = "src/mechanism/contact.rs";
 
 /// The disk with the velocity of the particle of its rim that touches the ground.
-fn disk() -> Machine {
+fn disk() -> DerivedFormulas {
     // The particle that was at the bottom u radians of rolling ago: its place relative to the line.
     let rim = Expr::parse("x - r*sin(u)").unwrap_or_else(|_| Expr::int(0));
     let by_u = rim.derivative(&"u".into()).substitute(&|s| (s.as_str() == "u").then(|| Expr::int(0)));
     let by_x = rim.derivative(&"x".into());
     let velocity = &(&by_x * &Expr::sym("v_l")) + &(&by_u * &Expr::sym("theta'"));
-    Machine::of("disk").with("v_A", velocity).with_text("f_R", "-b_R*v_A").with_text("omega", "theta'")
-}
-
-/// The derived speed of the disk solved for the coefficient, at any speed and rate.
-pub(crate) fn solved() -> Machine {
-    let speed = Machine::of("disk").with_text("theta'", "omega").written_out("v_l");
-    Machine::default().with("e_rc", solved_for("e_rc", &speed, &Expr::sym("v_l")))
+    DerivedFormulas::of("disk").with("v_A", velocity).with_text("f_R", "-b_R*v_A").with_text("omega", "theta'")
 }
 
 fn on_disk(s: &Statement, _: &Sampling) -> Outcome {
-    static MACHINE: LazyLock<Machine> = LazyLock::new(disk);
-    prove(&MACHINE, s)
+    static DERIVED: LazyLock<DerivedFormulas> = LazyLock::new(disk);
+    prove(&DERIVED, s)
 }
 
 pub(crate) fn claims() -> Vec<Claim> {
@@ -100,10 +94,10 @@ fn kinematics() -> Vec<Claim> {
                 "the derived motion solved for its coefficient, only the disk at rest left out",
                 &[("e_rc", "v_l^2 + omega^2")],
                 &[("e_rc", "r*omega")],
-                |s, _| undefined_exactly_where(&solved(), s),
+                |s, _| undefined_exactly_where(&disk_coefficient(), s),
             )
             .proof("left out where r·ω vanishes", &[("e_rc", "r*omega")], |s, _| {
-                undefined_exactly_where(&solved(), s)
+                undefined_exactly_where(&disk_coefficient(), s)
             })
             .sabotaged_by(&[&[("e_rc", "v_l")], &[("e_rc", "omega")], &[("e_rc", "v_l*omega*r")]])
             .on_domains(),
@@ -111,19 +105,19 @@ fn kinematics() -> Vec<Claim> {
 }
 
 /// The disk with Wong's slips, driven and braked, and the roll-slide number.
-fn others() -> Machine {
-    let machine = disk().with_text("i_s", "1 - v_l/(r*omega)").with_text("rho_s", "r*omega/v_l");
-    machine.with_text("i_b", "1 - r*omega/v_l")
+fn others() -> DerivedFormulas {
+    let derived = disk().with_text("i_s", "1 - v_l/(r*omega)").with_text("rho_s", "r*omega/v_l");
+    derived.with_text("i_b", "1 - r*omega/v_l")
 }
 
 /// The roll-slide number at any speed and rate.
-fn roll_slide() -> Machine {
-    Machine::default().with_text("rho_s", "r*omega/v_l")
+fn roll_slide() -> DerivedFormulas {
+    DerivedFormulas::default().with_text("rho_s", "r*omega/v_l")
 }
 
 fn on_others(s: &Statement, _: &Sampling) -> Outcome {
-    static MACHINE: LazyLock<Machine> = LazyLock::new(others);
-    prove(&MACHINE, s)
+    static DERIVED: LazyLock<DerivedFormulas> = LazyLock::new(others);
+    prove(&DERIVED, s)
 }
 
 fn other_coefficients() -> Vec<Claim> {
@@ -232,7 +226,7 @@ fn generic_form() -> Vec<Claim> {
         .proof("its derivatives", &[("by_e", "r*theta'"), ("by_rate", "-r*(1 - e_rc)")], |s, _| {
             let row = Expr::parse("v_l - r*(1 - e_rc)*theta'").unwrap_or_else(|_| Expr::int(0));
             let by = |name: &str| row.derivative(&name.into());
-            prove(&Machine::default().with("by_e", by("e_rc")).with("by_rate", by("theta'")), s)
+            prove(&DerivedFormulas::default().with("by_e", by("e_rc")).with("by_rate", by("theta'")), s)
         }),
         Claim::new("eq-8-round-trip", Status::Sampled, "velocities to coefficient and back, at any rational numbers")
             .at("section 2, (8)")
@@ -242,7 +236,7 @@ fn generic_form() -> Vec<Claim> {
             .code(&[FORMS])
             .sample("exact values through the derived motion", &[("1 - v_l/(r*theta')", "e_rc")], |s, sampling| {
                 let names = [("r", Domain::Positive), ("theta'", Domain::Nonzero), ("e_rc", Domain::Any)];
-                at_points(&Machine::of("disk"), s, &names, sampling)
+                at_points(&DerivedFormulas::of("disk"), s, &names, sampling)
             }),
     ]
 }
@@ -264,8 +258,8 @@ fn type_r(s: &Statement, _: &Sampling) -> Outcome {
             _ => None,
         });
         let form = &pi - &(&said * &rate);
-        let machine = Machine::default().with("sigma", rolling).with("row", c.row().expr());
+        let derived = DerivedFormulas::default().with("sigma", rolling).with("row", c.row().expr());
         let rows = [(Expr::sym("sigma"), said), (Expr::sym("row"), form)];
-        Some(prove(&machine, &Statement::of(rows)))
+        Some(prove(&derived, &Statement::of(rows)))
     }))
 }

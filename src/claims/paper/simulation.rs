@@ -2,11 +2,12 @@
 
 use crate::claims::simulated::{Creep, model, undefined};
 use crate::claims::{
-    Claim, Domain, Fault, Machine, Outcome, Sampling, Statement, Status, Verdict, at_points, near, proving, value_said,
+    Claim, DerivedFormulas, Domain, Fault, Outcome, Sampling, Statement, Status, Verdict, at_points, near, proving,
+    value_said,
 };
+use crate::energy_rule::{Reading, fig7_case, fig7_path};
 use crate::formula::Symbol;
 use crate::model::{Model, Trailer};
-use crate::motion::{Reading, fig7_case, fig7_path};
 use proptest::prelude::*;
 
 const CHAPTER: &str = "08-simulation";
@@ -53,7 +54,7 @@ fn figure() -> Claim {
 /// No rigid wheel has a larger moment about its axis than one with all its mass on the rim.
 fn data() -> Claim {
     let wheel = [("m", "1"), ("r", "1/2"), ("J", "1")];
-    let margin = wheel.iter().fold(Machine::default(), |m, (name, v)| m.with_text(name, v));
+    let margin = wheel.iter().fold(DerivedFormulas::default(), |m, (name, v)| m.with_text(name, v));
     let check = move |s: &Statement, sampling: &Sampling| at_points(&margin, s, &[], sampling);
     Claim::new(
         "fig-7-data",
@@ -201,7 +202,8 @@ fn scaled_energy(s: &Statement, b: &Bodies) -> Verdict {
 }
 
 fn constant_energy() -> Claim {
-    let energy = || Machine::default().with_text("energy", "m*v^2 + I*omega_z^2 + J*omega^2").with_text("v", "r*omega");
+    let energy =
+        || DerivedFormulas::default().with_text("energy", "m*v^2 + I*omega_z^2 + J*omega^2").with_text("v", "r*omega");
     let data = [("m", "1"), ("I", "1/2"), ("J", "1"), ("r", "1/2"), ("omega_z", "1"), ("omega", "2 - t/20")];
     let figure = data.iter().fold(energy(), |m, (name, value)| m.with_text(name, value));
     Claim::new("E23", Status::Corrected, "with the data of Fig. 7 the ideal motion keeps m·v² + I·ω_z² + J·ω² constant")
@@ -225,10 +227,10 @@ fn constant_energy() -> Claim {
 fn traverse_first() -> Claim {
     // The derived velocities of the wheel, against those of the ideal one.
     let of = |rotation: &str, traverse: &str| {
-        let wheel = Machine::of("unicycle").with_text("e_rc", rotation).with_text("e_tc", traverse);
+        let wheel = DerivedFormulas::of("unicycle").with_text("e_rc", rotation).with_text("e_tc", traverse);
         wheel.with_text("apart", "((v_l - r*theta')^2 + v_t^2)/(r*theta')^2").written_out("apart")
     };
-    let apart = move || Machine::default().with("apart_R", of("e", "0")).with("apart_T", of("0", "e"));
+    let apart = move || DerivedFormulas::default().with("apart_R", of("e", "0")).with("apart_T", of("0", "e"));
     let sign = move |s: &Statement, sampling: &Sampling| {
         let names = [("e", Domain::Nonzero), ("r", Domain::Positive), ("theta'", Domain::Positive)];
         at_points(&apart(), s, &names, sampling)

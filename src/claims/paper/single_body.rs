@@ -1,6 +1,6 @@
 //! Section 4: vehicles with a single body, equations (26)–(28), what the first theorem says of them.
 
-use crate::claims::{Claim, Machine, Outcome, Sampling, Statement, Status, prove, proving};
+use crate::claims::{Claim, DerivedFormulas, Outcome, Sampling, Statement, Status, prove, proving};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Heading, Velocity};
 use crate::model::mechanism;
@@ -12,9 +12,9 @@ const BUILD: &str = "src/model/build.rs";
 const CONSTRAINTS: &str = "src/model/constraints.rs";
 
 /// The determinant of three velocities by three coefficients.
-fn determinant(machine: &Machine, velocities: [&str; 3], coefficients: [&str; 3]) -> Expr {
+fn determinant(derived: &DerivedFormulas, velocities: [&str; 3], coefficients: [&str; 3]) -> Expr {
     let rows = velocities.map(|v| {
-        let v = machine.written_out(v);
+        let v = derived.written_out(v);
         coefficients.map(|e| v.derivative(&Symbol::from(e)))
     });
     let minor = |a: usize, b: usize| &(&rows[1][a] * &rows[2][b]) - &(&rows[1][b] * &rows[2][a]);
@@ -23,48 +23,48 @@ fn determinant(machine: &Machine, velocities: [&str; 3], coefficients: [&str; 3]
 }
 
 /// Two driven wheels, right 1 and left 2, with the velocities of their contacts on the ground.
-pub(crate) fn two_wheels() -> Machine {
-    let machine = Machine::of("differential-drive")
+pub(crate) fn two_wheels() -> DerivedFormulas {
+    let derived = DerivedFormulas::of("differential-drive")
         .with_text("r_1", "r")
         .with_text("r_2", "r")
         .with_text("v_A1", "-r*theta_1'*e_rc_1")
         .with_text("v_A2", "-r*theta_2'*e_rc_2")
         .with_text("radius", "v_l/phi'");
-    let det = determinant(&machine, ["v_l", "v_t", "phi'"], ["e_rc_1", "e_rc_2", "e_tc"]);
-    machine.with("det", det)
+    let det = determinant(&derived, ["v_l", "v_t", "phi'"], ["e_rc_1", "e_rc_2", "e_tc"]);
+    derived.with("det", det)
 }
 
 fn on_two_wheels(s: &Statement, _: &Sampling) -> Outcome {
-    static MACHINE: LazyLock<Machine> = LazyLock::new(two_wheels);
-    prove(&MACHINE, s)
+    static DERIVED: LazyLock<DerivedFormulas> = LazyLock::new(two_wheels);
+    prove(&DERIVED, s)
 }
 
 /// Half the sum and the difference of the two rolling rows, and the direction row, without creep.
-fn two_wheel_rows() -> Machine {
-    let Some(vehicle) = vehicles::named("differential-drive") else { return Machine::default() };
+fn two_wheel_rows() -> DerivedFormulas {
+    let Some(vehicle) = vehicles::named("differential-drive") else { return DerivedFormulas::default() };
     let one_radius = |s: &Symbol| matches!(s.as_str(), "r_1" | "r_2").then(|| Expr::sym("r"));
     let rows: Vec<Expr> =
         mechanism(vehicle, 0).ideal_rows().iter().map(|row| row.expr().substitute(&one_radius)).collect();
-    let [right, left, direction] = rows.as_slice() else { return Machine::default() };
-    Machine::default()
+    let [right, left, direction] = rows.as_slice() else { return DerivedFormulas::default() };
+    DerivedFormulas::default()
         .with("mean", &(right + left) / &Expr::int(2))
         .with("difference", left - right)
         .with("direction", direction.clone())
 }
 
 fn on_rows(s: &Statement, _: &Sampling) -> Outcome {
-    static MACHINE: LazyLock<Machine> = LazyLock::new(two_wheel_rows);
-    prove(&MACHINE, s)
+    static DERIVED: LazyLock<DerivedFormulas> = LazyLock::new(two_wheel_rows);
+    prove(&DERIVED, s)
 }
 
 /// Rear driven and front steered.
-fn car() -> Machine {
-    let machine = Machine::of("car");
-    let det = determinant(&machine, ["v_l", "v_t", "phi'"], ["e_rc", "e_tc", "e_f"]);
-    let yaw = machine.written_out("phi'");
+fn car() -> DerivedFormulas {
+    let derived = DerivedFormulas::of("car");
+    let det = determinant(&derived, ["v_l", "v_t", "phi'"], ["e_rc", "e_tc", "e_f"]);
+    let yaw = derived.written_out("phi'");
     let ideal = |e: Expr| e.substitute(&|s| matches!(s.as_str(), "e_rc" | "e_tc" | "e_f").then(Expr::default));
     let by = |e: &str| ideal(yaw.derivative(&e.into()));
-    machine.with("det", det).with("yaw_by_f", by("e_f")).with("yaw_by_r", by("e_tc"))
+    derived.with("det", det).with("yaw_by_f", by("e_f")).with("yaw_by_r", by("e_tc"))
 }
 
 pub(crate) fn claims() -> Vec<Claim> {
@@ -109,10 +109,10 @@ fn equations() -> Vec<Claim> {
 fn slips() -> Vec<Claim> {
     let equal = |s: &Statement, _: &Sampling| prove(&two_wheels().with_text("e_rc_1", "e").with_text("e_rc_2", "e"), s);
     let equal_slip = |s: &Statement, _: &Sampling| {
-        let machine = two_wheels()
+        let derived = two_wheels()
             .with_text("e_rc_1", "e*(theta_1' + theta_2')/(2*theta_1')")
             .with_text("e_rc_2", "e*(theta_1' + theta_2')/(2*theta_2')");
-        prove(&machine, s)
+        prove(&derived, s)
     };
     vec![
         Claim::new("E16", Status::Corrected, "(28) stays exact while (26) creeps with e_rc")
@@ -234,7 +234,7 @@ fn reference_point() -> Vec<Claim> {
             .at_offset(&body, &Expr::sym("h"))
             .at_offset(&body.left(), &Expr::sym("b"));
         let (forward, left) = (there.along(&body).expr(), there.along(&body.left()).expr());
-        Machine::default().with_text("v_t", "e*v_l").with("e_there", &left / &forward).with("left", left)
+        DerivedFormulas::default().with_text("v_t", "e*v_l").with("e_there", &left / &forward).with("left", left)
     };
     vec![
         Claim::new("E18", Status::Corrected, "a body has one e_tc, and the wheels of an axle share it")
@@ -265,7 +265,7 @@ fn reference_point() -> Vec<Claim> {
                     let numbers = [("e", "1/20"), ("v_l", "1"), ("phi'", "1/3"), ("h", "0"), ("b", b)];
                     numbers.iter().fold(point(), |m, (name, v)| m.with_text(name, v)).written_out("e_there")
                 };
-                prove(&Machine::default().with("right", at("-1")).with("left_wheel", at("1")), s)
+                prove(&DerivedFormulas::default().with("right", at("-1")).with("left_wheel", at("1")), s)
             }),
     ]
 }

@@ -1,6 +1,6 @@
 //! What is holonomic and what is not: growth vectors, integrals, degrees of nonholonomy, in exact arithmetic.
 
-use crate::claims::{Claim, Machine, Outcome, Sampling, Statement, Status, proving};
+use crate::claims::{Claim, DerivedFormulas, Outcome, Sampling, Statement, Status, proving};
 use crate::formula::{Exact, Expr, Node, Scalar, Symbol};
 use crate::mechanism::{Mechanism, Nonholonomy, Point};
 use crate::model::mechanism;
@@ -206,7 +206,7 @@ fn integral(found: &Found) -> Claim {
         .proof(
             "what the search returns, radii equal",
             &[("integral", "r*(theta_1 - theta_2) - a*phi")],
-            proving(Machine::default().with("integral", integral.substitute(&one_radius))),
+            proving(DerivedFormulas::default().with("integral", integral.substitute(&one_radius))),
         )
 }
 

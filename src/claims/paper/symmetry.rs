@@ -1,7 +1,9 @@
 //! Section 4, last paragraph: constraints that are symmetries, and their geometry.
 
 use crate::claims::simulated::{model, undefined};
-use crate::claims::{Claim, Fault, Machine, Outcome, Sampling, Statement, Status, Verdict, near, proving, value_said};
+use crate::claims::{
+    Claim, DerivedFormulas, Fault, Outcome, Sampling, Statement, Status, Verdict, near, proving, value_said,
+};
 use crate::connection::{Axis, Connection, Matrix, Path, PlanarBody, RotationConnection, floating_energy, turned};
 use crate::formula::{Exact, Expr, Symbol};
 use crate::mechanism::{Mechanism, Momentum, Nonholonomy, Point};
@@ -43,7 +45,7 @@ fn hopper() -> Claim {
         let constraint = vehicles::named("hopper").and_then(|v| v.constraints.first());
         constraint.and_then(|c| c.form.slot(name)).map(crate::mechanism::Part::expr).unwrap_or_default()
     };
-    let derived = Machine::of("hopper").with("sigma", slot("sigma")).with("s", slot("s")).with("h", slot("h"));
+    let derived = DerivedFormulas::of("hopper").with("sigma", slot("sigma")).with("s", slot("s")).with("h", slot("h"));
     base(
         "eq-20-hopper",
         Status::Proved,
@@ -83,7 +85,7 @@ fn curvature() -> Claim {
         .proof(
             "by exact derivatives of the local form",
             &[("curvature", "-2*I*m*(l + d)/(I + m*(l + d)^2)^2")],
-            proving(Machine::default().with("curvature", bent)),
+            proving(DerivedFormulas::default().with("curvature", bent)),
         )
         .proof("by brackets, a vector (2, 3) written 23", &[("growth", "23"), ("nonholonomic", "1")], counts)
 }
@@ -300,11 +302,11 @@ fn cat() -> Claim {
     let cat = halves(["a", "a", "c"]);
     // On the plane tau = 0 every direction of bending is met: the cat has no preferred one.
     let ahead = |e: &Expr| e.substitute(&|s| (s.as_str() == "tau").then(|| Expr::int(0)));
-    let machine = ["x", "y", "z"].iter().enumerate().fold(Machine::default(), |m, (k, axis)| {
+    let derived = ["x", "y", "z"].iter().enumerate().fold(DerivedFormulas::default(), |m, (k, axis)| {
         m.with(&format!("bend_{axis}"), ahead(&cat.form[0][k])).with(&format!("round_{axis}"), ahead(&cat.form[1][k]))
     });
     let curve = cat.curvature(0, 1)[2].derivative(&"gamma".into());
-    let small = Machine::default().with("curvature_z", curve).with_text("gamma", "0").with_text("tau", "0");
+    let small = DerivedFormulas::default().with("curvature_z", curve).with_text("gamma", "0").with_text("tau", "0");
     base(
         "falling-cat",
         Status::Proved,
@@ -326,7 +328,7 @@ fn cat() -> Claim {
                 "(c - a)*(1 - cos(gamma))*(1 + cos(gamma))/(2*(a*(1 - cos(gamma)) + c*(1 + cos(gamma)))) - (1 - cos(gamma))/2",
             ),
         ],
-        proving(machine),
+        proving(derived),
     )
     .proof(
         "the slope of the curvature where the bend begins: a small loop turns the cat by (1/4 − a/(2c))·π·γ², −7/4·π·γ² for c = a/4",

@@ -3,7 +3,8 @@
 use super::symmetry::{all_of, base, hopping, turn, within};
 use crate::claims::simulated::undefined;
 use crate::claims::{
-    Claim, Domain, Fault, Machine, Outcome, Sampling, Statement, Status, at_points, near, prove, proving, value_said,
+    Claim, DerivedFormulas, Domain, Fault, Outcome, Sampling, Statement, Status, at_points, near, prove, proving,
+    value_said,
 };
 use crate::connection::{Connection, Drag, Path};
 use crate::formula::{Expr, Symbol};
@@ -35,7 +36,7 @@ fn memory() -> Claim {
         let Some(said) = s.said_of("K") else { return Outcome::Undefined("nothing is said of K".into()) };
         let by = |q: &str| &said.derivative(&q.into()) * &Expr::sym(Symbol::new(q).rate());
         let rate = ["psi", "theta", "l"].iter().fold(Expr::int(0), |sum, q| &sum + &by(q));
-        prove(&Machine::default(), &Statement::of([(force(AIR), rate)]))
+        prove(&DerivedFormulas::default(), &Statement::of([(force(AIR), rate)]))
     };
     base(
         "drag-memory",
@@ -48,7 +49,7 @@ fn memory() -> Claim {
     .proof(
         "the moment of the drag, from its dissipation function along the turn; the integral that is found",
         &[("force", "c_b*psi' + c_l*(psi' + theta')"), ("memory", "c_b*psi + c_l*(psi + theta)")],
-        proving(Machine::default().with("force", force(AIR)).with("memory", found)),
+        proving(DerivedFormulas::default().with("force", force(AIR)).with("memory", found)),
     )
     .proof("its rate along every motion is the drag", &[("K", "c_b*psi + c_l*(psi + theta)")], rate)
 }
@@ -82,7 +83,7 @@ fn no_memory() -> Claim {
     .proof(
         "the drag is no rate of a function: its curl is not zero",
         &[("curl", "2*c_l*(l + d)")],
-        proving(Machine::default().with("curl", curl)),
+        proving(DerivedFormulas::default().with("curl", curl)),
     )
     .sample("where the body comes to rest", &[("rest", "-0.3368")], |s, _| {
         let said = s.number("rest").unwrap_or(f64::NAN);
@@ -93,7 +94,7 @@ fn no_memory() -> Claim {
 
 /// Where the leg moves, a coefficient says as much as the momentum.
 fn coefficient() -> Claim {
-    let hopper = Machine::of("hopper");
+    let hopper = DerivedFormulas::of("hopper");
     let by_e = hopper.written_out("psi'").derivative(&"e_sc".into());
     base(
         "similar-coefficients",
@@ -115,14 +116,14 @@ fn coefficient() -> Claim {
 }
 
 /// A momentum under drag, with where the motion began, and the coefficient it gives; M is m·(l + d)².
-fn creeping() -> Machine {
+fn creeping() -> DerivedFormulas {
     let memory = drag(AIR).and_then(|d| d.memory(&["l".into()])).unwrap_or_default();
     let began = memory.substitute(&|s| match s.as_str() {
         "psi" => Some(Expr::sym("psi_0")),
         "theta" => Some(Expr::sym("theta_0")),
         _ => None,
     });
-    Machine::default()
+    DerivedFormulas::default()
         .with("p", &began - &memory)
         .with_text("e", "p/(M*theta')")
         .with("p_other", -&memory)
@@ -141,7 +142,7 @@ fn creep() -> Claim {
         &["psi'".into()],
     );
     let slow = slow.and_then(|s| s.into_iter().next()).map(|s| s.1).unwrap_or_default();
-    let viscous = Machine::default().with("limit", slow);
+    let viscous = DerivedFormulas::default().with("limit", slow);
     base("E25", Status::Corrected, "\"similar coefficients of creep can also be defined\" for symmetry constraints, by the viscous dissipation in air")
         .at("section 4, last paragraph; errata E25")
         .about(&[20])
@@ -215,7 +216,7 @@ fn recovery() -> Claim {
     .proof(
         "the rate at which momentum is lost with the leg held, ṗ = rate·p",
         &[("rate", "-(c_b + c_l)/(I + m*(l + d)^2)")],
-        proving(Machine::default().with("rate", held.unwrap_or_default())),
+        proving(DerivedFormulas::default().with("rate", held.unwrap_or_default())),
     )
     .sample(
         "generated loops and drags: where the body is at last, and what the angle is a time t after the leg is held; the same body without drag",

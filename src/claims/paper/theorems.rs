@@ -2,7 +2,9 @@
 
 use super::single_body::two_wheels;
 use crate::claims::generated::{Drive, Generated, any_drive, vehicles};
-use crate::claims::{Claim, Counterexample, Fault, Machine, Outcome, Sampling, Statement, Status, Verdict, proving};
+use crate::claims::{
+    Claim, Counterexample, DerivedFormulas, Fault, Outcome, Sampling, Statement, Status, Verdict, proving,
+};
 use crate::formula::{Exact, Expr, Symbol};
 use crate::mechanism::{Heading, Mechanism, Velocity};
 use crate::model::mechanism;
@@ -127,14 +129,14 @@ fn single_body() -> Claim {
 
 /// A differential drive with one more wheel, h ahead and b to the left, at an angle mu to the body, and the formula of
 /// its coefficient. No two radii are equal.
-fn further_wheel() -> Machine {
-    let Some(found) = passive_formula() else { return Machine::default() };
+fn further_wheel() -> DerivedFormulas {
+    let Some(found) = passive_formula() else { return DerivedFormulas::default() };
     let body = Heading::along("phi");
     let there = Velocity::in_body("v_l", "v_t", &body)
         .at_offset(&body, &Expr::sym("h"))
         .at_offset(&body.left(), &Expr::sym("b"));
     let wheel = body.turned_by("mu");
-    Machine::of("differential-drive")
+    DerivedFormulas::of("differential-drive")
         .with("e_further", found)
         .with("quotient", &there.along(&wheel.left()).expr() / &there.along(&wheel).expr())
         .with_text("u", "v_l - b*phi'")

@@ -2,27 +2,27 @@
 
 use super::domain::undefined_exactly_where;
 use crate::claims::simulated::{driven, model, undefined};
-use crate::claims::{Claim, Machine, Outcome, Sampling, Statement, Status, near, prove, proving, value_said};
+use crate::claims::{Claim, DerivedFormulas, Outcome, Sampling, Statement, Status, near, prove, proving, value_said};
 use crate::model::Trailer;
 
 const CHAPTER: &str = "06-trailers";
 const BUILD: &str = "src/model/build.rs";
 
 /// A wheel with trailers; creeps free, v_t = e_0·v_l of the tractor.
-fn train(n: usize) -> Machine {
-    Machine::train("unicycle", n).with_text("e_tc", "e_0")
+fn train(n: usize) -> DerivedFormulas {
+    DerivedFormulas::train("unicycle", n).with_text("e_tc", "e_0")
 }
 
 /// Hitches on the axles.
-fn on_axle(n: usize) -> Machine {
+fn on_axle(n: usize) -> DerivedFormulas {
     (1..=n).fold(train(n), |m, i| m.with_text(&format!("c_{i}"), "0"))
 }
 
 /// Creeps by their angles, e_i = tan α_i, hitches on the axles; V_i and χ_i as in the theory.
-fn courses(n: usize) -> Machine {
-    let machine = on_axle(n).with_text("e_0", "tan(alpha_0)").with_text("chi_0", "phi + alpha_0");
-    let machine = machine.with_text("V_0", "v_l/cos(alpha_0)");
-    (1..=n).fold(machine, |m, i| {
+fn courses(n: usize) -> DerivedFormulas {
+    let derived = on_axle(n).with_text("e_0", "tan(alpha_0)").with_text("chi_0", "phi + alpha_0");
+    let derived = derived.with_text("V_0", "v_l/cos(alpha_0)");
+    (1..=n).fold(derived, |m, i| {
         m.with_text(&format!("e_tc_{i}"), &format!("tan(alpha_{i})"))
             .with_text(&format!("chi_{i}"), &format!("phi_{i} + alpha_{i}"))
             .with_text(&format!("V_{i}"), &format!("v_{i}/cos(alpha_{i})"))
@@ -110,7 +110,7 @@ fn recursion() -> Vec<Claim> {
         base("trailer-breaks", "a trailer across its hitch has no coefficient: e_i is undefined exactly where v_i = 0", PLACE)
             .under("at β = ±π/2 without creep ahead a trailer may only slide sideways, which type T does not express")
             .proof("quotient of its velocities", &[("vt_1/v_1", "v_1")], |s, _| {
-                undefined_exactly_where(&Machine::default(), s)
+                undefined_exactly_where(&DerivedFormulas::default(), s)
             })
             .sabotaged_by(&[&[("vt_1/v_1", "vt_1")], &[("vt_1/v_1", "v_1*vt_1")]])
             .on_domains()
@@ -141,7 +141,7 @@ fn towing() -> Vec<Claim> {
             move |s, _| prove(&straight(), s),
         )
         .proof("so that T = tan(γ/2) obeys Ṫ = −k·T", &[("(1 + T^2)/2*gamma'", "-k*T")], |s, _| {
-            prove(&Machine::default().with_text("gamma'", "-k*2*T/(1 + T^2)"), s)
+            prove(&DerivedFormulas::default().with_text("gamma'", "-k*2*T/(1 + T^2)"), s)
         })
         .confirmation(
             "simulated towing against the closed form",

@@ -3,7 +3,7 @@
 use super::blade::{on_row, on_sleigh, sleigh};
 use super::domain::{solved_for, undefined_exactly_where};
 use super::finite;
-use crate::claims::{Claim, Domain, Machine, Sampling, Statement, Status, at_points, prove};
+use crate::claims::{Claim, DerivedFormulas, Domain, Sampling, Statement, Status, at_points, prove};
 use crate::formula::Expr;
 
 const CHAPTER: &str = "03-traverse-creep";
@@ -48,18 +48,19 @@ fn velocities() -> Vec<Claim> {
 }
 
 fn coefficient() -> Vec<Claim> {
-    let angle = || Machine::default().with_text("phi_tc", "atan(v_t/v_l)").with_text("e_tc", "v_t/v_l");
+    let angle = || DerivedFormulas::default().with_text("phi_tc", "atan(v_t/v_l)").with_text("e_tc", "v_t/v_l");
     let slip = |s: &Statement, sampling: &Sampling| {
-        let machine = Machine::default()
+        let derived = DerivedFormulas::default()
             .with_text("v_l", "v*(1 - t^2)/(1 + t^2)")
             .with_text("v_t", "v*2*t/(1 + t^2)")
             .with_text("theta_c", "asin(v_t/v)");
-        at_points(&machine, s, &[("v", Domain::Positive), ("t", Domain::Creep)], sampling)
+        at_points(&derived, s, &[("v", Domain::Positive), ("t", Domain::Creep)], sampling)
     };
     // Speeds whose quotient has a rational arcsine.
     let forward = |s: &Statement, sampling: &Sampling| {
-        let machine = Machine::default().with_text("v_t", "v_l*2*t/(1 + t^2)").with_text("theta_l", "asin(v_t/v_l)");
-        at_points(&machine, s, &[("v_l", Domain::Positive), ("t", Domain::Creep)], sampling)
+        let derived =
+            DerivedFormulas::default().with_text("v_t", "v_l*2*t/(1 + t^2)").with_text("theta_l", "asin(v_t/v_l)");
+        at_points(&derived, s, &[("v_l", Domain::Positive), ("t", Domain::Creep)], sampling)
     };
     vec![
         Claim::new("eq-15", Status::Proved, "the angle of traverse creep: φ_tc = arctan(v_t/v_l), tan φ_tc = e_tc")
@@ -138,14 +139,14 @@ fn coefficient() -> Vec<Claim> {
 }
 
 /// The derived row of the sleigh solved for its coefficient.
-fn solved() -> Machine {
+fn solved() -> DerivedFormulas {
     let row = sleigh().written_out("g");
-    Machine::default().with("e_tc", solved_for("e_tc", &row, &Expr::int(0)))
+    DerivedFormulas::default().with("e_tc", solved_for("e_tc", &row, &Expr::int(0)))
 }
 
 fn signs() -> Vec<Claim> {
-    let machine = || {
-        Machine::default()
+    let derived = || {
+        DerivedFormulas::default()
             .with_text("e_tc", "v_t/v_l")
             .with_text("e_rc", "1 - v_l/(r*omega)")
             .with_text("v_A", "v_l - r*omega")
@@ -170,19 +171,19 @@ fn signs() -> Vec<Claim> {
             &[("sign(v_l*v_t)", "sign(e_tc)")],
             move |s, sampling| {
                 let names = [("v_l", Domain::Nonzero), ("v_t", Domain::Nonzero)];
-                at_points(&machine(), s, &names, sampling)
+                at_points(&derived(), s, &names, sampling)
             },
         )
         .proof(
             "coefficient times a square",
             &[("e_tc*v_l^2", "v_l*v_t"), ("e_rc*(r*omega)^2", "-v_A*r*omega")],
-            move |s, _| prove(&machine(), s),
+            move |s, _| prove(&derived(), s),
         ),
     ]
 }
 
 fn friction() -> Vec<Claim> {
-    let machine = || sleigh().with_text("f_T", "-b_T*v_t").with_text("v_t", "e_tc*v_l");
+    let derived = || sleigh().with_text("f_T", "-b_T*v_t").with_text("v_t", "e_tc*v_l");
     vec![
         Claim::new(
             "eq-18",
@@ -197,7 +198,7 @@ fn friction() -> Vec<Claim> {
         .proof(
             "power of the friction",
             &[("f_T*v_t", "-b_T*v_t^2"), ("f_T*v_t", "-b_T*(e_tc*v_l)^2")],
-            move |s, _| prove(&machine(), s),
+            move |s, _| prove(&derived(), s),
         ),
         Claim::new("eq-19", Status::Proved, "e_tc = −f_T/(b_T·v_l)")
             .at("section 3, (19)")
@@ -206,6 +207,6 @@ fn friction() -> Vec<Claim> {
             .chapter(CHAPTER)
             .code(&["src/effects/catalogue.toml"])
             .tests(&["tests/discovery/simulator_laws.rs"])
-            .proof("(17) and (18)", &[("e_tc", "-f_T/(b_T*v_l)")], move |s, _| prove(&machine(), s)),
+            .proof("(17) and (18)", &[("e_tc", "-f_T/(b_T*v_l)")], move |s, _| prove(&derived(), s)),
     ]
 }

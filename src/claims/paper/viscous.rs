@@ -1,7 +1,7 @@
 //! Sections 2 and 3 with forces: disk and sleigh under viscous friction, and their ideal motions.
 
 use crate::claims::with_forces::{ideal, lettered, machine_of, residuals, vanishing, viscous};
-use crate::claims::{Claim, Machine, Sampling, Statement, Status, proving};
+use crate::claims::{Claim, DerivedFormulas, Sampling, Statement, Status, proving};
 use crate::dynamics::{Dynamics, Formulas};
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
@@ -44,17 +44,17 @@ fn disk_accelerations(dynamics: &Dynamics) -> Result<[Expr; 2]> {
 }
 
 /// v, ω, v_A = v − r·ω and their rates under friction.
-fn disk_machine() -> Result<Machine> {
+fn disk_machine() -> Result<DerivedFormulas> {
     let [v, w] = disk_accelerations(&viscous("disk", 0, &["force", "wheel_torque"])?)?;
     let letters = |e: Expr| lettered(&e, &[("s'", "v"), ("theta'", "omega")]);
-    let machine = Machine::default().with("v'", letters(v)).with("omega'", letters(w));
+    let derived = DerivedFormulas::default().with("v'", letters(v)).with("omega'", letters(w));
     // v and v_A are the free symbols.
-    Ok(machine.with_text("omega", "(v - v_A)/r").with_text("v_A'", "v' - r*omega'"))
+    Ok(derived.with_text("omega", "(v - v_A)/r").with_text("v_A'", "v' - r*omega'"))
 }
 
 fn disk() -> Claim {
-    let machine = machine_of(disk_machine);
-    let solution = machine.clone().with_text("decay'", "-lambda*decay");
+    let derived = machine_of(disk_machine);
+    let solution = derived.clone().with_text("decay'", "-lambda*decay");
     let defects = ["v_A_by_decay*decay' - rest", "at_start"].map(|t| Expr::parse(t).unwrap_or_default());
     base("viscous-disk", "under constant force and torque the disk's slip is v_A = v_A*·(1 − exp(−λt)) with λ = b·(1/m + r²/J) and v_A* = (F/m − r·τ/J)/λ")
         .at("section 2, (11)–(12); corrected theorem (e)")
@@ -63,7 +63,7 @@ fn disk() -> Claim {
         .proof(
             "the slip by itself obeys a linear equation",
             &[("v_A'", "F/m - r*tau/J - b*(1/m + r^2/J)*v_A")],
-            proving(machine),
+            proving(derived),
         )
         .proof(
             "the solution, with decay = exp(−λt)",
@@ -85,7 +85,7 @@ fn disk() -> Claim {
 }
 
 fn disk_ideal() -> Claim {
-    let machine = machine_of(|| {
+    let derived = machine_of(|| {
         let [v, w] = disk_accelerations(&ideal("disk", 0, &["force", "wheel_torque"])?)?;
         let rolls = Expr::parse("v' - r*omega'")?;
         let slip = rolls.substitute(&|s: &Symbol| match s.as_str() {
@@ -103,11 +103,11 @@ fn disk_ideal() -> Claim {
         .about(&[3, 11])
         .under("both from rest; F and τ may depend on time, and are bounded")
         .remark("From rest a solution of v_A' + λ·v_A = g has |v_A| ≤ sup|g|/λ, and λ grows as b. With m = 1, r = 0.5, J = 1, F = 0, τ = 0.3 the largest gap within 3 s is 0.096/b.")
-        .proof("the multiplier solved for", &[("v_i'", "(F + tau/r)/(m + J/r^2)")], proving(machine.clone()))
+        .proof("the multiplier solved for", &[("v_i'", "(F + tau/r)/(m + J/r^2)")], proving(derived.clone()))
         .proof(
             "the rate of the gap, and what drives it",
             &[("v' - v_i'", "J/(m*r^2 + J)*v_A'"), ("v_A' + b*(1/m + r^2/J)*v_A", "F/m - r*tau/J")],
-            proving(machine),
+            proving(derived),
         )
 }
 
@@ -120,7 +120,7 @@ const SLEIGH: [(&str, &str); 5] = [
 ];
 
 /// The residuals of the sleigh with its velocity u forward, w to the left and its yaw rate.
-fn sleigh_residuals(f: &Formulas) -> (Machine, Vec<Expr>) {
+fn sleigh_residuals(f: &Formulas) -> (DerivedFormulas, Vec<Expr>) {
     let motion = [
         ("x'", "u*cos(phi) - w*sin(phi)"),
         ("y'", "u*sin(phi) + w*cos(phi)"),
@@ -129,15 +129,15 @@ fn sleigh_residuals(f: &Formulas) -> (Machine, Vec<Expr>) {
         ("y''", "(u' - w*omega)*sin(phi) + (w' + u*omega)*cos(phi)"),
         ("phi''", "omega'"),
     ];
-    let machine = motion.iter().fold(Machine::default(), |m, (name, formula)| m.with_text(name, formula));
-    (machine, residuals(f).iter().map(|r| lettered(r, &SLEIGH)).collect())
+    let derived = motion.iter().fold(DerivedFormulas::default(), |m, (name, formula)| m.with_text(name, formula));
+    (derived, residuals(f).iter().map(|r| lettered(r, &SLEIGH)).collect())
 }
 
 /// The check that accelerations u′, w′, ω′ solve the derived equations.
 fn solves(dynamics: Result<Dynamics>) -> impl Fn(&Statement, &Sampling) -> crate::claims::Outcome + Send + Sync {
     let built = dynamics.and_then(|d| d.formulas()).map(|f| sleigh_residuals(&f));
-    let (machine, zero) = built.unwrap_or_else(|_| (Machine::default(), vec![Expr::int(1)]));
-    vanishing(machine, zero)
+    let (derived, zero) = built.unwrap_or_else(|_| (DerivedFormulas::default(), vec![Expr::int(1)]));
+    vanishing(derived, zero)
 }
 
 const SLEIGH_MOTION: [(&str, &str); 3] =
@@ -153,7 +153,7 @@ fn sleigh() -> Claim {
 
 fn caplygin() -> Claim {
     // T = tanh τ, W = ω².
-    let closed = Machine::default().with_text("E", "m*C^2/2");
+    let closed = DerivedFormulas::default().with_text("E", "m*C^2/2");
     let zero = ["u_by_T*T' - a*W", "W_by_T*T' + 2*m*a*u*W/(I + m*a^2)"].map(|t| Expr::parse(t).unwrap_or_default());
     base("caplygin-sleigh", "the ideal sleigh: u' = aω², (I + ma²)ω' = −m·a·u·ω, so u = C·tanh τ, ω = √(2E/(I + ma²))/cosh τ with τ' = a·m·C/(I + ma²)")
         .at("section 3, (14); corrected theorem (e)")
@@ -188,39 +188,41 @@ fn caplygin() -> Claim {
 }
 
 fn slow_creep() -> Claim {
-    let machine = SLEIGH_MOTION.iter().fold(Machine::default(), |m, (name, formula)| m.with_text(name, formula));
-    let machine = machine.with_text("w", "e_tc*u").with_text("force_balance", "w'/u");
+    let derived =
+        SLEIGH_MOTION.iter().fold(DerivedFormulas::default(), |m, (name, formula)| m.with_text(name, formula));
+    let derived = derived.with_text("w", "e_tc*u").with_text("force_balance", "w'/u");
     let zero = Expr::parse("force_balance").unwrap_or_default();
     base("creep-coefficient-emerges", "the side force of the sleigh balances, w' = 0, at the creep e_tc = −m·I/((I + m·a²)·b)·φ̇, with the mass centre on the axle −(m/b)·φ̇")
         .at("section 3, (18)–(19); corrected theorem (e)")
         .about(&[18, 19])
         .under("u ≠ 0; that a sleigh gets there within a time of order 1/b is measured: `creep-coefficient-measured`")
         .remark("A left turn creeps to the right. The coefficient is no constant: it is proportional to the yaw rate.")
-        .proof("w' = 0 in the equations of the sleigh", &[("e_tc", "-m*I/((I + m*a^2)*b)*omega")], vanishing(machine, vec![zero]))
+        .proof("w' = 0 in the equations of the sleigh", &[("e_tc", "-m*I/((I + m*a^2)*b)*omega")], vanishing(derived, vec![zero]))
 }
 
 fn constant_creep() -> Claim {
     let on_axle =
         |text: &str| Expr::parse(text).unwrap_or_default().substitute(&|s| (s.as_str() == "a").then(|| Expr::int(0)));
-    let machine = SLEIGH_MOTION.iter().fold(Machine::default(), |m, (name, formula)| m.with(name, on_axle(formula)));
+    let derived =
+        SLEIGH_MOTION.iter().fold(DerivedFormulas::default(), |m, (name, formula)| m.with(name, on_axle(formula)));
     // e = w/u; what is left of its rate with w = e·u is a quadratic in e.
-    let machine = machine.with_text("w", "e*u").with_text("e'", "(w'*u - w*u')/u^2");
-    let rate = machine.written_out("e'");
+    let derived = derived.with_text("w", "e*u").with_text("e'", "(w'*u - w*u')/u^2");
+    let rate = derived.written_out("e'");
     let at = |value: i64| rate.substitute(&|s| (s.as_str() == "e").then(|| Expr::int(value)));
     let half = |e: &Expr| e / &Expr::int(2);
     let (zero, plus, minus) = (at(0), at(1), at(-1));
     let square = half(&(&(&plus + &minus) - &(&zero + &zero)));
     let linear = half(&(&plus - &minus));
     let discriminant = &linear.pow(2) - &(&Expr::int(4) * &(&square * &zero));
-    let machine = machine.with("discriminant", discriminant).with_text("e_star'", "e'");
+    let derived = derived.with("discriminant", discriminant).with_text("e_star'", "e'");
     // b for which e stays, and the distance between its two places.
-    let staying = machine.clone().with_text("b", "-m*omega*(1 + e^2)/e").with_text("root", "-omega*(1 - e^2)/e");
+    let staying = derived.clone().with_text("b", "-m*omega*(1 + e^2)/e").with_text("root", "-omega*(1 - e^2)/e");
     base("constant-creep", "with the mass centre on the axle e' = −ω − βe − ωe², β = b/m: constant creep e* = (−β + √(β² − 4ω²))/(2ω) exists only for b ≥ 2m|ω|, and |e*| ≤ 1")
         .at("section 3, (17)–(19); corrected theorem (e)")
         .about(&[17, 18, 19])
         .under("a = 0, so that ω is constant; u ≠ 0")
         .remark("Below 2m|ω| the creep passes through infinity: the sleigh stops along its blade and turns back. At ω = 1, m = 1: e_tc = −0.02 for b = 50.02, −0.2 for b = 5.2.")
-        .proof("the rate of the creep, and when it can be zero", &[("e'", "-omega - b/m*e - omega*e^2"), ("discriminant", "(b/m)^2 - 4*omega^2")], proving(machine))
+        .proof("the rate of the creep, and when it can be zero", &[("e'", "-omega - b/m*e - omega*e^2"), ("discriminant", "(b/m)^2 - 4*omega^2")], proving(derived))
         .proof(
             "the friction that keeps a creep: at |e| = 1 it is 2m|ω|, everywhere else more",
             &[("e'", "0"), ("(b/m)^2 - 4*omega^2", "omega^2*(1 - e^2)^2/e^2"), ("b", "-m*omega*(1 + e^2)/e")],

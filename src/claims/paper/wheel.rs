@@ -2,7 +2,7 @@
 
 use super::domain::defined_everywhere;
 use crate::claims::simulated::{TURN, WHEEL, driven, model, undefined};
-use crate::claims::{Claim, Machine, Outcome, Sampling, Statement, Status, near, prove, value_said};
+use crate::claims::{Claim, DerivedFormulas, Outcome, Sampling, Statement, Status, near, prove, value_said};
 use crate::model::mechanism;
 use crate::vehicles;
 use proptest::prelude::*;
@@ -12,29 +12,29 @@ const CHAPTER: &str = "04-single-wheel";
 const BUILD: &str = "src/model/build.rs";
 
 /// The wheel: its motion, its two rows without creep, the determinant of (v_l, v_t) by (e_rc, e_tc).
-pub(crate) fn wheel() -> Machine {
-    let machine = Machine::of("unicycle");
-    let by = |name: &str, e: &str| machine.written_out(name).derivative(&e.into());
+pub(crate) fn wheel() -> DerivedFormulas {
+    let derived = DerivedFormulas::of("unicycle");
+    let by = |name: &str, e: &str| derived.written_out(name).derivative(&e.into());
     let det = &(&by("v_l", "e_rc") * &by("v_t", "e_tc")) - &(&by("v_l", "e_tc") * &by("v_t", "e_rc"));
-    let x_rate = machine.formula("x'").map(|e| e.derivative(&"phi".into())).unwrap_or_default();
-    machine.with("det", det).with("x_by_phi", x_rate)
+    let x_rate = derived.formula("x'").map(|e| e.derivative(&"phi".into())).unwrap_or_default();
+    derived.with("det", det).with("x_by_phi", x_rate)
 }
 
 /// The rows of the wheel without creep, with the rates left free.
-fn ideal_rows() -> Machine {
+fn ideal_rows() -> DerivedFormulas {
     let rows = vehicles::named("unicycle").map(|v| mechanism(v, 0).ideal_rows()).unwrap_or_default();
     let names = ["rolling", "direction"];
-    rows.iter().zip(names).fold(Machine::default(), |m, (row, name)| m.with(name, row.expr()))
+    rows.iter().zip(names).fold(DerivedFormulas::default(), |m, (row, name)| m.with(name, row.expr()))
 }
 
 fn on_wheel(s: &Statement, _: &Sampling) -> Outcome {
-    static MACHINE: LazyLock<Machine> = LazyLock::new(wheel);
-    prove(&MACHINE, s)
+    static DERIVED: LazyLock<DerivedFormulas> = LazyLock::new(wheel);
+    prove(&DERIVED, s)
 }
 
 fn on_rows(s: &Statement, _: &Sampling) -> Outcome {
-    static MACHINE: LazyLock<Machine> = LazyLock::new(ideal_rows);
-    prove(&MACHINE, s)
+    static DERIVED: LazyLock<DerivedFormulas> = LazyLock::new(ideal_rows);
+    prove(&DERIVED, s)
 }
 
 pub(crate) fn claims() -> Vec<Claim> {
@@ -137,7 +137,7 @@ fn proposition() -> Vec<Claim> {
 
 /// Any twist (U, W), put into (8) and (17), and the coefficients into the derived motion.
 fn inverse(s: &Statement, _: &Sampling) -> Outcome {
-    prove(&Machine::of("unicycle").with_text("e_rc", "1 - U/(r*theta')").with_text("e_tc", "W/U"), s)
+    prove(&DerivedFormulas::of("unicycle").with_text("e_rc", "1 - U/(r*theta')").with_text("e_tc", "W/U"), s)
 }
 
 /// A constant twist realised by coefficients, simulated, against the pose of the screw motion.

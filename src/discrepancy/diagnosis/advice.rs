@@ -1,9 +1,9 @@
 //! What to drive or log next where data contradict themselves or say too little.
 
-use crate::discrepancy::rendering::summary::listed_to;
 use crate::discrepancy::report::NextExperiment;
 use crate::discrepancy::selection::choice::Selected;
 use crate::effects::Applied;
+use crate::wording::listed_to;
 
 pub(crate) fn drive(why: &str) -> NextExperiment {
     NextExperiment {

@@ -1,8 +1,8 @@
 //! In words: effects that the runs ask for, but not all of their parts, or not with the inputs logged half as often.
 
 use crate::discrepancy::diagnosis::advice::{contradiction, named};
-use crate::discrepancy::rendering::summary::listed;
 use crate::discrepancy::selection::choice::Selected;
+use crate::wording::listed;
 
 /// That something would have another value, were the inputs logged half as often; `None` where nothing would.
 pub(crate) fn too_seldom(choice: &Selected) -> Option<String> {

@@ -8,7 +8,6 @@ use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::localisation::clock_drift::Drift;
 use crate::discrepancy::localisation::constraint_residuals::{CONSTRAINTS, ConstraintResiduals};
 use crate::discrepancy::preprocessing::unit_errors;
-use crate::discrepancy::rendering::summary::listed;
 use crate::discrepancy::report::{NextExperiment, Verdict};
 use crate::discrepancy::selection::choice::Selected;
 use crate::discrepancy::selection::search::find;
@@ -17,6 +16,7 @@ use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
 use crate::number_format::significant;
+use crate::wording::listed;
 
 /// A verdict with what there is to say about it.
 pub struct Outcome {

@@ -8,10 +8,10 @@ use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::{Problem, starts};
 use crate::discrepancy::experiment::design::{ALIKE, PredictedExperiment};
 use crate::discrepancy::experiment::manoeuvre::{Manoeuvre, library};
-use crate::discrepancy::rendering::summary::listed_to;
 use crate::discrepancy::report::NextExperiment;
 use crate::discrepancy::shooting::windows::plan;
 use crate::error::Result;
+use crate::wording::listed_to;
 use rayon::prelude::*;
 
 /// Things that are looked at, of either kind.

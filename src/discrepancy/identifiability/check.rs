@@ -16,12 +16,12 @@ use crate::discrepancy::estimation::variance_components::without_jump;
 use crate::discrepancy::preprocessing::outliers::without_gross_errors;
 use crate::discrepancy::preprocessing::unit_errors::too_sparse;
 use crate::discrepancy::record::record::Record;
-use crate::discrepancy::rendering::summary::listed;
 use crate::discrepancy::report::Verdict;
 use crate::effects::Effect;
 use crate::error::Result;
 use crate::files::{ModelFile, Run};
 use crate::model::Model;
+use crate::wording::listed;
 use rayon::prelude::*;
 
 /// What `check` works on.

@@ -4,7 +4,7 @@ use crate::discrepancy::report::judged;
 use crate::discrepancy::report::{BeforeAfter, Estimate, Gap, Named, Report, Rival, RunClock, Verdict};
 use crate::number_format::{decimals, plain, prefixed, significant, with_error};
 use crate::picture::svg::cut;
-use std::borrow::Borrow;
+use crate::wording::listed;
 use std::collections::BTreeMap;
 
 /// Columns of the terminal.
@@ -44,23 +44,6 @@ fn composed_sentence(report: &Report) -> String {
         Verdict::MissingEffect => format!("The model misses {}.", listed(report.effects.iter().map(|e| e.id.as_str()))),
         Verdict::NoMissingEffect => "The model explains these runs to their noise; no effect is missing.".into(),
     }
-}
-
-/// Names as a phrase: "a", "a and b", "a, b and c".
-pub fn listed<S: Borrow<str>>(names: impl IntoIterator<Item = S>) -> String {
-    let names: Vec<S> = names.into_iter().collect();
-    match names.split_last() {
-        None => "an effect".into(),
-        Some((last, [])) => last.borrow().into(),
-        Some((last, rest)) => format!("{} and {}", rest.join(", "), last.borrow()),
-    }
-}
-
-/// The first names as a phrase, and how many more there are.
-pub(crate) fn listed_to(names: &[String], most: usize) -> String {
-    let more = names.len().saturating_sub(most);
-    let rest = (more > 0).then(|| format!("{more} more"));
-    listed(names.iter().take(most).chain(&rest).map(String::as_str))
 }
 
 /// Why a rival cannot be told apart, for a person.

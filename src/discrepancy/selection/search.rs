@@ -3,10 +3,10 @@
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
-use crate::discrepancy::rendering::summary::listed;
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::Model;
+use crate::wording::listed;
 
 /// Most effects that are added.
 pub(crate) const MOST: usize = 6;

@@ -6,11 +6,11 @@ use crate::discrepancy::estimation::bounds::{is_at_an_end, vanishes};
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::evidence::information_criterion::delta_bic;
 use crate::discrepancy::evidence::wald_test::repeats;
-use crate::discrepancy::rendering::summary::listed;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
 use crate::model::effect_equation::is_term;
+use crate::wording::listed;
 
 impl Search<'_> {
     /// Adds effects until nothing is left above the noise.

@@ -1,16 +1,17 @@
 //! What the effects of the library do to a vehicle: they know quantities by their letters, L for a wheelbase.
 
 use crate::effects;
+use crate::effects::Effect;
 use crate::error::Result;
-use crate::extensions::test_vehicle::Machine;
-use crate::extensions::{alone, formula_growth};
+use crate::extensions::formula_growth;
+use crate::extensions::test_vehicle::TestVehicle;
 use crate::files::OwnVehicle;
 use crate::formula::{Expr, Symbol, Unit};
 use crate::vehicles;
 use crate::vehicles::Definition;
 
 /// That letters of the catalogue mean what they mean there, and formulas stay small whatever effects do to them.
-pub(crate) fn check(own: &OwnVehicle, machines: &[Machine]) -> Result<()> {
+pub(crate) fn check(own: &OwnVehicle, test_vehicles: &[TestVehicle]) -> Result<()> {
     for (symbol, definition) in &own.vehicle.define {
         let usual = of_catalogue(symbol).filter(|usual| is_spoken_of(symbol) && !alike(usual, definition));
         let Some(usual) = usual else { continue };
@@ -18,7 +19,7 @@ pub(crate) fn check(own: &OwnVehicle, machines: &[Machine]) -> Result<()> {
         let message = format!("the effects of the library take {symbol} for the {meaning}, in {is}, not in {found}");
         return Err(own.names[symbol].error(message).help("give the symbol another letter"));
     }
-    match formula_growth::outgrown_of(effects::all(), machines) {
+    match formula_growth::outgrown_of(effects::all(), test_vehicles) {
         None => Ok(()),
         Some((name, on)) => {
             let message = format!("with all effects together the formula of {name} grows beyond all bounds on {on}");
@@ -35,7 +36,7 @@ fn of_catalogue(symbol: &Symbol) -> Option<&'static Definition> {
 /// Whether an effect of the library rewrites a symbol or has it in a formula.
 fn is_spoken_of(symbol: &Symbol) -> bool {
     let own = std::slice::from_ref(symbol);
-    let rewrites = |(key, f): (&String, &Expr)| alone(key, f).targets(own, Some(1)).is_some();
+    let rewrites = |(key, f): (&String, &Expr)| Effect::of_change(key, f).targets(own, Some(1)).is_some();
     effects::all().iter().any(|e| e.changes.iter().any(rewrites) || e.formulas().any(|f| f.mentions(symbol)))
 }
 

@@ -1,7 +1,7 @@
 //! How a vehicle moves: determined by its constraints, from everything it asks for and nothing more.
 
 use crate::error::{Error, Result};
-use crate::extensions::sensor::{reached, visible};
+use crate::extensions::test_vehicle::{reached, visible};
 use crate::files::{OwnVehicle, advice};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::Definitions;

@@ -1,9 +1,8 @@
 //! Names in the description of a vehicle.
 
-use super::suggestion;
 use crate::describe::universal;
 use crate::error::Result;
-use crate::files::{FormulaText, OwnPart, OwnVehicle, Spot, shown};
+use crate::files::{FormulaText, OwnPart, OwnVehicle, Spot, advice, shown};
 use crate::formula::Symbol;
 use crate::vehicles::Wheel;
 use std::collections::BTreeSet;
@@ -134,4 +133,10 @@ fn circle(own: &OwnVehicle) -> Result<()> {
     let names: Vec<&str> = open.iter().map(|s| s.as_str()).collect();
     let error = own.define[*first].error(format!("the formulas of {} use each other in a circle", names.join(", ")));
     Err(error.help("define each from parameters, inputs and what needs none of the others"))
+}
+
+/// Advice for a name that the vehicle does not have.
+fn suggestion(own: &OwnVehicle, name: &Symbol, may: impl Fn(&Symbol) -> bool) -> String {
+    let names: Vec<&str> = own.names.keys().filter(|s| may(s)).map(Symbol::as_str).collect();
+    advice(name.as_str(), "it has", &names)
 }

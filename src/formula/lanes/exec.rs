@@ -1,8 +1,8 @@
 //! Running steps over registers of lanes.
 
-use super::Fun;
 use super::isa::Kernel;
 use super::math;
+use crate::formula::Fun;
 use crate::formula::float::quotient;
 
 /// One step: operands and result are registers.

@@ -1,9 +1,9 @@
 //! From a program's instructions to steps over registers.
 
 use super::exec::{Step, execute};
-use super::{Changes, Fun, Lanes};
-use crate::formula::Program;
+use super::lane_program::{Changes, Lanes};
 use crate::formula::program::Instruction;
+use crate::formula::{Fun, Program};
 use std::collections::HashMap;
 
 /// When an instruction runs.
@@ -34,7 +34,14 @@ enum Fused {
     Gone,
 }
 
-pub(super) fn lower(program: &Program, changes: &[Changes]) -> Lanes {
+impl Lanes {
+    /// Arranges a program; `changes` says what each of its inputs changes with.
+    pub fn new(program: &Program, changes: &[Changes]) -> Self {
+        lower(program, changes)
+    }
+}
+
+fn lower(program: &Program, changes: &[Changes]) -> Lanes {
     let plan = Plan::new(program, changes);
     let mut out = Emitter::new(program, &plan);
     (0..program.code.len()).for_each(|k| out.emit(k));

@@ -1,15 +1,15 @@
 //! Elementary functions over a block of lanes, the same bits on every processor.
 
-use super::Fun;
+use crate::formula::Fun;
 use crate::formula::float::{finite, quotient};
 
 /// Largest argument whose whole quarter turns are taken away exactly: 2²⁰·π/2 and some margin below.
-const FAR: f64 = 1.0e6;
+const MAX_REDUCIBLE: f64 = 1.0e6;
 /// Adding it rounds to a whole number, which then stands in the low bits.
-const ROUND: f64 = 6_755_399_441_055_744.0;
+const ROUNDING_SHIFT: f64 = 6_755_399_441_055_744.0;
 
 /// π/2 in three parts; the first two have 33 bits, so that their products with whole numbers below 2²⁰ are exact.
-const QUARTER: [f64; 3] = [
+const QUARTER_TURN: [f64; 3] = [
     f64::from_bits(0x3FF9_21FB_5440_0000),
     f64::from_bits(0x3DD0_B461_1A60_0000),
     f64::from_bits(0x3BA3_198A_2E03_7073),
@@ -43,16 +43,16 @@ fn horner(z: f64, c: &[f64; 6]) -> f64 {
 
 /// sin x and cos x, each within 2 units in the last place.
 ///
-/// Whole quarter turns are taken away in three parts (Cody and Waite); arguments beyond [`FAR`] go to the crate `libm`. They
+/// Whole quarter turns are taken away in three parts (Cody and Waite); arguments beyond [`MAX_REDUCIBLE`] go to the crate `libm`. They
 /// are written where they are to stay: copies of blocks cost as much as a tenth of a motion.
 #[inline(always)]
 pub(super) fn sin_cos<const L: usize>(x: &[f64; L], s: &mut [f64; L], c: &mut [f64; L]) {
     let mut near = true;
     for l in 0..L {
-        near &= x[l].abs() <= FAR;
-        let shifted = x[l] * std::f64::consts::FRAC_2_PI + ROUND;
-        let (turns, n) = (shifted.to_bits(), shifted - ROUND);
-        let r = ((x[l] - n * QUARTER[0]) - n * QUARTER[1]) - n * QUARTER[2];
+        near &= x[l].abs() <= MAX_REDUCIBLE;
+        let shifted = x[l] * std::f64::consts::FRAC_2_PI + ROUNDING_SHIFT;
+        let (turns, n) = (shifted.to_bits(), shifted - ROUNDING_SHIFT);
+        let r = ((x[l] - n * QUARTER_TURN[0]) - n * QUARTER_TURN[1]) - n * QUARTER_TURN[2];
         let z = r * r;
         let sine = r + (r * z) * horner(z, &S);
         let half = 0.5 * z;
@@ -75,7 +75,7 @@ pub(super) fn sin_cos<const L: usize>(x: &[f64; L], s: &mut [f64; L], c: &mut [f
 #[inline(never)]
 fn far_sin_cos<const L: usize>(x: &[f64; L], s: &mut [f64; L], c: &mut [f64; L]) {
     for l in 0..L {
-        if x[l].abs() > FAR {
+        if x[l].abs() > MAX_REDUCIBLE {
             (s[l], c[l]) = libm::sincos(x[l]);
         }
     }

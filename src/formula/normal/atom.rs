@@ -8,7 +8,7 @@ use std::sync::Arc;
 /// An indeterminate. The first in this order is the leading one; the sine must come before the cosine, so that
 /// writing sin² as 1 − cos² makes a monomial smaller.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(in crate::formula) enum Atom {
+pub(super) enum Atom {
     Sin(Symbol),
     Cos(Symbol),
     /// The arctangent of a quotient with positive coefficient.
@@ -31,7 +31,7 @@ impl Atom {
 
 /// A product of powers of atoms, ordered by degree and then by the leading atom: an order that products keep.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
-pub(in crate::formula) struct Monomial {
+pub(super) struct Monomial {
     degree: u32,
     powers: Vec<(Atom, u32)>,
 }

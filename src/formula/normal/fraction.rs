@@ -13,7 +13,7 @@ use std::sync::Arc;
 ///
 /// Every polynomial leads with a positive term and is one atom, or shares neither a number nor an atom among its terms.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(in crate::formula) struct Fraction {
+pub(super) struct Fraction {
     coefficient: BigRational,
     factors: Factors,
 }

@@ -20,7 +20,7 @@ pub(super) const MAX_BITS: u64 = 100_000;
 
 /// A sum of whole multiples of monomials. No sine stands squared in it: sin² is written as 1 − cos².
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
-pub(in crate::formula) struct Poly {
+pub(super) struct Poly {
     terms: BTreeMap<Monomial, BigInt>,
 }
 

@@ -1,6 +1,7 @@
 //! Regimes of rolling.
 
-use super::{Limits, coefficient};
+use super::coefficient::coefficient;
+use super::limits::Limits;
 use std::fmt;
 
 /// What a coefficient of rotation creep is called.

@@ -1,6 +1,7 @@
 //! Regimes of direction.
 
-use super::{Limits, coefficient};
+use super::coefficient::coefficient;
+use super::limits::Limits;
 use std::fmt;
 
 /// What a coefficient of traverse creep is called.

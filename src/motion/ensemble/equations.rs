@@ -1,7 +1,6 @@
 //! The equations of motion of many cases, compiled for lanes.
 
-use super::LANES;
-use super::steps::Lane;
+use super::lanes::{LANES, Lane};
 use crate::error::{Error, Result};
 use crate::formula::{
     BigRational, Changes, Expr, Graph, Isa, Lanes, Memory, NodeId, Op, Program, Symbol, exact_f64, nearest_f64,

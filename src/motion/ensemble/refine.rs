@@ -1,23 +1,26 @@
 //! Runs with N and 2N steps, until they agree.
 
+use super::case::Case;
 use super::equations::LaneEquations;
+use super::lanes::{LANES, Lane};
+use super::model_ensemble::Ensemble;
+use super::plan::Plan;
 use super::rounding::{Estimate, Floor};
-use super::steps::{Block, Instants, Lane, Running, Scheme, Span, States, advance};
-use super::{Case, Ensemble, LANES, Plan, scheme};
+use super::steps::{Block, Instants, Running, Scheme, Span, States, advance};
 use crate::error::Result;
 use crate::formula::Memory;
 
 /// How often the number of steps may double.
-const DOUBLINGS: u32 = 12;
+const MAX_DOUBLINGS: u32 = 12;
 /// How often it may, divided among the spans, where the first number is looked for: runs of an hour need tens of thousands.
 const PILOT_DOUBLINGS: u32 = 16;
 /// The most steps that a number which does not suffice may grow to: a few minutes for a block of cases.
-const MOST_STEPS: usize = 1 << 24;
+const MAX_STEPS: usize = 1 << 24;
 /// More steps than the estimate asks for, so that few cases need to be doubled.
-const MARGIN: f64 = 1.1;
+const STEP_MARGIN: f64 = 1.1;
 
 /// How often it does where the motion is undefined.
-const TRIES: u32 = 4;
+const UNDEFINED_DOUBLINGS: u32 = 4;
 
 /// A block's states at the times of the rows after the start.
 type Rows = Vec<Vec<Lane>>;
@@ -42,11 +45,11 @@ impl Ensemble {
     /// The first number of steps that an order needs for most of the cases, and what it costs; without bound where the order
     /// does not get there, or not for less than `most`.
     pub(crate) fn effort_of(&self, order: i32, e: &LaneEquations, cases: &[&[f64]], most: f64) -> Result<(f64, f64)> {
-        let mut work = Work::new(e, scheme(order));
+        let mut work = Work::new(e, Scheme::of_order(order));
         let (stages, spans) = (work.scheme.stages, self.spans(e));
         let cost = |steps| (stages * spans.iter().map(|s| self.steps_in(s, steps)).sum::<usize>()) as f64;
         let shared = spans.len().checked_ilog2().unwrap_or(0);
-        let last = PILOT_DOUBLINGS.saturating_sub(shared).max(DOUBLINGS).min(self.most_doublings(e, 1.0));
+        let last = PILOT_DOUBLINGS.saturating_sub(shared).max(MAX_DOUBLINGS).min(self.most_doublings(e, 1.0));
         let z0 = self.begin(&mut work, cases)?;
         let (mut doublings, (mut coarse, _)) = (0, self.integrate(&mut work, &z0, (1.0, 0)));
         let mut before: Vec<Option<f64>> = vec![None; cases.len()];
@@ -60,11 +63,11 @@ impl Ensemble {
                 let worst = good.clone().map(|e| e.truncation).fold(0.0, f64::max);
                 // Where rounding alone is more than the error asked for, this number is as good as any larger one.
                 let share = if good.count() > 0 { worst / self.tolerance } else { 1.0 };
-                let steps = f64::from(1u32 << doublings) * MARGIN;
+                let steps = f64::from(1u32 << doublings) * STEP_MARGIN;
                 break (steps * share.powf(1.0 / f64::from(order))).max(1.0);
             }
             before = found.iter().map(|e| Some(e.truncation)).collect();
-            if defined == 0 && doublings == TRIES {
+            if defined == 0 && doublings == UNDEFINED_DOUBLINGS {
                 break 1.0;
             }
             if doublings == last || cost((1.0, doublings)) >= most {
@@ -77,11 +80,11 @@ impl Ensemble {
 
     /// Integrates cases until each is as exact as asked for.
     pub(crate) fn refined(&self, e: &LaneEquations, plan: &Plan, cases: &[&[f64]]) -> Result<Vec<Case>> {
-        let mut work = Work::new(e, scheme(plan.order));
+        let mut work = Work::new(e, Scheme::of_order(plan.order));
         let mut done: Vec<Option<Case>> = vec![None; cases.len()];
         // The first two runs of every case, then one more for those that need it, side by side again.
         let mut waiting: Vec<Waiting> = (0..cases.len()).map(|case| Waiting { case, before: None }).collect();
-        let last = DOUBLINGS.min(self.most_doublings(e, plan.steps));
+        let last = MAX_DOUBLINGS.min(self.most_doublings(e, plan.steps));
         for doubling in 0..=last {
             let mut next = Vec::new();
             for group in waiting.chunks(LANES) {
@@ -113,7 +116,7 @@ impl Ensemble {
         let better = extrapolated(&coarse, &fine, order);
         let found = estimates([&coarse, &fine], &floor, group.len(), order);
         let ready = |l: usize| {
-            let (of, most) = (&found[l], if found[l].error.is_nan() { last.min(TRIES) } else { last });
+            let (of, most) = (&found[l], if found[l].error.is_nan() { last.min(UNDEFINED_DOUBLINGS) } else { last });
             of.error <= self.tolerance || doublings >= most || of.is_stuck(group[l].before.as_ref().map(|(_, t)| *t))
         };
         if (0..group.len()).any(ready) {
@@ -132,7 +135,7 @@ impl Ensemble {
     /// How often a first number of steps may double before there are too many of them.
     fn most_doublings(&self, e: &LaneEquations, steps: f64) -> u32 {
         let first: usize = self.spans(e).iter().map(|s| self.steps_in(s, (steps, 0))).sum();
-        (MOST_STEPS / first.max(1)).checked_ilog2().unwrap_or(0)
+        (MAX_STEPS / first.max(1)).checked_ilog2().unwrap_or(0)
     }
 
     /// Sets the parameters of a block and gives its start.
@@ -222,7 +225,7 @@ fn gathered(group: &[Waiting], rows: usize, n: usize) -> Rows {
 
 /// The difference of two runs stands for a quarter as many times the error, lest steps that are still too long for their
 /// order look better than they are.
-const CAUTION: f64 = 4.0;
+const ERROR_FACTOR: f64 = 4.0;
 
 /// 2^order − 1
 fn gain(order: i32) -> f64 {
@@ -233,7 +236,7 @@ fn gain(order: i32) -> f64 {
 fn error(coarse: &Rows, fine: &Rows, l: usize, order: i32) -> f64 {
     let mut worst = 0.0;
     for (a, b) in coarse.iter().flatten().zip(fine.iter().flatten()) {
-        let e = CAUTION * (b[l] - a[l]).abs() / gain(order) / b[l].abs().max(1.0);
+        let e = ERROR_FACTOR * (b[l] - a[l]).abs() / gain(order) / b[l].abs().max(1.0);
         if e.is_nan() {
             return f64::NAN;
         }
@@ -280,12 +283,12 @@ mod tests {
         for (order, tolerance) in [(4, 1e-10), (4, 1e-8), (8, 1e-13)] {
             let wheels = wheels(1.0, &[6.0], tolerance);
             let (steps, cost) = wheels.effort_of(order, &wheels.equations, &cases, f64::INFINITY).unwrap();
-            let mut work = Work::new(&wheels.equations, scheme(order));
+            let mut work = Work::new(&wheels.equations, Scheme::of_order(order));
             let z0 = wheels.begin(&mut work, &cases).unwrap();
             let [coarse, fine] = [0, 1].map(|doublings| wheels.integrate(&mut work, &z0, (steps, doublings)).0);
             let worst = (0..4).map(|l| error(&coarse, &fine, l, order)).fold(0.0, f64::max);
             let taken = steps.ceil();
-            let (margin, found) = ((steps / taken / MARGIN).powi(order), worst / tolerance);
+            let (margin, found) = ((steps / taken / STEP_MARGIN).powi(order), worst / tolerance);
             // What rounding leaves of the last digits of order 8 is more than a twentieth.
             let within = if order == 8 { 0.5 } else { 0.05 };
             assert!((found / margin - 1.0).abs() < within, "order {order}, {steps} steps: {found} and not {margin}");

@@ -1,12 +1,9 @@
 //! Steps of fixed length on a block of lanes.
 
-use super::LANES;
 use super::equations::LaneEquations;
+use super::lanes::{LANES, Lane};
 use crate::formula::{Isa, Kernel, Memory, Rows};
-use crate::motion::integrators::tableau::Tableau;
-
-/// The lanes of one quantity.
-pub(crate) type Lane = [f64; LANES];
+use crate::motion::integrators::tableau::{ORDER_4, ORDER_8, Tableau};
 
 /// A stretch of time on which the inputs are smooth, cut into steps of equal length.
 #[derive(Clone, Copy, Debug)]
@@ -32,14 +29,19 @@ fn sparse(row: &[f64]) -> Vec<(usize, f64)> {
 }
 
 impl Scheme {
-    pub fn of(t: &Tableau) -> Self {
+    /// The method of order 8, or that of order 4.
+    pub fn of_order(order: i32) -> Self {
+        Self::of(if order == 8 { &ORDER_8 } else { &ORDER_4 })
+    }
+
+    fn of(t: &Tableau) -> Self {
         let a = std::iter::once(vec![]).chain(t.a.iter().map(|row| sparse(row))).collect();
         Self { stages: t.c.len(), order: t.order, c: t.c.to_vec(), a, b: sparse(t.b) }
     }
 }
 
-/// Most numbers that are kept of the instants of a run.
-const MOST: usize = 1 << 18;
+/// The most numbers that are kept of the instants of a run: 2 MiB.
+const MAX_KEPT_INSTANTS: usize = 1 << 18;
 
 /// What depends on the time alone, stage by stage of a run: the same for every block of cases, and kept for the next one
 /// where it is not too much.
@@ -66,7 +68,7 @@ impl Instants {
         if self.all == 0 || self.at < self.values.len() {
             return false;
         }
-        if self.all > MOST {
+        if self.all > MAX_KEPT_INSTANTS {
             self.values.clear();
             self.at = 0;
         }
@@ -240,7 +242,7 @@ mod tests {
         assert_eq!(at(0, 0, 0), (false, 0, 0), "nothing depends on the time");
         assert_eq!(at(10, 10, 5), (false, 10, 5));
         assert_eq!(at(10, 5, 5), (true, 5, 5));
-        assert_eq!(at(MOST, 5, 5), (true, 5, 5));
-        assert_eq!(at(MOST + 1, 5, 5), (true, 0, 0), "one step at a time");
+        assert_eq!(at(MAX_KEPT_INSTANTS, 5, 5), (true, 5, 5));
+        assert_eq!(at(MAX_KEPT_INSTANTS + 1, 5, 5), (true, 0, 0), "one step at a time");
     }
 }

@@ -7,13 +7,13 @@ use super::tableau::{E3, E5, ORDER_8};
 
 const STAGES: usize = 12;
 /// Stages that the result and its error read.
-const USED: [usize; 8] = [0, 5, 6, 7, 8, 9, 10, 11];
+const READ_STAGES: [usize; 8] = [0, 5, 6, 7, 8, 9, 10, 11];
 /// Numbers that are summed together: rows of memory are so long, or a multiple, with zeros at their end.
-const WIDTH: usize = 4;
-type Wide = [f64; WIDTH];
-/// Bounds of the change of a step's length, and what is taken off it for safety.
-const SHRINK: f64 = 0.333;
-const GROW: f64 = 6.0;
+const VECTOR_WIDTH: usize = 4;
+type Wide = [f64; VECTOR_WIDTH];
+/// The least and the greatest ratio of a step to the one before, and the safety factor: Hairer's DOP853 has 0.333, 6 and 0.9.
+const MIN_STEP_RATIO: f64 = 0.333;
+const MAX_STEP_RATIO: f64 = 6.0;
 const SAFETY: f64 = 0.9;
 
 /// Why a run ended early.
@@ -66,9 +66,9 @@ impl Dop853 {
         y: &mut [f64],
     ) -> Result<Effort, Stop> {
         let n = y.len();
-        let row = n.div_ceil(WIDTH);
-        self.k.resize(STAGES * row, [0.0; WIDTH]);
-        [&mut self.y, &mut self.at, &mut self.new].into_iter().for_each(|v| v.resize(row, [0.0; WIDTH]));
+        let row = n.div_ceil(VECTOR_WIDTH);
+        self.k.resize(STAGES * row, [0.0; VECTOR_WIDTH]);
+        [&mut self.y, &mut self.at, &mut self.new].into_iter().for_each(|v| v.resize(row, [0.0; VECTOR_WIDTH]));
         self.y.as_flattened_mut()[..n].copy_from_slice(y);
         let Request { from, to, .. } = request;
         let (length, sign) = ((to - from).abs(), (to - from).signum());
@@ -104,13 +104,13 @@ impl Dop853 {
                 }
                 t += h;
                 rhs(t, &self.y.as_flattened()[..n], &mut self.k.as_flattened_mut()[..n]);
-                let next = (h / change.clamp(1.0 / GROW, 1.0 / SHRINK)).abs().min(length);
+                let next = (h / change.clamp(1.0 / MAX_STEP_RATIO, 1.0 / MIN_STEP_RATIO)).abs().min(length);
                 h = sign * if refused { next.min(h.abs()) } else { next };
                 refused = false;
             } else {
                 effort.rejected += u32::from(effort.accepted > 0);
                 // Where the error is not a number, the step shrinks as far as it may.
-                h /= change.min(1.0 / SHRINK);
+                h /= change.min(1.0 / MIN_STEP_RATIO);
                 refused = true;
             }
         }
@@ -151,15 +151,15 @@ impl Dop853 {
         let (mut fifth, mut third) = (0.0, 0.0);
         let row = self.y.len();
         for (i, (old, new)) in self.y.iter().zip(&self.new).enumerate() {
-            let (mut e5, mut b) = ([0.0; WIDTH], [0.0; WIDTH]);
-            for s in USED {
+            let (mut e5, mut b) = ([0.0; VECTOR_WIDTH], [0.0; VECTOR_WIDTH]);
+            for s in READ_STAGES {
                 let k = &self.k[s * row + i];
-                for l in 0..WIDTH {
+                for l in 0..VECTOR_WIDTH {
                     e5[l] += E5[s] * k[l];
                     b[l] += ORDER_8.b[s] * k[l];
                 }
             }
-            for l in 0..WIDTH.min(n - i * WIDTH) {
+            for l in 0..VECTOR_WIDTH.min(n - i * VECTOR_WIDTH) {
                 let k = |s: usize| self.k[s * row + i][l];
                 let scale = request.atol + old[l].abs().max(new[l].abs()) * request.rtol;
                 let e3 = b[l] - E3[0] * k(0) - E3[1] * k(8) - E3[2] * k(11);
@@ -201,7 +201,7 @@ fn sum(out: &mut [Wide], y: &[Wide], h: f64, weights: &[f64], k: &[Wide]) {
     if let ([out], [y]) = (&mut *out, y) {
         let mut total = *y;
         for (s, w) in terms() {
-            for l in 0..WIDTH {
+            for l in 0..VECTOR_WIDTH {
                 total[l] += w * k[s][l];
             }
         }
@@ -243,7 +243,22 @@ mod tests {
         let (span, first, never) = ((to - from).abs(), first * (to - from).signum(), u32::MAX);
         let (f, sparse) = (Longer(f, pace), OutputType::Sparse);
         let mut s = ode_solvers::Dop853::from_param(
-            f, from, to, span, start, rtol, atol, SAFETY, 0.0, SHRINK, GROW, span, first, most_steps, never, sparse,
+            f,
+            from,
+            to,
+            span,
+            start,
+            rtol,
+            atol,
+            SAFETY,
+            0.0,
+            MIN_STEP_RATIO,
+            MAX_STEP_RATIO,
+            span,
+            first,
+            most_steps,
+            never,
+            sparse,
         );
         let stats = s.integrate().unwrap();
         (s.x_out().clone(), stats, s.y_out().last().unwrap().as_slice()[..y.len()].to_vec())

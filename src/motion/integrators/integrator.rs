@@ -190,8 +190,8 @@ impl Walk {
         if from == to {
             return Ok(y.to_vec());
         }
-        if self.integrator.method == Method::Radau5 && y.len() > radau::MOST_STATES {
-            let message = format!("{} states are more than the {} of the stiff method", y.len(), radau::MOST_STATES);
+        if self.integrator.method == Method::Radau5 && y.len() > radau::MAX_STATES {
+            let message = format!("{} states are more than the {} of the stiff method", y.len(), radau::MAX_STATES);
             return Err(Error::run(message).help("use an explicit method"));
         }
         if self.integrator.method == Method::Dop853 {

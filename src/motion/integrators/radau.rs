@@ -87,22 +87,22 @@ pub(crate) fn step_through(
         9..=16 => padded::<16>(rates, slopes, span, y),
         17..=32 => padded::<32>(rates, slopes, span, y),
         33..=64 => padded::<64>(rates, slopes, span, y),
-        _ => padded::<MOST_STATES>(rates, slopes, span, y),
+        _ => padded::<MAX_STATES>(rates, slopes, span, y),
     }
 }
 
-/// The most states the stiff method takes.
-pub(crate) const MOST_STATES: usize = 256;
+/// The most states the stiff method takes: its matrices have a size that is fixed when the program is built.
+pub(crate) const MAX_STATES: usize = 256;
 /// The shortest step, as a share of the span.
-const SHORTEST: f64 = 1e-15;
+const MIN_STEP: f64 = 1e-15;
 /// The smallest relative tolerance the crate takes.
-const FINEST: f64 = 1e-14;
+const MIN_RELATIVE_TOLERANCE: f64 = 1e-14;
 /// The first step where none is known, as a share of the shortest time constant.
-const CAUTIOUS: f64 = 0.1;
+const FIRST_STEP: f64 = 0.1;
 /// How much longer a step may be than the one before; layers must not be leapt over.
-const GROWTH: f64 = 2.0;
+const MAX_STEP_GROWTH: f64 = 2.0;
 /// Newton's method stops at this share of what the crate thinks enough: an error across a stiff direction is a force.
-const NEWTON: f64 = 1e-3;
+const NEWTON_TOLERANCE: f64 = 1e-3;
 
 fn padded<const N: usize>(
     rates: &mut impl FnMut(f64, &[f64], &mut [f64]),
@@ -124,7 +124,7 @@ fn padded<const N: usize>(
             return Err(IntegrationError::MaxNumStepReached { x: passed, n_step: span.most });
         }
         steps += 1;
-        let step = system.step(passed, h, &now, span).filter(|s| s.next > SHORTEST * span.length);
+        let step = system.step(passed, h, &now, span).filter(|s| s.next > MIN_STEP * span.length);
         let Step { y, accepted, next: after } = step.ok_or(IntegrationError::StepSizeUnderflow { x: passed })?;
         if accepted {
             (now, passed) = (y, if h == left { span.length } else { passed + h });
@@ -155,22 +155,22 @@ impl<F: FnMut(f64, &[f64], &mut [f64]), J: Slopes> Padded<'_, F, J> {
         self.write_slopes(0.0, y, &mut slopes);
         let rows = slopes.chunks(self.n.max(1)).map(|row| row.iter().map(|s| s.abs()).sum::<f64>());
         let fastest = rows.fold(0.0, f64::max);
-        if fastest > 0.0 { (CAUTIOUS / fastest).min(span.length) } else { span.length }
+        if fastest > 0.0 { (FIRST_STEP / fastest).min(span.length) } else { span.length }
     }
 
     /// One step, accepted or refused; nothing where no step can be made.
     fn step<const N: usize>(&self, at: f64, h: f64, y: &[f64; N], span: &Span) -> Option<Step<N>> {
         // Components that rest must not dilute the mean error: a power 2/3 of this factor and then a root come after.
         let share = (self.n.max(1) as f64 / N as f64).powf(0.75);
-        let rtol = share * span.rtol.max(FINEST);
+        let rtol = share * span.rtol.max(MIN_RELATIVE_TOLERANCE);
         let estimated = 0.1 * rtol.powf(2.0 / 3.0);
-        let newton = (NEWTON * estimated.sqrt().min(0.03)).max(1e-15 / estimated);
+        let newton = (NEWTON_TOLERANCE * estimated.sqrt().min(0.03)).max(1e-15 / estimated);
         let mut solver = ImplicitRungeKutta::radau5()
             .rtol(vec![rtol; N])
             .atol(vec![share * span.atol; N])
             .newton_tol(newton)
             .max_newton_iter(10)
-            .max_scale(GROWTH)
+            .max_scale(MAX_STEP_GROWTH)
             .h0(h);
         // The end it is told is only a bound on its steps, and well beyond this one.
         solver.init(self, at, at + 2.0 * span.length, y).ok()?;

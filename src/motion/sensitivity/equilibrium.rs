@@ -5,8 +5,8 @@ use crate::model::Equations;
 use nalgebra::{DMatrix, DVector};
 
 /// The most steps of Newton's method, and what counts as arrived.
-const STEPS: usize = 50;
-const ARRIVED: f64 = 1e-13;
+const MAX_NEWTON_STEPS: usize = 50;
+const NEWTON_TOLERANCE: f64 = 1e-13;
 
 /// The hidden states at which their own rates vanish under constant inputs: the quasi-static values.
 ///
@@ -92,14 +92,14 @@ fn newton(z: &mut [f64], first: usize, mut f: impl FnMut(&[f64]) -> (DVector<f64
     if first == z.len() {
         return true;
     }
-    for _ in 0..STEPS {
+    for _ in 0..MAX_NEWTON_STEPS {
         let (value, jacobian) = f(z);
         let Some(step) = jacobian.lu().solve(&value) else { return false };
         if !step.iter().all(|v| v.is_finite()) {
             return false;
         }
         z[first..].iter_mut().zip(&step).for_each(|(z, s)| *z -= s);
-        if z[first..].iter().zip(&step).all(|(z, s)| s.abs() <= ARRIVED * (1.0 + z.abs())) {
+        if z[first..].iter().zip(&step).all(|(z, s)| s.abs() <= NEWTON_TOLERANCE * (1.0 + z.abs())) {
             return true;
         }
     }

@@ -5,9 +5,9 @@ use super::states::{Arcs, take};
 use super::variational_equations::Motion;
 
 /// How much longer each step is than the one before: what a span begins with is forgotten soon.
-const GROWTH: f64 = 1.4;
+const STEP_GROWTH: f64 = 1.4;
 /// The shortest first step, as a share of the span.
-const SHORTEST: f64 = 1e-6;
+const MIN_FIRST_STEP: f64 = 1e-6;
 
 /// The spans of some arcs.
 #[derive(Debug)]
@@ -52,7 +52,7 @@ impl<const L: usize> Forgetting<L> {
         self.now.z.copy_from_slice(z);
         self.now.s.copy_from_slice(s);
         let mut passed = [0.0; L];
-        let mut next: [f64; L] = std::array::from_fn(|l| spans.first[l].max(SHORTEST * spans.length[l].abs()));
+        let mut next: [f64; L] = std::array::from_fn(|l| spans.first[l].max(MIN_FIRST_STEP * spans.length[l].abs()));
         loop {
             let (mut t, mut h, mut wanted) = ([0.0; L], [0.0; L], [false; L]);
             for l in 0..L {
@@ -62,7 +62,7 @@ impl<const L: usize> Forgetting<L> {
                 h[l] = step.copysign(spans.length[l]);
                 t[l] = spans.from[l] + passed[l].copysign(spans.length[l]);
                 passed[l] = if step < left { passed[l] + step } else { spans.length[l].abs() };
-                next[l] = spans.longest[l].min(GROWTH * next[l]);
+                next[l] = spans.longest[l].min(STEP_GROWTH * next[l]);
             }
             if wanted == [false; L] {
                 break;

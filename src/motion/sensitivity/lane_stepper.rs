@@ -15,7 +15,7 @@ const STEP_PER_TIME_CONSTANT: f64 = 0.35;
 /// Most equal steps between two rows for the sake of a time constant; of a shorter one the limit is followed.
 const MAX_STEPS: f64 = 64.0;
 /// The longest steps that follow a limit, as a share of the time between two rows.
-const LONGEST: f64 = 1.0 / 32.0;
+const MAX_LIMIT_STEP: f64 = 1.0 / 32.0;
 /// How many of the steps for the sake of turning are one of those that follow a limit, which take thrice the rates.
 const TURNS_PER_STEP: f64 = 3.0;
 /// Most steps between two rows for the sake of turning.
@@ -39,8 +39,9 @@ pub(crate) struct LaneStepper<'a, const L: usize> {
     isa: Isa,
 }
 
-/// A knot so near to the beginning or the end of a span, as a share of the interval before it, lies there.
-const SAME: f64 = 1e-6;
+/// A knot within this share of the interval before it from the beginning or the end of a span counts as lying there:
+/// times of a log are rounded to about as much.
+const KNOT_TOLERANCE: f64 = 1e-6;
 
 /// How spans are divided.
 struct Steps<const L: usize> {
@@ -131,11 +132,11 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
         let stands = i > 0 && knots[i - 1] <= at && knots.get(i).is_none_or(|k| at < *k);
         let mut i = if stands { i } else { knots.partition_point(|k| *k <= at) };
         let interval = |i: usize| if i > 0 { knots[i] - knots[i - 1] } else { f64::INFINITY };
-        if knots.get(i).is_some_and(|k| k - at < SAME * interval(i)) {
+        if knots.get(i).is_some_and(|k| k - at < KNOT_TOLERANCE * interval(i)) {
             i += 1;
         }
         self.ahead[l] = i;
-        knots.get(i).copied().filter(|k| to - k > SAME * interval(i)).unwrap_or(to)
+        knots.get(i).copied().filter(|k| to - k > KNOT_TOLERANCE * interval(i)).unwrap_or(to)
     }
 
     #[inline(always)]
@@ -240,7 +241,7 @@ fn steps<const L: usize>(
             let spans = steps.forgotten.get_or_insert_with(|| Spans::none(from));
             spans.length[l] = span;
             spans.first[l] = STEP_PER_TIME_CONSTANT / fastest[l];
-            spans.longest[l] = span.abs() * LONGEST.min(TURNS_PER_STEP / turning.clamp(1.0, MAX_TURNS));
+            spans.longest[l] = span.abs() * MAX_LIMIT_STEP.min(TURNS_PER_STEP / turning.clamp(1.0, MAX_TURNS));
         } else {
             steps.equal[l] = if turning > forgetting { turning } else { forgetting }.clamp(1.0, MAX_TURNS);
         }

@@ -1,6 +1,32 @@
 //! Arcs side by side, and their sums.
 
-use super::single_stepper::Arc;
+/// State and sensitivities at a time; S is stored row by row, with
+/// [`Equations::visible`](crate::model::Equations::visible) + p columns.
+#[derive(Clone, Debug, Default)]
+pub struct Arc {
+    /// State.
+    pub z: Vec<f64>,
+    /// Sensitivities, or empty when they are not wanted.
+    pub s: Vec<f64>,
+}
+
+impl Arc {
+    /// What is to be carried on: the hidden states, and all sensitivities.
+    pub(crate) fn hidden(self, visible: usize) -> Self {
+        Self { z: self.z[visible..].to_vec(), s: self.s }
+    }
+
+    /// Whether the hidden states and their sensitivities to parameters are the same bits.
+    pub(crate) fn is_same(&self, other: &Self, visible: usize) -> bool {
+        let k = self.s.len() / (visible + self.z.len());
+        let rows = |a: &Self| a.s[visible * k..].chunks(k).map(|r| bits(&r[visible..])).collect::<Vec<_>>();
+        bits(&self.z) == bits(&other.z) && rows(self) == rows(other)
+    }
+}
+
+fn bits(values: &[f64]) -> Vec<u64> {
+    values.iter().map(|v| v.to_bits()).collect()
+}
 
 /// L states and their sensitivities; S is stored row by row, with [`Equations::visible`] + p columns, or empty when it is
 /// not wanted.

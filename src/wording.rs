@@ -1,0 +1,20 @@
+//! English phrases that several rooms need: lists of names.
+
+use std::borrow::Borrow;
+
+/// Names as a phrase: "a", "a and b", "a, b and c".
+pub(crate) fn listed<S: Borrow<str>>(names: impl IntoIterator<Item = S>) -> String {
+    let names: Vec<S> = names.into_iter().collect();
+    match names.split_last() {
+        None => "an effect".into(),
+        Some((last, [])) => last.borrow().into(),
+        Some((last, rest)) => format!("{} and {}", rest.join(", "), last.borrow()),
+    }
+}
+
+/// The first names as a phrase, and how many more there are.
+pub(crate) fn listed_to(names: &[String], most: usize) -> String {
+    let more = names.len().saturating_sub(most);
+    let rest = (more > 0).then(|| format!("{more} more"));
+    listed(names.iter().take(most).chain(&rest).map(String::as_str))
+}

@@ -1,4 +1,4 @@
-//! A claim with its evidence.
+//! A claim of the paper with its status, its place and its evidence.
 
 use super::{Outcome, Sampling, Statement, Status};
 use std::fmt;

@@ -1,4 +1,4 @@
-//! What the program derives, by name, for statements to speak of.
+//! Formulas that the program derives from a vehicle, by name, for statements to speak of.
 
 use crate::formula::{Expr, Normal, Scalar, Symbol};
 use crate::mechanism::Definitions;

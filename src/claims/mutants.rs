@@ -1,4 +1,4 @@
-//! Sabotage made mechanically: statements one small slip away from a true one.
+//! Mutation of statements: every statement that is one small slip away from a true one.
 
 use super::Statement;
 use crate::formula::{BigRational, Expr, Fun, Node, Symbol};

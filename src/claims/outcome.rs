@@ -1,4 +1,4 @@
-//! What became of a check.
+//! The outcome of a check: it holds, it fails with a counterexample, or it is undefined.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! Generated cases: how many, from which seed, and the smallest one that fails.
+//! Sampling of cases by property-based testing: how many, from which seed, and the smallest one that fails.
 
 use super::{Counterexample, Outcome};
 use proptest::strategy::Strategy;

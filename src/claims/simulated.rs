@@ -1,4 +1,4 @@
-//! Motion for claims to look at: a model driven by formulas of time.
+//! Simulated motions for claims: a model driven by formulas of time.
 
 use super::sampling::Fault;
 use crate::error::Error;

@@ -1,4 +1,4 @@
-//! What a piece of evidence says, as formulas that can be put to the test and tampered with.
+//! A statement: equations as data, which can be put to the test and tampered with.
 
 use crate::error::Result;
 use crate::formula::{Expr, Symbol};

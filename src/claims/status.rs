@@ -1,4 +1,4 @@
-//! What is known of a claim.
+//! The status of a claim, as stated or as earned.
 
 use std::fmt;
 

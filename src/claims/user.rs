@@ -1,4 +1,4 @@
-//! Claims from a file.
+//! A user's own claims, from a file.
 
 use super::{Claim, DerivedFormulas, Status, prove};
 use crate::error::Result;

@@ -1,4 +1,4 @@
-//! Runs the evidence of claims and says what they earned.
+//! Verification: the evidence of claims is run, and each earns its status.
 
 use super::{Claim, Evidence, Gives, Mutant, Outcome, Sampling, Statement, Status, mutants};
 use rayon::prelude::*;

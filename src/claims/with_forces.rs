@@ -1,4 +1,4 @@
-//! Equations of motion with forces for claims to look at: as formulas under the paper's letters, and as runs.
+//! Equations of motion with forces for claims: as formulas under the paper's letters, and as simulated runs.
 
 use super::{DerivedFormulas, Outcome, Statement, prove};
 use crate::dynamics::{Dynamics, Formulas, Masses};

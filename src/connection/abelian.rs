@@ -1,4 +1,4 @@
-//! The connection of one angle or one position.
+//! The connection of one angle or one position: phases of closed paths by line integrals and by Stokes' theorem.
 
 use super::path::{Compiled, Path};
 use super::quadrature::{double_integral, integral};

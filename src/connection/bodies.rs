@@ -1,4 +1,4 @@
-//! The kinetic energy of bodies that float freely in the plane.
+//! The kinetic energy of planar bodies that float freely.
 
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};

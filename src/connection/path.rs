@@ -1,4 +1,4 @@
-//! How a shape changes in time.
+//! A path in shape space: the shape as a function of time.
 
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Graph, NodeId, Program, Symbol};

@@ -1,4 +1,4 @@
-//! Integrals of smooth functions, to rounding.
+//! Composite Gauss–Legendre quadrature, with panels halved until only rounding is left.
 
 use crate::error::{Error, Result};
 use std::sync::LazyLock;

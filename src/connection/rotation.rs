@@ -1,4 +1,4 @@
-//! The connection of an orientation in space.
+//! The connection of an orientation in space: rotations by integration of Ṙ = R·ω^.
 
 use super::path::{Compiled, Path};
 use super::space;

@@ -1,4 +1,4 @@
-//! One constraint with everything that follows from it.
+//! The description of one constraint: its forms, its derivatives and its coefficient.
 
 use super::Jacobian;
 use super::jacobian::rates;

@@ -1,4 +1,4 @@
-//! Everything that follows from a model.
+//! The description of a model: everything that follows from it, in formulas.
 
 use super::{ConstraintEntry, CreepLimits, Signature, Structure, Symbols};
 use crate::effects::Applied;

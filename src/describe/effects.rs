@@ -1,4 +1,4 @@
-//! The list of effects.
+//! The list of effects, as text and as JSON.
 
 use super::page::Page;
 use super::vehicles::{sample_train, tractors};

@@ -1,4 +1,4 @@
-//! General configurations of a model, at which ranks and brackets are taken exactly.
+//! General configurations of a model, at which ranks and Lie brackets are taken exactly.
 
 use crate::error::Result;
 use crate::formula::{Exact, Expr, Scalar, Symbol};

@@ -1,4 +1,4 @@
-//! The holonomic and the nonholonomic constraints of a model.
+//! The holonomic and the nonholonomic constraints of a model, by growth vector and integrals.
 
 use super::found::Found;
 use crate::formula::Expr;

@@ -1,4 +1,4 @@
-//! The partial derivatives of a constraint.
+//! The Jacobian of a constraint: its partial derivatives by coordinates, rates and coefficient.
 
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Constraint, Row};

@@ -1,4 +1,4 @@
-//! What a model is, in formulas a person can read: the work behind `describe`, `vehicles` and `effects`.
+//! A model described in formulas a person can read: the work behind `describe`, `vehicles` and `effects`.
 //!
 //! A [`Description`] holds everything that follows from a model; [`text`], [`latex`] and [`json`] write it
 //! down. [`vehicles_text`] and [`effects_text`] list the catalogues, each with a `_json` sister.

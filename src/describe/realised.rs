@@ -1,4 +1,4 @@
-//! Which coefficients of creep make the motion of a model, given what it measures.
+//! The coefficients of creep that make the motion of a model, given what it measures.
 
 use super::Signature;
 use super::found::Found;

@@ -1,4 +1,4 @@
-//! The coefficient of a constraint in the model as it stands, and what it is called.
+//! The coefficient of a constraint in the model as it stands, and the regime it lies in.
 
 use crate::formula::Symbol;
 use crate::mechanism::{ConstraintType, Landmark, Limits, Regimes, RotationRegime, TraverseRegime};

@@ -1,4 +1,4 @@
-//! How many coefficients of each form.
+//! The signature RᵏTᵐ: the number of coefficients of each form.
 
 use crate::mechanism::{Constraint, counted};
 use std::fmt;

@@ -1,4 +1,4 @@
-//! What the constraints of a model forbid, and which coefficients of creep make its motion.
+//! The structure of a model: its holonomic and nonholonomic part, and its signature by ranks.
 
 use super::Signature;
 use super::found::Found;

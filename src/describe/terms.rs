@@ -1,4 +1,4 @@
-//! Long formulas in LaTeX, broken between their terms.
+//! Long formulas in LaTeX, broken into lines between their terms.
 
 use crate::formula::{Expr, Node};
 

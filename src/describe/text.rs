@@ -1,4 +1,4 @@
-//! A description for a terminal.
+//! A description as text for a terminal.
 
 use super::page::Page;
 use super::structure::Line;

@@ -1,4 +1,4 @@
-//! The list of vehicles.
+//! The list of vehicles, as text and as JSON.
 
 use super::Signature;
 use super::jacobian::rates;

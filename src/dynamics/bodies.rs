@@ -1,4 +1,4 @@
-//! Bodies and what turns in them, with their kinetic energy.
+//! The bodies of a vehicle and what turns in them, with their kinetic energy.
 
 use super::masses::{inertia_of, symbols};
 use crate::formula::{Expr, Symbol};

@@ -1,4 +1,4 @@
-//! What a contact slips by, and the law of its force.
+//! A contact with the ground: its slip, and the law of its force.
 
 use super::Law;
 use crate::formula::{Expr, Symbol};

@@ -1,4 +1,4 @@
-//! The equations of motion by derivatives of the kinetic energy.
+//! Lagrange's equations with constraints: M·q̈ + h = Q, by derivatives of the kinetic energy.
 
 use super::{Dynamics, Law};
 use crate::error::Result;

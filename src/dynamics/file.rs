@@ -1,4 +1,4 @@
-//! Dynamics from a model file.
+//! Dynamics read from a model file, and its simulation.
 
 use super::contact::slug;
 use super::forces::roles;

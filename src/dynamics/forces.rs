@@ -1,4 +1,4 @@
-//! Forces and torques that drive a vehicle.
+//! The forces and torques that drive a vehicle, by the inputs that give them.
 
 use super::bodies::{Body, rolling_rates};
 use crate::formula::{Expr, Symbol};

@@ -1,4 +1,4 @@
-//! Masses and moments of inertia.
+//! The masses and moments of inertia of a vehicle.
 
 use crate::formula::Symbol;
 use std::collections::BTreeMap;

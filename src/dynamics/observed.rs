@@ -1,4 +1,4 @@
-//! What one sees of a motion with forces: speeds, slips, energy and power.
+//! The observed quantities of a motion with forces: speeds, slips, energy and power.
 
 use super::{Dynamics, Law};
 use crate::error::{Error, Result};

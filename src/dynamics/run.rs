@@ -1,4 +1,4 @@
-//! A motion with forces, as a table.
+//! The simulation of a motion with forces, as a table.
 
 use super::{Dynamics, Start, System};
 use crate::error::{Error, Result};

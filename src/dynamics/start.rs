@@ -1,4 +1,4 @@
-//! Where a motion with forces begins.
+//! The initial state of a motion with forces, completed by contacts without slip.
 
 use super::system::Work;
 use super::{Dynamics, System};

@@ -1,4 +1,5 @@
-//! The equations of motion compiled: accelerations, and their exact slopes for a stiff integration.
+//! The equations of motion compiled: accelerations by elimination or least squares, and exact slopes for a stiff
+//! integration.
 
 use super::derive::Derived;
 use super::observed::{Observed, undefined};

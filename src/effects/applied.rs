@@ -1,4 +1,4 @@
-//! An effect that stands in a model.
+//! An effect that stands in a model, with its values.
 
 use super::Effect;
 use crate::formula::{Expr, Symbol};

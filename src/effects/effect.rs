@@ -1,4 +1,4 @@
-//! What an effect is made of.
+//! An effect: the definitions it changes, its parameters, its states.
 
 use crate::formula::{Expr, Symbol};
 use crate::provenance::Origin;

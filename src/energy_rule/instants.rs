@@ -1,4 +1,4 @@
-//! Rates and energy of the wheel of Fig. 7 at an instant.
+//! Rates and energy of the wheel of Fig. 7 at an instant, under a reading of the energy rule.
 
 use super::readings::{DATA, at, wheel};
 use crate::energy_rule::Reading;

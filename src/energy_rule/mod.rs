@@ -1,4 +1,4 @@
-//! The paper's energy rule: Fig. 7 under both readings.
+//! The paper's energy rule: the motion of Fig. 7 under each reading of the word "conservative".
 
 pub(crate) mod instants;
 pub(crate) mod readings;

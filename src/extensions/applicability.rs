@@ -1,4 +1,4 @@
-//! The vehicles that an effect applies to.
+//! The vehicles that a user's effect applies to, and the definitions it rewrites there.
 
 use super::test_vehicle::{TestVehicle, reached, visible};
 use crate::effects::{Applied, Effect};

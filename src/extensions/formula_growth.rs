@@ -1,4 +1,4 @@
-//! How far formulas grow when every effect is put into them: a few short ones may fill any memory.
+//! The growth of formulas when every effect is put into them: a bound on operations, depth and degree.
 
 use super::test_vehicle::TestVehicle;
 use crate::effects::Effect;

@@ -1,4 +1,4 @@
-//! Names in a user's formulas.
+//! The check of names in a user's formulas.
 
 use super::applicability::Place;
 use super::test_vehicle::TestVehicle;

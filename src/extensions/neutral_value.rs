@@ -1,4 +1,4 @@
-//! An effect changes nothing where its parameters are neutral: the fit begins there and asks what leaving it gains.
+//! The check that an effect changes nothing where its parameters are neutral: the fit begins there.
 
 use crate::error::Result;
 use crate::files::{FormulaText, OwnEffect};

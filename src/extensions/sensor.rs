@@ -1,4 +1,4 @@
-//! What a model can measure: the pose, and nothing that moves it.
+//! The check that a user's effect lets the sensor see the pose alone, and keeps the delay constant.
 
 use super::applicability::Place;
 use super::test_vehicle::reached;

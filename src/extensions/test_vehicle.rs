@@ -1,4 +1,4 @@
-//! A vehicle that effects are held against.
+//! A test vehicle: a model without effects, with the unit of every name, against which a user's effects are checked.
 
 use crate::describe::Symbols;
 use crate::error::Result;

@@ -1,4 +1,4 @@
-//! Units of a user's formulas.
+//! The check of units in a user's formulas.
 
 use super::applicability::Place;
 use crate::error::{Error, Result};

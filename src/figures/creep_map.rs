@@ -1,4 +1,4 @@
-//! Where (24) and (25) are one-to-one: coefficients to velocities of the single wheel.
+//! The creep map (24)–(25): where coefficients and velocities of the single wheel are one to one.
 
 use super::{Data, Drawing, Figure, Options, fixed, page, plane};
 use crate::error::Result;

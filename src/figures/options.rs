@@ -1,4 +1,4 @@
-//! What a figure is drawn with.
+//! The options a figure is drawn with.
 
 use crate::energy_rule::Reading;
 use crate::error::{Error, Result};

@@ -1,4 +1,4 @@
-//! What each reading of "conservative" makes of the paper's sentences about Fig. 7.
+//! The sentences of the paper about Fig. 7 under each reading of the word "conservative".
 
 use super::{Data, fixed};
 use crate::energy_rule::{EndPoint, FIG7_DURATION, Instantaneous, Reading, fig7_case, fig7_instants, fig7_path};

@@ -1,4 +1,4 @@
-//! Which symbols of a formula are angles.
+//! The symbols of a formula that are angles.
 
 use super::{Expr, Fun, Node, Symbol};
 use std::collections::BTreeSet;

@@ -1,4 +1,4 @@
-//! Derivatives of formulas, taken once on the graph.
+//! Symbolic derivatives of formulas, taken once on the shared graph.
 
 use super::{Expr, Fun, Graph, NodeId, Op, Symbol};
 use std::collections::HashMap;

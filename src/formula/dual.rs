@@ -1,4 +1,4 @@
-//! Dual numbers as a carrier: exact first and second derivatives.
+//! Dual numbers as a carrier: exact first and second derivatives by automatic differentiation.
 
 use super::rational::{BigRational, nearest_f64};
 use super::{Fun, Scalar, float};

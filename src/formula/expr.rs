@@ -1,4 +1,4 @@
-//! Expressions as data.
+//! Expressions: formulas as data.
 
 use super::{BigInt, BigRational, Fun, Scalar, Symbol};
 use num_traits::{One, Signed, Zero};

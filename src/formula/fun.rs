@@ -1,4 +1,4 @@
-//! The functions of the language.
+//! The elementary functions of the language.
 
 /// A function of one argument; angles are in radians.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -1,4 +1,4 @@
-//! Expressions as a graph in which equal sub-expressions stand once.
+//! Expressions as a hash-consed graph, in which equal sub-expressions stand once.
 
 use super::{BigRational, Expr, Fun, Node, Symbol};
 use num_traits::{One, Signed, Zero};

@@ -1,4 +1,4 @@
-//! Expressions to LaTeX.
+//! Expressions written as LaTeX.
 
 use super::markup::Markup;
 use super::{Expr, Fun, Symbol};

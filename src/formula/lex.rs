@@ -1,4 +1,4 @@
-//! Text to tokens.
+//! The lexer: text to tokens.
 
 use super::symbol::{is_inner, is_start};
 use super::{BigInt, BigRational, Symbol};

@@ -1,4 +1,4 @@
-//! Expressions to a notation for the page; what notations differ in is data.
+//! Expressions written in a notation for the page; the differences between notations are data.
 
 use super::print::{Bind, bind, decimal};
 use super::{Expr, Fun, Node, Symbol};

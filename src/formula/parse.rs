@@ -1,4 +1,4 @@
-//! Tokens to expressions, by precedence climbing.
+//! The parser: tokens to expressions, by precedence climbing.
 
 use super::expr::MAX_DEPTH;
 use super::lex::{Token, TokenKind, caret, tokens};

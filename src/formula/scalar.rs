@@ -1,4 +1,4 @@
-//! What a formula can be evaluated in.
+//! The trait of carriers: number types in which a formula can be evaluated.
 
 use super::{BigRational, Fun};
 

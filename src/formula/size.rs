@@ -1,4 +1,4 @@
-//! How much work a formula makes.
+//! The size of a formula: operations, nesting and degree.
 
 use super::{Expr, Node, Symbol};
 

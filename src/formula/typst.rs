@@ -1,4 +1,4 @@
-//! Expressions to Typst.
+//! Expressions written as Typst.
 
 use super::markup::Markup;
 use super::{Expr, Fun};

@@ -1,4 +1,4 @@
-//! A constraint of a mechanism.
+//! A constraint of a mechanism: one of the generic forms with its slots filled in, its name and its creep coefficient.
 
 use super::{ConstraintType, Form, Momentum, Part, Row};
 use crate::error::{Error, Result};

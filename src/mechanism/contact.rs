@@ -1,4 +1,4 @@
-//! What the contact of a wheel puts in the slots of the two generic forms.
+//! The contact of a wheel with the ground: the terms it puts in the slots of the two generic forms, (13) and (20).
 
 use super::{Constraint, ConstraintType, Form, Heading, Part, Row, Velocity};
 use crate::formula::{Expr, Fun, Symbol};

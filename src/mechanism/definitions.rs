@@ -1,4 +1,4 @@
-//! Named formulas that refer to one another.
+//! Named formulas that refer to one another, sorted topologically and evaluated in any carrier.
 
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Graph, Scalar, Symbol};

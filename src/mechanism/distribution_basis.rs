@@ -1,4 +1,5 @@
-//! The motions that constraints leave, as vector fields near a point.
+//! A basis of the distribution Δ = ker A(q) near a point, as power series, by Gauss–Jordan elimination over the local
+//! ring.
 
 use super::point::not_exact;
 use super::vector_field::Field;

@@ -1,4 +1,4 @@
-//! Exact linear algebra: what is independent, and what a set of linear forms sends to zero.
+//! Exact linear algebra over the rationals: rank and null space by Gauss–Jordan elimination with whole numbers.
 
 use crate::formula::{BigInt, BigRational};
 use num_integer::Integer;

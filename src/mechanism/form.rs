@@ -1,4 +1,4 @@
-//! A generic form with its slots filled in.
+//! A generic form with its slots filled in, as a linear form in the rates.
 
 use super::constraint_type::COEFFICIENT;
 use super::zero_test::vanishes;

@@ -1,4 +1,4 @@
-//! How the directions of motion grow under brackets: the growth vector at a point, exactly.
+//! The growth vector of a distribution at a point, by exact Lie brackets (Chow's theorem).
 
 use super::distribution_basis::{Frame, coefficients, frame, rank_changes, shape_coordinates};
 use super::exact_linear_algebra::Echelon;

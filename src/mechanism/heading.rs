@@ -1,4 +1,4 @@
-//! A direction in the plane.
+//! A direction in the plane, as a sum of angles, with its unit vectors.
 
 use crate::formula::{Expr, Fun, Symbol};
 

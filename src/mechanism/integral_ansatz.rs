@@ -1,4 +1,4 @@
-//! The functions among which integrals are looked for.
+//! The ansatz for holonomic integrals: linear combinations of products of parameters, coordinates, sines and cosines.
 
 use super::Point;
 use super::exact_linear_algebra::{Echelon, dot, whole_and_positive};

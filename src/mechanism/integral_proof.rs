@@ -1,4 +1,4 @@
-//! Whether a function is constant under constraints, for all configurations.
+//! Proof that a function is constant under the constraints, for all configurations: bordered minors vanish identically.
 
 use super::Row;
 use super::exact_linear_algebra::Echelon;

@@ -1,4 +1,4 @@
-//! Holonomic integrals: functions of the coordinates that the constraints keep constant, found and proved.
+//! Holonomic integrals: functions of the coordinates that the constraints keep constant, found by an ansatz and proved.
 
 use super::distribution_basis::coefficients;
 use super::exact_linear_algebra::Echelon;

@@ -1,4 +1,4 @@
-//! Coordinates with the constraints on their rates.
+//! A mechanism: coordinates with the constraints on their rates.
 
 use super::{Constraint, Row};
 use crate::formula::{Expr, Symbol};

@@ -1,4 +1,4 @@
-//! Momentum maps: what a symmetry of the kinetic energy conserves.
+//! Momentum maps: the quantity that a symmetry of the kinetic energy conserves (Noether's theorem).
 
 use super::zero_test::vanishes;
 use super::{Part, Row};

@@ -1,4 +1,5 @@
-//! How many constraints of a mechanism restrict where it can go, and how many only how it gets there.
+//! The numbers of holonomic and nonholonomic constraints of a mechanism, by brackets and by integrals (Frobenius'
+//! theorem).
 
 use super::{Growth, Integral, Mechanism, Point};
 use crate::error::Result;

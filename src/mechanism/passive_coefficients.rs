@@ -1,4 +1,4 @@
-//! Formulas of passive coefficients, as short as they get.
+//! Formulas of passive coefficients of creep: those that follow from the coefficients that make the motion.
 
 use super::{Mechanism, Realisation, Row, solve};
 use crate::formula::{Expr, Fun, Node, Polynomial, Symbol};

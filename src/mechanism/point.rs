@@ -1,4 +1,4 @@
-//! A point at which a mechanism is looked at: exact values of its symbols.
+//! A configuration of a mechanism: exact values of its symbols.
 
 use super::Row;
 use crate::error::{Error, Result};

@@ -1,4 +1,4 @@
-//! Random rational points at which formulas are looked at.
+//! Random rational points for evaluating formulas exactly, the same in every run.
 
 use super::Point;
 use crate::formula::{BigRational, Exact, Expr, Symbol};

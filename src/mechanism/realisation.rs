@@ -1,4 +1,4 @@
-//! Which coefficients of creep make a motion what it is, given what is measured: the signature RᵏTᵐ by ranks.
+//! The sets of creep coefficients that realise a motion, given what is measured: the signature RᵏTᵐ by exact ranks.
 
 use super::exact_linear_algebra::{Echelon, dot};
 use super::{Mechanism, Point, Row, rank};

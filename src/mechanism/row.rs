@@ -1,4 +1,4 @@
-//! A linear form in rates.
+//! A row of the Pfaffian matrix: a linear form in rates with formulas as coefficients.
 
 use crate::formula::{Expr, Polynomial, Symbol};
 use std::fmt;

@@ -1,4 +1,4 @@
-//! What may stand in a slot: a factor, or a linear form in rates.
+//! The value of a slot: a factor, or a linear form in rates.
 
 use super::Row;
 use crate::error::{Error, Result};

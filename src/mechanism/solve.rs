@@ -1,4 +1,4 @@
-//! Rows solved for the rates they determine.
+//! Systems of linear forms solved symbolically for the rates they determine, by Gauss–Jordan elimination.
 //!
 //! ```
 //! use creepage::mechanism::{Row, solve};

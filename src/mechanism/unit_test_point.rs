@@ -1,4 +1,4 @@
-//! Definitions at a point, to see whether a formula vanishes everywhere.
+//! Identity testing by evaluation: a formula that vanishes at several fixed points is taken to vanish everywhere.
 
 use super::{Definitions, Row};
 use crate::formula::{Expr, Symbol};

@@ -1,4 +1,4 @@
-//! Vector fields near a point, and their brackets, in whole numbers.
+//! Vector fields near a point as Taylor series with whole coefficients, and their Lie brackets.
 
 use super::exact_linear_algebra::common_factor;
 use crate::formula::{BigInt, BigRational, Jet, Layout};

@@ -1,4 +1,4 @@
-//! Whether a formula is zero everywhere.
+//! The zero test: whether a formula is zero for all values of its symbols, decided by the normal form.
 
 use crate::formula::{Expr, Normal, Scalar};
 

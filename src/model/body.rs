@@ -1,4 +1,4 @@
-//! The motion of the body and of what follows it, from the wheels' constraints.
+//! The motion of the body and of what follows it, solved from the wheels' constraints.
 
 use super::build::moving;
 use super::constraints::{

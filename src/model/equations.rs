@@ -1,4 +1,4 @@
-//! The equations of motion of a model, compiled.
+//! The equations of motion of a model with their exact derivatives, compiled to programs over lanes.
 
 use super::trailer::trailer_heading;
 use super::vehicle_model::Model;

@@ -1,4 +1,4 @@
-//! What of a model is still to be fitted.
+//! The free part of a model: the effects whose values are still to be fitted.
 
 use super::equations::Equations;
 use super::vehicle_model::Model;

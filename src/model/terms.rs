@@ -1,4 +1,4 @@
-//! Terms without a name: what a constraint might miss when no effect of the library explains it.
+//! Terms without a name: a library of monomials in speed, yaw rate, steering and heading for unknown effects.
 
 use super::vehicle_model::Model;
 use crate::effects::{Effect, Parameter};

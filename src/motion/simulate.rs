@@ -1,4 +1,4 @@
-//! What a model does under given inputs, as a table.
+//! Simulation of a model under given inputs, as the table a logger would write.
 
 use super::trajectory::simulate_by;
 use super::{Drive, Integrator, initial_hidden, visible_state};

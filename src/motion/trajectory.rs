@@ -1,4 +1,4 @@
-//! Trajectories of a model and their exact sensitivities.
+//! Trajectories of a model and their exact sensitivities at given times.
 
 use super::integrators::radau::{Differences, Retimed, Slopes};
 use super::{Drive, Integrator};

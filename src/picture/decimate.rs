@@ -1,4 +1,4 @@
-//! Fewer points with the same look, so that a run of a million rows still gives a small picture.
+//! Decimation of curves: extremes of every pixel column, and the Douglas–Peucker algorithm for paths.
 
 /// A time series in pixels as the smallest and largest value of every pixel column, in the order they came.
 ///

@@ -1,4 +1,4 @@
-//! Roles of a model file matched with the columns of a log.
+//! The roles of a model file matched with the columns of a log by their names.
 
 use super::column_names::rank;
 

@@ -1,4 +1,4 @@
-//! How logs usually call what a model file needs.
+//! The usual column names of logs for the roles of a model file.
 
 /// A role of `[columns]` and the names that logs give it, the most usual first.
 struct Usual {

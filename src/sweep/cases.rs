@@ -1,4 +1,4 @@
-//! The values of a case: a point of the grid and a draw.
+//! The values of a case: a point of the grid and a random draw, reproducible from the seed and the case's number.
 
 use super::names::Allowed;
 use crate::files::{AxisValues, Distribution, SweepFile};

@@ -1,4 +1,4 @@
-//! Parts of a sweep put together.
+//! The tables of a sweep's parts, joined into one.
 
 use super::prepared_sweep::Sweep;
 use super::table::{Format, header};

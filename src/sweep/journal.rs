@@ -1,4 +1,4 @@
-//! A table under way: a file beside the output that a later run goes on with.
+//! The journal of a sweep: rows beside the output, with a checksum, from which a later run goes on after a kill.
 
 use super::table::Format;
 use crate::error::{Error, Result};

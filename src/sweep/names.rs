@@ -1,4 +1,4 @@
-//! What a sweep varies, held against the model.
+//! The names of what a sweep varies, checked against the model.
 
 use crate::error::{Error, Result};
 use crate::files::{ModelFile, Spot, advice, shown};

@@ -1,4 +1,4 @@
-//! Tables as Apache Parquet, by the crate `parquet` without its Arrow half.
+//! The table of a sweep as Apache Parquet, by the crate `parquet` without its Arrow half.
 
 use super::table::STATUS;
 use crate::error::{Error, Result};

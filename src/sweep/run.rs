@@ -1,4 +1,4 @@
-//! Running a sweep, block by block, in the order of the cases.
+//! The run of a sweep, block by block on all cores, written in the order of the cases.
 
 use super::journal::Journal;
 use super::prepared_sweep::Sweep;

@@ -1,4 +1,4 @@
-//! A part of a sweep.
+//! A shard of a sweep: the I-th of N parts.
 
 use std::ops::Range;
 use std::str::FromStr;

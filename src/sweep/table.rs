@@ -1,4 +1,4 @@
-//! What a sweep writes, as rows of numbers and as text.
+//! The table of a sweep: rows of numbers, and their text as CSV.
 
 use super::prepared_sweep::Sweep;
 use crate::error::{Error, Result};

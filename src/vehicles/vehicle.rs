@@ -1,4 +1,4 @@
-//! What a vehicle is made of.
+//! A vehicle: a body with wheels, trailers, inputs and parameters.
 
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::Constraint;

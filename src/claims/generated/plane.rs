@@ -1,4 +1,4 @@
-//! Vectors of exact numbers.
+//! Vectors of the plane in exact numbers.
 
 use crate::formula::{Exact, Fun, Scalar};
 

@@ -1,4 +1,4 @@
-//! How vehicles and their motions are drawn.
+//! Strategies of property-based testing (`proptest`) for vehicles and their motions.
 
 use super::moving::Moving;
 use super::vehicle::{Drive, Further, Generated, Own, Stand};

@@ -1,4 +1,4 @@
-//! The ledger for scripts.
+//! The ledger of claims as JSON, for scripts.
 
 use crate::claims::{Claim, Entry, Evidence, Ledger, Outcome, Status};
 use serde_json::{Map, Value, json};

@@ -1,4 +1,4 @@
-//! The ledger written down.
+//! The ledger of claims in its written forms: text, JSON, the table of contents and the errata.
 
 mod contents;
 mod errata;

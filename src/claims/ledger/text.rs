@@ -1,4 +1,4 @@
-//! The ledger for a terminal.
+//! The ledger of claims as text for a terminal.
 
 use crate::claims::{Entry, Evidence, Gives, Ledger, Outcome, Shown, Status};
 use std::fmt::Write;

@@ -1,4 +1,4 @@
-//! Where formulas are undefined.
+//! The domain of a formula: the places at which it is undefined, by the zeros of its divisors.
 
 use crate::claims::{Counterexample, DerivedFormulas, Equation, Outcome, Point, Statement, domains, simplest, written};
 use crate::formula::{Exact, Expr, Fun, Node, Normal, Scalar, Symbol};

@@ -1,4 +1,4 @@
-//! Section 1 and (18): what the laws of contact say.
+//! Section 1 and (18): the equations of the laws of contact.
 
 use crate::claims::{Claim, DerivedFormulas, Domain, Sampling, Statement, Status, at_points, proving};
 use crate::dynamics::laws;

@@ -1,4 +1,4 @@
-//! The remarks on limits: what a coefficient is called.
+//! The remarks on limits: the names of the regimes of creep.
 
 use crate::claims::{Claim, Fault, Outcome, Sampling, Statement, Status, Verdict};
 use crate::mechanism::{Limits, RotationMotion, RotationRegime, TraverseMotion, TraverseRegime};

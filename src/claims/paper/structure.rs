@@ -1,4 +1,4 @@
-//! What is holonomic and what is not: growth vectors, integrals, degrees of nonholonomy, in exact arithmetic.
+//! The holonomic and the nonholonomic part: growth vectors, integrals, degrees of nonholonomy, in exact arithmetic.
 
 use crate::claims::{Claim, DerivedFormulas, Outcome, Sampling, Statement, Status, proving};
 use crate::formula::{Exact, Expr, Node, Scalar, Symbol};

@@ -1,4 +1,4 @@
-//! What the effects of the library do to a vehicle: they know quantities by their letters, L for a wheelbase.
+//! The check that the effects of the library mean on a user's vehicle what they say.
 
 use crate::effects;
 use crate::effects::Effect;

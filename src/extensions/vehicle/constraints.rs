@@ -1,4 +1,4 @@
-//! Constraints beside those of wheels: of known names, of one unit, in rates of coordinates.
+//! The check of constraints beside those of wheels: of known names, of one unit, in rates of coordinates.
 
 use crate::describe::universal;
 use crate::error::Result;

@@ -1,4 +1,4 @@
-//! How a vehicle moves: determined by its constraints, from everything it asks for and nothing more.
+//! The check that the constraints of a user's vehicle determine its motion from the inputs it declares.
 
 use crate::error::{Error, Result};
 use crate::extensions::test_vehicle::{reached, visible};

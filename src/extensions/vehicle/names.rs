@@ -1,4 +1,4 @@
-//! Names in the description of a vehicle.
+//! The check of names in the description of a user's vehicle.
 
 use crate::describe::universal;
 use crate::error::Result;

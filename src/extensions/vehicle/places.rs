@@ -1,4 +1,4 @@
-//! Places of wheels and hitches: they stay where they are on the body.
+//! The check that wheels and hitches of a user's vehicle keep their places on the body.
 
 use crate::error::Result;
 use crate::files::{FormulaText, OwnVehicle};

@@ -1,4 +1,4 @@
-//! Units in the description of a vehicle.
+//! The check of units in the description of a user's vehicle.
 
 use crate::error::{Error, Result};
 use crate::extensions::units::mixed;

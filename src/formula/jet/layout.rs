@@ -1,4 +1,4 @@
-//! Which monomials a truncated power series has, and how they multiply.
+//! The monomials of a truncated power series, and the table of their products.
 
 use crate::formula::Symbol;
 use std::collections::HashMap;

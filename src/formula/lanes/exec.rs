@@ -1,4 +1,4 @@
-//! Running steps over registers of lanes.
+//! The interpreter of steps over registers of lanes.
 
 use super::isa::Kernel;
 use super::math;

@@ -1,4 +1,4 @@
-//! From a program's instructions to steps over registers.
+//! Lowering: from a program's instructions to steps over registers, with constants folded and products fused.
 
 use super::exec::{Step, execute};
 use super::lane_program::{Changes, Lanes};

@@ -1,4 +1,4 @@
-//! Memory for lanes.
+//! Memory for lanes, aligned to cache lines.
 
 use std::ops::{Deref, DerefMut};
 

@@ -1,4 +1,4 @@
-//! What polynomials of a normal form are made of: atoms and their products.
+//! Atoms, the indeterminates of a normal form, and their products.
 
 use super::fraction::Fraction;
 use crate::formula::{Expr, Fun, Symbol};

@@ -1,4 +1,4 @@
-//! The limits between creep and sliding.
+//! The limits e₁ and e₂ between creep and sliding.
 
 use crate::error::{Error, Result};
 use std::fmt;

@@ -1,4 +1,4 @@
-//! Regimes of rolling.
+//! Regimes of rotation creep: skidding, forward creep, ideal rolling, backward creep, slipping.
 
 use super::coefficient::coefficient;
 use super::limits::Limits;

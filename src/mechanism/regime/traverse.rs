@@ -1,4 +1,4 @@
-//! Regimes of direction.
+//! Regimes of traverse creep: side-slip, creep to the right, ideal, creep to the left.
 
 use super::coefficient::coefficient;
 use super::limits::Limits;

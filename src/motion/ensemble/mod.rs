@@ -1,4 +1,5 @@
-//! Many trajectories of one model: blocks of lanes, steps of order 8 or 4, and a check of every result.
+//! Many trajectories of one model: blocks of lanes, Runge–Kutta steps of order 8 or 4, and an error estimate for every
+//! case.
 
 mod case;
 mod equations;

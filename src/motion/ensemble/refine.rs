@@ -1,4 +1,4 @@
-//! Runs with N and 2N steps, until they agree.
+//! Richardson extrapolation: runs with N and 2N steps, doubled until their difference is small enough.
 
 use super::case::Case;
 use super::equations::LaneEquations;

@@ -1,4 +1,4 @@
-//! What rounding adds to the error of a run.
+//! The rounding error of a run: the least error that a finer step can still reach.
 
 use super::lanes::{LANES, Lane};
 use super::steps::States;

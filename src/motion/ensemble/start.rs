@@ -1,4 +1,4 @@
-//! The equations of one case at a time, by which the states are found that are measured as they are to be.
+//! The equations of one case at a time, by which the sensor is inverted at the start of a block.
 
 use super::equations::Varied;
 use crate::error::Result;

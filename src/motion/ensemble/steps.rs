@@ -1,4 +1,4 @@
-//! Steps of fixed length on a block of lanes.
+//! Explicit Runge–Kutta steps of fixed length on a block of lanes, with compensated sums.
 
 use super::equations::LaneEquations;
 use super::lanes::{LANES, Lane};

@@ -1,4 +1,4 @@
-//! The cubic spline through samples, with a free third derivative at the ends ("not a knot").
+//! The cubic spline through samples with the not-a-knot condition at its ends.
 
 /// Second derivatives at the knots of the twice continuously differentiable cubic spline.
 ///

@@ -1,4 +1,4 @@
-//! What drives a vehicle: inputs as functions of time.
+//! The inputs that drive a vehicle, as functions of time.
 
 use crate::error::{Error, Result};
 use crate::formula::{Changes, Expr, Graph, Isa, Lanes, Program, Symbol};

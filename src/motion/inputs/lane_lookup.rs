@@ -1,4 +1,4 @@
-//! Signals looked up at several times side by side.
+//! Signals looked up at several times side by side, each lane with an interval of its own.
 
 use crate::motion::Signals;
 

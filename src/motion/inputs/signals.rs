@@ -1,4 +1,4 @@
-//! Logged inputs as smooth functions of time.
+//! Logged inputs as smooth functions of time: a cubic spline through samples, or through the integral of means.
 
 use super::cubic_spline::curvatures;
 use crate::files::InputTiming;

@@ -1,4 +1,4 @@
-//! Coefficients of explicit Runge–Kutta methods.
+//! Butcher tableaux of explicit Runge–Kutta methods: the classical order 4, and order 8 of Dormand and Prince.
 
 /// An explicit Runge–Kutta method with steps of given length.
 ///

@@ -1,4 +1,5 @@
-//! Where a trajectory begins: hidden states at rest with respect to their inputs, visible ones from a measurement.
+//! The initial state of a trajectory: hidden states in equilibrium, visible ones from a measurement, by Newton's
+//! method.
 
 use crate::error::{Error, Result};
 use crate::model::Equations;

@@ -1,4 +1,4 @@
-//! Spans far longer than what a state forgets in: steps that follow its limit.
+//! Exponential time differencing for spans far longer than a time constant: steps that follow the state's slow limit.
 
 use super::exponential_weights::{Row, SWEEPS, Weights};
 use super::states::{Arcs, take};

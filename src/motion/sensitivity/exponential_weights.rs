@@ -1,4 +1,4 @@
-//! One step of a state that may forget within it.
+//! The weights of exponential time differencing (ETDRK4, Cox and Matthews 2002), with the stages of a collocation.
 
 /// How often the course of N within a step is improved. It comes right for a state that follows inputs in the second sweep,
 /// for its slope by its time constant in the third, for what hangs on that in the fourth: with three sweeps, slopes by a time

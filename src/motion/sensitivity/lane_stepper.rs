@@ -1,4 +1,4 @@
-//! Fixed steps with exact sensitivities along several arcs side by side.
+//! Runge–Kutta steps of order four for states and their exact sensitivities, several trajectories side by side.
 
 use super::exponential_stepper::{Forgetting, Spans};
 use super::states::{Arcs, add, sum, take};

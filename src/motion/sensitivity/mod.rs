@@ -1,4 +1,4 @@
-//! Trajectories with exact derivatives: the variational equations beside the model.
+//! Trajectories with exact derivatives, by the variational equations beside those of the model.
 
 pub(crate) mod equilibrium;
 pub(crate) mod exponential_stepper;

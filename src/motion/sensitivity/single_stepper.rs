@@ -1,4 +1,4 @@
-//! One arc at a time.
+//! A stepper for one trajectory at a time: the lane stepper with a single lane.
 
 use super::lane_stepper::LaneStepper;
 use super::states::Arc;

@@ -1,4 +1,4 @@
-//! Arcs side by side, and their sums.
+//! States with their sensitivities, of one trajectory and of several side by side, and sums of them.
 
 /// State and sensitivities at a time; S is stored row by row, with
 /// [`Equations::visible`](crate::model::Equations::visible) + p columns.

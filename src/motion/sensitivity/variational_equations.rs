@@ -1,4 +1,4 @@
-//! The motion of arcs side by side, and how it hangs on where they start and on parameters.
+//! The variational equations S′ = J_z·S + J_p of several trajectories side by side.
 
 use super::states::{Arcs, add};
 use crate::model::{Equations, Workspace};

@@ -6,7 +6,7 @@ use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::effects::{Applied, all, named};
 use crate::files::ModelFile;
 use crate::model::{Equations, Model, known};
-use crate::motion::{Arc, Stepper, Timing};
+use crate::motion::{StateSensitivity, Stepper, Timing};
 use nalgebra::DMatrix;
 
 /// Effects that are free: of one value, of two, and of one again.
@@ -75,7 +75,7 @@ pub fn logged(
     let mut record = Record::new("run", time, vec![vec![]; 3], true, &inputs, Timing::Sample);
     let signals = record.signals.clone();
     let mut stepper = Stepper::new(equations, &signals, p);
-    let mut arc = Arc { z: begin.to_vec(), s: vec![] };
+    let mut arc = StateSensitivity { z: begin.to_vec(), s: vec![] };
     for i in 0..record.time.len() {
         let y = stepper.outputs(&arc.z);
         let noise = |c: usize| noise * ((i * i) as f64 + c as f64).sin();

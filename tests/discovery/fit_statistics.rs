@@ -16,7 +16,7 @@ use creepage::discrepancy::shooting::windows::WindowStates;
 use creepage::effects::{self, Applied};
 use creepage::formula::{Expr, Symbol};
 use creepage::model::{Equations, Model};
-use creepage::motion::{Arc, Stepper};
+use creepage::motion::{StateSensitivity, Stepper};
 use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen};
 use std::f64::consts::TAU;
 
@@ -77,7 +77,7 @@ impl Case {
         let pose = &self.starts[0][0];
         let mut hidden = hidden_states::at_rest(&self.equations, p, &mut stepper, record.time[0], pose).z;
         for i in 0..first {
-            let mut arc = Arc { z: [pose.clone(), hidden].concat(), s: vec![] };
+            let mut arc = StateSensitivity { z: [pose.clone(), hidden].concat(), s: vec![] };
             stepper.advance(&mut arc, record.time[i], record.time[i + 1]);
             hidden = arc.z[3..].to_vec();
         }
@@ -86,7 +86,7 @@ impl Case {
             if k == window {
                 (0..3).for_each(|i| z[i] += moved[i]);
             }
-            let mut arc = Arc { z: [z, hidden].concat(), s: vec![] };
+            let mut arc = StateSensitivity { z: [z, hidden].concat(), s: vec![] };
             let mut residuals = [vec![], vec![]];
             for i in rows.clone() {
                 let y = stepper.outputs(&arc.z)[..3].to_vec();

@@ -13,7 +13,7 @@ use crate::discrepancy::shooting::windows::WindowStates;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::{Equations, Model};
-use crate::motion::{Arc, Stepper};
+use crate::motion::{StateSensitivity, Stepper};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
@@ -110,7 +110,7 @@ impl Problem {
             let mut stepper = Stepper::new(equations, &signals, &[]);
             let first = segment.windows[0].start;
             let hidden = hidden_states::carried(equations, &[], record, first, &poses[0]);
-            let mut arc = Arc { z: [&poses[0][..], &hidden.z].concat(), s: vec![] };
+            let mut arc = StateSensitivity { z: [&poses[0][..], &hidden.z].concat(), s: vec![] };
             let mut of_segment = Vec::with_capacity(poses.len());
             for (k, rows) in segment.windows.iter().enumerate() {
                 of_segment.push(arc.z[..equations.visible].to_vec());

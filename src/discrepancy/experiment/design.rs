@@ -22,7 +22,7 @@ use crate::discrepancy::shooting::windows::plan;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
-use crate::motion::{Arc, Stepper, Timing};
+use crate::motion::{StateSensitivity, Stepper, Timing};
 use crate::number_format::significant;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -269,7 +269,7 @@ impl<'a> PredictedExperiment<'a> {
             )
             .z,
         );
-        let mut arc = Arc { z, s: vec![] };
+        let mut arc = StateSensitivity { z, s: vec![] };
         for i in 0..record.time.len() {
             let y = stepper.outputs(&arc.z);
             for c in 0..record.columns.len() {

@@ -4,7 +4,7 @@ use crate::discrepancy::record::angle::wrapped;
 use crate::discrepancy::record::local_polynomial;
 use crate::discrepancy::record::record::{Channel, Record};
 use crate::model::Equations;
-use crate::motion::{Arcs, LaneStepper, Stepper, initial_hidden};
+use crate::motion::{LaneStates, LaneStepper, Stepper, initial_hidden};
 use nalgebra::DVector;
 
 /// What is looked at of the poses, s.
@@ -76,7 +76,7 @@ impl<'a> Rows<'a> {
 
     fn side_by_side<const L: usize>(&self, p: [&[f64]; L], begin: [&[f64]; L]) -> Vec<Option<DVector<f64>>> {
         let mut stepper = LaneStepper::new(self.equations, &self.record.signals, p);
-        let Arcs { mut z, mut s } = Arcs::of(begin);
+        let LaneStates { mut z, mut s } = LaneStates::of(begin);
         let (time, channels) = (&self.record.time, self.record.channels());
         let mut found = [(); L].map(|()| Vec::with_capacity((self.last - self.first) * channels.len()));
         for i in self.first..self.last {

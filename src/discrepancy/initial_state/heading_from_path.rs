@@ -5,7 +5,7 @@ use crate::discrepancy::initial_state::pose::pose_of;
 use crate::discrepancy::record::angle::wrapped;
 use crate::discrepancy::record::record::Record;
 use crate::model::Equations;
-use crate::motion::{Arc, Stepper};
+use crate::motion::{StateSensitivity, Stepper};
 use nalgebra::{Rotation2, Vector2};
 use std::ops::Range;
 
@@ -106,7 +106,7 @@ fn path(equations: &Equations, record: &Record, rows: Range<usize>, heading: f64
     start[2] = heading;
     let start = pose_of(equations, &start);
     let hidden = hidden_states::carried(equations, &[], record, rows.start, &start);
-    let mut arc = Arc { z: [start, hidden.z].concat(), s: vec![] };
+    let mut arc = StateSensitivity { z: [start, hidden.z].concat(), s: vec![] };
     let mut found = Vec::with_capacity(rows.len());
     for i in rows.clone() {
         let y = stepper.outputs(&arc.z);
@@ -183,7 +183,7 @@ pub fn starts(equations: &Equations, record: &Record, windows: &[Range<usize>]) 
 fn turning(equations: &Equations, record: &Record, rows: Range<usize>, pose: &[f64]) -> f64 {
     let mut stepper = Stepper::new(equations, &record.signals, &[]);
     let hidden = hidden_states::at_rest(equations, &[], &mut stepper, record.time[rows.start], pose);
-    let mut arc = Arc { z: [pose, &hidden.z].concat(), s: vec![] };
+    let mut arc = StateSensitivity { z: [pose, &hidden.z].concat(), s: vec![] };
     rows.clone().for_each(|i| stepper.advance(&mut arc, record.time[i], record.time[i + 1]));
     arc.z[2] - pose[2]
 }

@@ -3,7 +3,7 @@
 use super::first_rows::Rows;
 use crate::discrepancy::record::record::Record;
 use crate::model::Equations;
-use crate::motion::Arc;
+use crate::motion::StateSensitivity;
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 /// A state of which less is left of how it began is taken as it was carried.
@@ -22,7 +22,7 @@ const ANYWHERE: f64 = 1.0;
 /// What is known beforehand of hidden states at a row.
 pub(crate) struct PropagatedState<'a> {
     /// The states, and their sensitivities.
-    pub arc: Arc,
+    pub arc: StateSensitivity,
     /// The pose there.
     pub pose: &'a [f64],
     /// How much is left of how each state began: one at the start of a log.
@@ -45,7 +45,7 @@ impl PropagatedState<'_> {
     ///
     /// With them comes how many numbers the poses were asked for: Σ (1 − σ²/(m·a)²) with the deviation σ that is left of
     /// each. A model that is given them has to pay for them as for parameters.
-    pub fn settled(self, equations: &Equations, p: &[f64], record: &Record, row: usize) -> (Arc, f64) {
+    pub fn settled(self, equations: &Equations, p: &[f64], record: &Record, row: usize) -> (StateSensitivity, f64) {
         match self.shown(equations, p, record, row) {
             Some(Posterior { z, share, by_values }) => {
                 let (m, k, h) = (equations.visible, self.arc.s.len() / equations.n(), z.len());
@@ -54,7 +54,7 @@ impl PropagatedState<'_> {
                     let carried: f64 = (0..h).map(|j| share[(i, j)] * self.arc.s[(m + j) * k + c]).sum();
                     s[(m + i) * k + c] = carried + if c < m { 0.0 } else { by_values[(i, c - m)] };
                 }
-                (Arc { z, s }, h as f64 - share.trace())
+                (StateSensitivity { z, s }, h as f64 - share.trace())
             }
             None => (self.arc, 0.0),
         }
@@ -206,8 +206,8 @@ mod tests {
             self.equations.visible + self.p.len()
         }
 
-        fn settled(&self, carried: [f64; 2], memory: [f64; 2], s: &[f64]) -> (Arc, f64) {
-            let (pose, arc) = (self.record.measured(0), Arc { z: carried.to_vec(), s: s.to_vec() });
+        fn settled(&self, carried: [f64; 2], memory: [f64; 2], s: &[f64]) -> (StateSensitivity, f64) {
+            let (pose, arc) = (self.record.measured(0), StateSensitivity { z: carried.to_vec(), s: s.to_vec() });
             let carried = PropagatedState { arc, pose: &pose, memory: memory.to_vec() };
             carried.settled(&self.equations, &self.p, &self.record, 0)
         }

@@ -3,7 +3,7 @@
 use super::hidden_state_fit::PropagatedState;
 use crate::discrepancy::record::record::Record;
 use crate::model::Equations;
-use crate::motion::{Arc, Stepper, initial_hidden};
+use crate::motion::{StateSensitivity, Stepper, initial_hidden};
 use nalgebra::DMatrix;
 
 /// How long before the first window hidden states are carried from rest, s.
@@ -11,27 +11,33 @@ const LEAD: f64 = 3.0;
 
 /// Hidden states and all sensitivities at a row, carried there from rest through what the log says before it; as far as
 /// they still hang on how they began, by what the rows after it show.
-pub fn before(equations: &Equations, p: &[f64], record: &Record, row: usize, visible: &[f64]) -> Arc {
+pub fn before(equations: &Equations, p: &[f64], record: &Record, row: usize, visible: &[f64]) -> StateSensitivity {
     asked(equations, p, record, row, visible).0
 }
 
 /// As [`before`], and how many numbers the rows after it were asked for.
-pub(crate) fn asked(equations: &Equations, p: &[f64], record: &Record, row: usize, visible: &[f64]) -> (Arc, f64) {
+pub(crate) fn asked(
+    equations: &Equations,
+    p: &[f64],
+    record: &Record,
+    row: usize,
+    visible: &[f64],
+) -> (StateSensitivity, f64) {
     if equations.n() == equations.visible {
-        return (Arc::default(), 0.0);
+        return (StateSensitivity::default(), 0.0);
     }
     let way = LeadIn::to(equations, p, record, row, visible);
     let rest = way.at_rest();
     let arc = way.along(rest.clone());
-    let elsewhere = Arc { z: rest.z.iter().map(|z| z + 1.0).collect(), s: vec![] };
+    let elsewhere = StateSensitivity { z: rest.z.iter().map(|z| z + 1.0).collect(), s: vec![] };
     let memory = way.along(elsewhere).z.iter().zip(&arc.z).map(|(a, b)| (a - b).abs()).collect();
     PropagatedState { arc, pose: visible, memory }.settled(equations, p, record, row)
 }
 
 /// As [`before`], without a look at the rows after it.
-pub fn carried(equations: &Equations, p: &[f64], record: &Record, row: usize, visible: &[f64]) -> Arc {
+pub fn carried(equations: &Equations, p: &[f64], record: &Record, row: usize, visible: &[f64]) -> StateSensitivity {
     if equations.n() == equations.visible {
-        return Arc::default();
+        return StateSensitivity::default();
     }
     let way = LeadIn::to(equations, p, record, row, visible);
     way.along(way.at_rest())
@@ -67,21 +73,21 @@ impl<'a> LeadIn<'a> {
         Stepper::new(self.equations, &self.record.signals, self.p)
     }
 
-    fn at_rest(&self) -> Arc {
+    fn at_rest(&self) -> StateSensitivity {
         at_rest(self.equations, self.p, &mut self.stepper(), self.record.time[self.first], self.visible)
     }
 
-    fn along(&self, mut hidden: Arc) -> Arc {
+    fn along(&self, mut hidden: StateSensitivity) -> StateSensitivity {
         let (mut stepper, time) = (self.stepper(), &self.record.time);
         for i in self.first..self.row {
             // The pose a hidden state sees is the measured one; only the hidden states are carried.
             let z = [self.visible, &hidden.z].concat();
             let mut arc = match hidden.s.is_empty() {
-                true => Arc { z, s: vec![] },
+                true => StateSensitivity { z, s: vec![] },
                 false => stepper.start(&z, Some(&hidden.s)),
             };
             stepper.advance(&mut arc, time[i], time[i + 1]);
-            hidden = Arc { z: arc.z[self.equations.visible..].to_vec(), s: arc.s };
+            hidden = StateSensitivity { z: arc.z[self.equations.visible..].to_vec(), s: arc.s };
         }
         hidden
     }
@@ -91,10 +97,10 @@ impl<'a> LeadIn<'a> {
 ///
 /// A state that forgets is soon where its inputs drive it; its equilibrium is the best guess of where it is at
 /// the start of a log, and depends on p: ∂h/∂p = −(∂h′/∂h)⁻¹·∂h′/∂p. Where there is no equilibrium, it is zero.
-pub fn at_rest(equations: &Equations, p: &[f64], stepper: &mut Stepper, t: f64, visible: &[f64]) -> Arc {
+pub fn at_rest(equations: &Equations, p: &[f64], stepper: &mut Stepper, t: f64, visible: &[f64]) -> StateSensitivity {
     let (n, m) = (equations.n(), equations.visible);
     let (h, k) = (n - m, stepper.columns());
-    let mut arc = Arc { z: vec![0.0; h], s: vec![0.0; n * k] };
+    let mut arc = StateSensitivity { z: vec![0.0; h], s: vec![0.0; n * k] };
     if h == 0 {
         return arc;
     }

@@ -10,7 +10,7 @@ use crate::discrepancy::record::record::Record;
 use crate::discrepancy::record::sensor_noise::Noise;
 use crate::error::Result;
 use crate::model::{Equations, Model};
-use crate::motion::{Arc, Arcs, LaneStepper, Stepper};
+use crate::motion::{LaneStates, LaneStepper, StateSensitivity, Stepper};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use std::ops::Range;
@@ -97,7 +97,7 @@ impl<'a> Rollout<'a> {
     /// The outputs at rows `from..=to`, restarted at `from`.
     pub fn outputs(&self, from: usize, to: usize) -> Vec<Vec<f64>> {
         let mut stepper = Stepper::new(&self.equations, &self.record.signals, &[]);
-        let mut arc = Arc { z: self.start(from), s: vec![] };
+        let mut arc = StateSensitivity { z: self.start(from), s: vec![] };
         let visible = self.equations.visible;
         let mut found = vec![stepper.outputs(&arc.z)[..visible].to_vec()];
         for i in from..to {
@@ -116,7 +116,7 @@ impl<'a> Rollout<'a> {
     fn side_by_side(&self, windows: &[(usize, usize)]) -> Vec<[Vec<f64>; 2]> {
         let rows: [Range<usize>; LANES] = std::array::from_fn(|l| windows[l.min(windows.len() - 1)]).map(|(i, k)| i..k);
         let starts = rows.each_ref().map(|rows| self.start(rows.start));
-        let mut arcs = Arcs::of(starts.each_ref().map(|z| &z[..]));
+        let mut arcs = LaneStates::of(starts.each_ref().map(|z| &z[..]));
         let mut stepper = LaneStepper::new(&self.equations, &self.record.signals, [&[]; LANES]);
         let visible = self.equations.visible;
         let measured = |y: &[[f64; LANES]], l: usize| y[..visible].iter().map(|y| y[l]).collect::<Vec<f64>>();
@@ -232,7 +232,7 @@ fn hidden_along(equations: &Equations, record: &Record) -> Vec<Vec<f64>> {
     for i in 0..record.time.len() {
         found.push(hidden.clone());
         if i + 1 < record.time.len() {
-            let mut arc = Arc { z: [visible(i), hidden].concat(), s: vec![] };
+            let mut arc = StateSensitivity { z: [visible(i), hidden].concat(), s: vec![] };
             stepper.advance(&mut arc, record.time[i], record.time[i + 1]);
             hidden = arc.z[equations.visible..].to_vec();
         }

@@ -5,7 +5,7 @@ use crate::discrepancy::record::record::{Channel, Record};
 use crate::discrepancy::shooting::block_sums::{Blocks, Run};
 use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
 use crate::formula::Kernel;
-use crate::motion::{Arc, Arcs, LaneStepper};
+use crate::motion::{LaneStates, LaneStepper, StateSensitivity};
 use nalgebra::DMatrix;
 use std::ops::Range;
 
@@ -52,7 +52,7 @@ impl<const L: usize> NormalEquations<L> {
         l: usize,
         record: &Record,
         rows: &Range<usize>,
-        arc: &Arc,
+        arc: &StateSensitivity,
         next: Option<&Vec<f64>>,
     ) -> Option<LinearisedWindow> {
         let visible = visible_of(record);
@@ -96,7 +96,7 @@ pub(crate) struct WindowKernel<'s, 'a, const L: usize> {
     pub rows: &'s [Range<usize>; L],
     /// Whether the next window's start is asked for.
     pub goes_on: &'s [bool; L],
-    pub arcs: &'s mut Arcs<L>,
+    pub arcs: &'s mut LaneStates<L>,
     pub sums: &'s mut NormalEquations<L>,
 }
 

@@ -5,7 +5,7 @@ use crate::discrepancy::record::record::Record;
 use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
 use crate::discrepancy::shooting::windows::{Segment, WindowStates};
 use crate::model::Equations;
-use crate::motion::{Arc, Arcs, LaneStepper};
+use crate::motion::{LaneStates, LaneStepper, StateSensitivity};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -65,7 +65,7 @@ impl Along<'_> {
     /// States that forget within a window where they began, bit for bit, come to the same end from any start: all
     /// windows are tried side by side, and once more from the ends found. What is the same twice is what one window
     /// after another would give; the rest goes one after another.
-    fn ahead(&self, first: &Arc) -> Option<Vec<Arc>> {
+    fn ahead(&self, first: &StateSensitivity) -> Option<Vec<StateSensitivity>> {
         let carried = self.equations.carried()?;
         let mut found = vec![first.clone()];
         if self.forgets(carried, first) {
@@ -84,16 +84,18 @@ impl Along<'_> {
     }
 
     /// Whether the hidden states end the first window the same wherever they begin it.
-    fn forgets(&self, carried: &Equations, first: &Arc) -> bool {
-        let elsewhere =
-            Arc { z: first.z.iter().map(|z| z + 1.0).collect(), s: first.s.iter().map(|s| s + 1.0).collect() };
+    fn forgets(&self, carried: &Equations, first: &StateSensitivity) -> bool {
+        let elsewhere = StateSensitivity {
+            z: first.z.iter().map(|z| z + 1.0).collect(),
+            s: first.s.iter().map(|s| s + 1.0).collect(),
+        };
         let mut stepper = LaneStepper::new(carried, &self.record.signals, [self.p; 2]);
         let [a, b] = self.end_of(carried, &mut stepper, [0; 2], [first, &elsewhere]);
         a.is_same(&b, carried.visible)
     }
 
     /// The first start, and where every window but the last ends, side by side.
-    fn ends(&self, carried: &Equations, starts: &[Arc]) -> Vec<Arc> {
+    fn ends(&self, carried: &Equations, starts: &[StateSensitivity]) -> Vec<StateSensitivity> {
         let mut stepper = LaneStepper::new(carried, &self.record.signals, [self.p; LANES]);
         let mut found = vec![starts[0].clone()];
         let last = self.windows.len() - 2;
@@ -112,8 +114,8 @@ impl Along<'_> {
         carried: &Equations,
         stepper: &mut LaneStepper<L>,
         windows: [usize; L],
-        starts: [&Arc; L],
-    ) -> [Arc; L] {
+        starts: [&StateSensitivity; L],
+    ) -> [StateSensitivity; L] {
         let mut arcs = started(carried.visible, stepper.columns(), |l| &self.starts[windows[l]], |l| starts[l]);
         stepper.through(&mut arcs, &self.record.time, &windows.map(|k| self.windows[k].clone()));
         std::array::from_fn(|l| arcs.one(l).hidden(carried.visible))
@@ -124,15 +126,15 @@ impl Along<'_> {
     fn side_by_side<const L: usize>(
         &self,
         from: usize,
-        hidden: &[Arc],
+        hidden: &[StateSensitivity],
         take: &mut impl FnMut(LinearisedWindow) -> Option<()>,
-    ) -> Option<(usize, Option<Arc>)> {
+    ) -> Option<(usize, Option<StateSensitivity>)> {
         let (record, visible) = (self.record, self.equations.visible);
         let mut k = from;
         if k == self.windows.len() || L > 1 && hidden.is_empty() && self.equations.n() > visible {
             return Some((k, None));
         }
-        let none = Arc::default();
+        let none = StateSensitivity::default();
         let mut last = hidden.first().cloned();
         let mut stepper = LaneStepper::new(self.equations, &record.signals, [self.p; L]);
         let mut sums = NormalEquations::new(stepper.columns(), record);
@@ -162,13 +164,13 @@ impl Along<'_> {
     }
 }
 
-/// Arcs that begin at poses, with the hidden states as they were carried there.
+/// States that begin at poses, with the hidden states as they were carried there.
 fn started<'z, const L: usize>(
     visible: usize,
     k: usize,
     begin: impl Fn(usize) -> &'z Vec<f64>,
-    hidden: impl Fn(usize) -> &'z Arc,
-) -> Arcs<L> {
+    hidden: impl Fn(usize) -> &'z StateSensitivity,
+) -> LaneStates<L> {
     let mut z: Vec<[f64; L]> = (0..visible).map(|i| std::array::from_fn(|l| begin(l)[i])).collect();
     z.extend((0..hidden(0).z.len()).map(|i| std::array::from_fn(|l| hidden(l).z[i])));
     let mut s = vec![[0.0; L]; z.len() * k];
@@ -176,7 +178,7 @@ fn started<'z, const L: usize>(
     for i in visible..z.len() {
         (visible..k).for_each(|c| s[i * k + c] = std::array::from_fn(|l| hidden(l).s[i * k + c]));
     }
-    Arcs { z, s }
+    LaneStates { z, s }
 }
 
 /// The model along all windows; `None` where it is undefined.

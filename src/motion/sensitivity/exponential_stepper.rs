@@ -1,8 +1,8 @@
 //! Exponential time differencing for spans far longer than a time constant: steps that follow the state's slow limit.
 
 use super::exponential_weights::{Row, SWEEPS, Weights};
-use super::states::{Arcs, take};
-use super::variational_equations::Motion;
+use super::states::{LaneStates, take};
+use super::variational_equations::VariationalEquations;
 
 /// How much longer each step is than the one before: what a span begins with is forgotten soon.
 const STEP_GROWTH: f64 = 1.4;
@@ -28,24 +28,30 @@ impl<const L: usize> Spans<L> {
     }
 }
 
-/// Arcs within such a step; see [`Weights`] for N.
+/// States within such a step; see [`Weights`] for N.
 #[derive(Debug, Default)]
-pub(crate) struct Forgetting<const L: usize> {
-    now: Arcs<L>,
-    rate: Arcs<L>,
-    at: Arcs<L>,
+pub(crate) struct ExponentialStepper<const L: usize> {
+    now: LaneStates<L>,
+    rate: LaneStates<L>,
+    at: LaneStates<L>,
     /// N at the beginning, the middle and the end.
-    begin: Arcs<L>,
-    middle: Arcs<L>,
-    end: Arcs<L>,
+    begin: LaneStates<L>,
+    middle: LaneStates<L>,
+    end: LaneStates<L>,
     /// For each state.
     weights: Vec<Weights<L>>,
 }
 
-impl<const L: usize> Forgetting<L> {
+impl<const L: usize> ExponentialStepper<L> {
     /// Advances arcs and their sensitivities through spans.
     #[inline(always)]
-    pub fn advance(&mut self, motion: &mut Motion<L>, z: &mut [[f64; L]], s: &mut [[f64; L]], spans: &Spans<L>) {
+    pub fn advance(
+        &mut self,
+        motion: &mut VariationalEquations<L>,
+        z: &mut [[f64; L]],
+        s: &mut [[f64; L]],
+        spans: &Spans<L>,
+    ) {
         for arcs in [&mut self.now, &mut self.rate, &mut self.at, &mut self.begin, &mut self.middle, &mut self.end] {
             arcs.make_room(z.len(), s.len());
         }
@@ -77,7 +83,7 @@ impl<const L: usize> Forgetting<L> {
 
     /// One step into `at`.
     #[inline(always)]
-    fn step(&mut self, motion: &mut Motion<L>, t: &[f64; L], h: &[f64; L]) {
+    fn step(&mut self, motion: &mut VariationalEquations<L>, t: &[f64; L], h: &[f64; L]) {
         let (mut half, mut whole) = (*t, *t);
         for l in 0..L {
             half[l] += 0.5 * h[l];
@@ -97,7 +103,7 @@ impl<const L: usize> Forgetting<L> {
 
     /// Weighs a step that begins here.
     #[inline(always)]
-    fn weigh(&mut self, motion: &mut Motion<L>, h: &[f64; L]) {
+    fn weigh(&mut self, motion: &mut VariationalEquations<L>, h: &[f64; L]) {
         self.weights.resize(self.now.z.len(), Weights::default());
         let own = motion.own_slopes(&self.now.z, !self.now.s.is_empty());
         for (weights, own) in self.weights.iter_mut().zip(own) {
@@ -110,7 +116,7 @@ impl<const L: usize> Forgetting<L> {
 
     /// Takes in the k-th rate of a step.
     #[inline(always)]
-    fn take_in(&mut self, k: usize, motion: &Motion<L>) {
+    fn take_in(&mut self, k: usize, motion: &VariationalEquations<L>) {
         let Self { now, rate, at, begin, middle, end, weights } = self;
         let width = if now.s.is_empty() { 0 } else { motion.columns() };
         let first = if width == 0 { 0 } else { motion.first };

@@ -1,8 +1,8 @@
 //! Runge–Kutta steps of order four for states and their exact sensitivities, several trajectories side by side.
 
-use super::exponential_stepper::{Forgetting, Spans};
-use super::states::{Arcs, add, sum, take};
-use super::variational_equations::Motion;
+use super::exponential_stepper::{ExponentialStepper, Spans};
+use super::states::{LaneStates, add, sum, take};
+use super::variational_equations::VariationalEquations;
 use crate::formula::{Isa, Kernel};
 use crate::model::Equations;
 use crate::motion::Signals;
@@ -29,11 +29,11 @@ const MAX_TURNS: f64 = 4096.0;
 /// order follow its limit. So the same code serves 10 Hz logs, stiff hidden states and rows an hour apart. Every
 /// arc has steps of its own: the results are those of one arc alone, bit for bit.
 pub(crate) struct LaneStepper<'a, const L: usize> {
-    motion: Motion<'a, L>,
-    rate: Arcs<L>,
-    total: Arcs<L>,
-    at: Arcs<L>,
-    forgetting: Forgetting<L>,
+    motion: VariationalEquations<'a, L>,
+    rate: LaneStates<L>,
+    total: LaneStates<L>,
+    at: LaneStates<L>,
+    exponential: ExponentialStepper<L>,
     /// Of each arc the knot of the signals that it comes to next.
     ahead: [usize; L],
     isa: Isa,
@@ -55,11 +55,11 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
     /// Equations along signals, each arc at its own parameters.
     pub fn new(equations: &'a Equations, signals: &'a Signals, p: [&[f64]; L]) -> Self {
         Self {
-            motion: Motion::new(equations, signals, p),
-            rate: Arcs::default(),
-            total: Arcs::default(),
-            at: Arcs::default(),
-            forgetting: Forgetting::default(),
+            motion: VariationalEquations::new(equations, signals, p),
+            rate: LaneStates::default(),
+            total: LaneStates::default(),
+            at: LaneStates::default(),
+            exponential: ExponentialStepper::default(),
             ahead: [0; L],
             isa: Isa::best(),
         }
@@ -88,7 +88,7 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
     }
 
     /// Advances arcs through rows of a log, each from its first row to the one behind its last.
-    pub fn through(&mut self, arcs: &mut Arcs<L>, time: &[f64], rows: &[Range<usize>; L]) {
+    pub fn through(&mut self, arcs: &mut LaneStates<L>, time: &[f64], rows: &[Range<usize>; L]) {
         for r in 0..rows.iter().map(Range::len).max().unwrap_or(0) {
             let at = |r: usize| rows.each_ref().map(|rows| time[(rows.start + r).min(rows.end)]);
             self.advance(&mut arcs.z, &mut arcs.s, &at(r), &at(r + 1));
@@ -208,15 +208,15 @@ struct Forget<'s, 'a, const L: usize> {
 impl<const L: usize> Kernel for Forget<'_, '_, L> {
     #[inline(always)]
     fn run(self) {
-        let LaneStepper { motion, forgetting, .. } = self.stepper;
-        forgetting.advance(motion, self.z, self.s, &self.spans);
+        let LaneStepper { motion, exponential, .. } = self.stepper;
+        exponential.advance(motion, self.z, self.s, &self.spans);
     }
 }
 
 /// How the motion asks for spans to be divided, by the rate at their beginning.
 #[inline(always)]
 fn steps<const L: usize>(
-    motion: &mut Motion<L>,
+    motion: &mut VariationalEquations<L>,
     z: &[[f64; L]],
     s: &[[f64; L]],
     rate: &[[f64; L]],
@@ -252,13 +252,13 @@ fn steps<const L: usize>(
 /// One step into `total`; the rate at its beginning is known.
 #[inline(always)]
 fn step<const L: usize>(
-    motion: &mut Motion<L>,
+    motion: &mut VariationalEquations<L>,
     z: &[[f64; L]],
     s: &[[f64; L]],
     (t, h): (&[f64; L], &[f64; L]),
-    rate: &mut Arcs<L>,
-    total: &mut Arcs<L>,
-    at: &mut Arcs<L>,
+    rate: &mut LaneStates<L>,
+    total: &mut LaneStates<L>,
+    at: &mut LaneStates<L>,
 ) {
     let (still, from, width) = (motion.still_entries(s), motion.first, motion.columns());
     total.z.copy_from_slice(z);
@@ -308,8 +308,8 @@ mod tests {
             .collect();
         let signals = Signals::new(&[0.0, 1.0], &columns, Timing::Sample);
         let (z, from) = (vec![[0.0; 2]; equations.n()], [0.0, 1.0]);
-        let mut motion = Motion::new(&equations, &signals, [&[], &[]]);
-        let mut rate = Arcs::default();
+        let mut motion = VariationalEquations::new(&equations, &signals, [&[], &[]]);
+        let mut rate = LaneStates::default();
         rate.make_room(z.len(), 0);
         motion.rate(&z, &[], &from, &mut rate);
         steps(&mut motion, &z, &[], &rate.z, &from, &[from[0] + span[0], from[1] + span[1]])

@@ -1,7 +1,7 @@
 //! A stepper for one trajectory at a time: the lane stepper with a single lane.
 
 use super::lane_stepper::LaneStepper;
-use super::states::Arc;
+use super::states::StateSensitivity;
 use crate::model::Equations;
 use crate::motion::Signals;
 
@@ -36,7 +36,7 @@ impl<'a> Stepper<'a> {
     }
 
     /// An arc that starts at a state; the sensitivities of hidden states with respect to p are carried over.
-    pub fn start(&self, z: &[f64], hidden_s: Option<&[f64]>) -> Arc {
+    pub fn start(&self, z: &[f64], hidden_s: Option<&[f64]>) -> StateSensitivity {
         let (n, k, visible) = (self.equations.n(), self.columns(), self.equations.visible);
         let mut s = vec![0.0; n * k];
         (0..visible).for_each(|i| s[i * k + i] = 1.0);
@@ -45,11 +45,11 @@ impl<'a> Stepper<'a> {
                 s[i * k + visible..(i + 1) * k].copy_from_slice(&old[i * k + visible..(i + 1) * k]);
             }
         }
-        Arc { z: z.to_vec(), s }
+        StateSensitivity { z: z.to_vec(), s }
     }
 
     /// Advances an arc from one time to another.
-    pub fn advance(&mut self, arc: &mut Arc, from: f64, to: f64) {
+    pub fn advance(&mut self, arc: &mut StateSensitivity, from: f64, to: f64) {
         self.lanes.advance(arc.z.as_chunks_mut().0, arc.s.as_chunks_mut().0, &[from], &[to]);
     }
 

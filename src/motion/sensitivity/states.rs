@@ -3,14 +3,14 @@
 /// State and sensitivities at a time; S is stored row by row, with
 /// [`Equations::visible`](crate::model::Equations::visible) + p columns.
 #[derive(Clone, Debug, Default)]
-pub struct Arc {
+pub struct StateSensitivity {
     /// State.
     pub z: Vec<f64>,
     /// Sensitivities, or empty when they are not wanted.
     pub s: Vec<f64>,
 }
 
-impl Arc {
+impl StateSensitivity {
     /// What is to be carried on: the hidden states, and all sensitivities.
     pub(crate) fn hidden(self, visible: usize) -> Self {
         Self { z: self.z[visible..].to_vec(), s: self.s }
@@ -31,12 +31,12 @@ fn bits(values: &[f64]) -> Vec<u64> {
 /// L states and their sensitivities; S is stored row by row, with [`Equations::visible`] + p columns, or empty when it is
 /// not wanted.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Arcs<const L: usize> {
+pub(crate) struct LaneStates<const L: usize> {
     pub z: Vec<[f64; L]>,
     pub s: Vec<[f64; L]>,
 }
 
-impl<const L: usize> Arcs<L> {
+impl<const L: usize> LaneStates<L> {
     /// As many values as are wanted.
     #[inline(always)]
     pub(crate) fn make_room(&mut self, z: usize, s: usize) {
@@ -44,16 +44,16 @@ impl<const L: usize> Arcs<L> {
         self.s.resize(s, [0.0; L]);
     }
 
-    /// Arcs that begin at some states, their sensitivities not wanted.
+    /// States that begin at some values, their sensitivities not wanted.
     pub fn of(starts: [&[f64]; L]) -> Self {
         let n = starts.iter().map(|z| z.len()).min().unwrap_or(0);
         Self { z: (0..n).map(|i| starts.map(|z| z[i])).collect(), s: vec![] }
     }
 
     /// One of the arcs.
-    pub fn one(&self, l: usize) -> Arc {
+    pub fn one(&self, l: usize) -> StateSensitivity {
         let lane = |values: &[[f64; L]]| values.iter().map(|v| v[l]).collect();
-        Arc { z: lane(&self.z), s: lane(&self.s) }
+        StateSensitivity { z: lane(&self.z), s: lane(&self.s) }
     }
 }
 

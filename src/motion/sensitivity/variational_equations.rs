@@ -1,12 +1,12 @@
 //! The variational equations S′ = J_z·S + J_p of several trajectories side by side.
 
-use super::states::{Arcs, add};
+use super::states::{LaneStates, add};
 use crate::model::{Equations, Workspace};
 use crate::motion::Signals;
 use crate::motion::inputs::lane_lookup::Lookup;
 
 /// z′ and S′ as functions of time.
-pub(crate) struct Motion<'a, const L: usize> {
+pub(crate) struct VariationalEquations<'a, const L: usize> {
     equations: &'a Equations,
     pub signals: &'a Signals,
     workspace: Workspace<L>,
@@ -23,7 +23,7 @@ pub(crate) struct Motion<'a, const L: usize> {
     read_by: Vec<Vec<usize>>,
 }
 
-impl<'a, const L: usize> Motion<'a, L> {
+impl<'a, const L: usize> VariationalEquations<'a, L> {
     /// Equations along signals, each arc at its own parameters.
     pub fn new(equations: &'a Equations, signals: &'a Signals, p: [&[f64]; L]) -> Self {
         let mut workspace = equations.side_by_side(p);
@@ -88,7 +88,7 @@ impl<'a, const L: usize> Motion<'a, L> {
 
     /// z′ and S′, but for the rows and columns that stay as they are.
     #[inline(always)]
-    pub fn rate(&mut self, z: &[[f64; L]], s: &[[f64; L]], t: &[f64; L], rate: &mut Arcs<L>) {
+    pub fn rate(&mut self, z: &[[f64; L]], s: &[[f64; L]], t: &[f64; L], rate: &mut LaneStates<L>) {
         self.look_up(t);
         if s.is_empty() {
             return self.equations.rates_here(&mut self.workspace, z, &self.lookup.value, &mut rate.z);

@@ -94,7 +94,7 @@ mod tests {
         bare.flat_map(|m| [m.clone(), m.with_trailers(&[Trailer { length: 1.0, hitch: 0.5 }])])
     }
 
-    /// Of all pairs of effects on a model with a third effect free every so many.
+    /// One in so many of all pairs of effects, half of them on a model with a third effect.
     fn pairs(model: &Model, every: usize) -> Vec<(Model, [Applied; 2])> {
         let free = |(e, t): (&effects::Effect, Option<usize>)| Applied::new(e, t, e.starts().swap_remove(0)).freed();
         let all: Vec<Applied> = model.applicable(effects::all()).into_iter().map(free).collect();
@@ -112,24 +112,16 @@ mod tests {
 
     #[test]
     fn numbers_reject_nothing_that_is_proved() {
-        let every: usize = std::env::var("EVERY").ok().and_then(|v| v.parse().ok()).unwrap_or(37);
-        let [mut with, mut without, mut asked, mut related] = [0.0, 0.0, 0.0, 0.0];
+        let mut related = 0;
         for model in models() {
-            for (k, (model, [a, b])) in pairs(&model, every).into_iter().enumerate() {
+            for (k, (model, [a, b])) in pairs(&model, 37).into_iter().enumerate() {
                 let measured = if k % 2 == 0 { Measured::ALL } else { Measured { heading: false, trailers: false } };
                 let ask = |samples: &[Sample]| compared(&model, &[a.clone()], &[b.clone()], measured, samples);
-                let t = std::time::Instant::now();
-                let quick = ask(&samples(&model));
-                with += t.elapsed().as_secs_f64();
-                let t = std::time::Instant::now();
-                let sure = ask(&[]);
-                without += t.elapsed().as_secs_f64();
-                asked += 1.0;
-                related += f64::from(sure != Relation::Different);
-                let names: Vec<_> = model.effects.iter().map(|e| e.label()).collect();
-                assert_eq!(quick, sure, "{}, {}, {measured:?} {names:?}", a.label(), b.label());
+                let (quick, sure) = (ask(&samples(&model)), ask(&[]));
+                assert_eq!(quick, sure, "{}, {}, {measured:?}", a.label(), b.label());
+                related += usize::from(sure != Relation::Different);
             }
         }
-        eprintln!("{asked} asked, {related} related, with {with} without {without}");
+        assert!(related > 0);
     }
 }

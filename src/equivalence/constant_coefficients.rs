@@ -1,15 +1,8 @@
 //! Coefficients that are the same in every state and for every input.
 
-use super::family::int;
+use super::equation::Equation;
+use super::values::int;
 use crate::formula::{Normal, Scalar};
-
-/// One row at one point: Σ cⱼ·gⱼ = t.
-pub struct Equation {
-    /// g₁, g₂, …
-    pub factors: Vec<Normal>,
-    /// t
-    pub target: Normal,
-}
 
 /// The c of Σ cⱼ·gⱼ = t for all equations, zero where they may be anything; the work ends with the first contradiction.
 ///

@@ -1,24 +1,14 @@
 //! A model with some effects as a family of motions, one for each value of their parameters.
 
-use super::Measured;
+use super::carrier::Carrier;
 use super::motion::Motion;
+use super::points::Point;
+use super::relation::Measured;
 use super::tangent::Tangent;
+use super::values::{Values, int};
 use crate::effects::Applied;
-use crate::formula::{BigRational, Expr, Fun, Normal, Scalar, Symbol};
-use crate::model::{Model, trailer_heading};
-use std::collections::BTreeMap;
-
-/// Values of parameters; what is not given stands for itself.
-pub type Values = BTreeMap<Symbol, Normal>;
-
-/// A state with inputs, as exact numbers; empty where both are left open.
-#[derive(Clone, Default)]
-pub struct Point(Values);
-
-/// A whole number.
-pub fn int(n: i64) -> Normal {
-    Normal::number(&BigRational::from_integer(n.into()))
-}
+use crate::formula::{Normal, Scalar, Symbol};
+use crate::model::Model;
 
 /// The motions of a model with effects whose parameters are left open.
 pub struct Family {
@@ -64,27 +54,27 @@ impl Family {
     }
 
     /// The rows of the motion at a point.
-    pub fn rows(&self, at: &Point, values: &Values, turn: Option<&Normal>) -> Option<Vec<Normal>> {
+    pub fn rows<S: Carrier>(&self, at: &Point<S>, values: &Values<S>, turn: Option<&S>) -> Option<Vec<S>> {
         self.motion.rows(&|s: &Symbol| values.get(s).cloned().unwrap_or_else(|| self.constant(at, s)), turn)
     }
 
     /// What a symbol is at a point, parameters left open.
-    fn constant(&self, at: &Point, s: &Symbol) -> Normal {
-        let open = || if self.zeros.contains(s) { int(0) } else { Normal::symbol(s.clone()) };
-        at.0.get(s).cloned().unwrap_or_else(open)
+    fn constant<S: Carrier>(&self, at: &Point<S>, s: &Symbol) -> S {
+        let open = || if self.zeros.contains(s) { int(0) } else { at.open(s) };
+        at.get(s).cloned().unwrap_or_else(open)
     }
 
     /// The rows where all own parameters are zero.
-    pub fn neutral(&self, at: &Point, turn: Option<&Normal>) -> Option<Vec<Normal>> {
+    pub fn neutral<S: Carrier>(&self, at: &Point<S>, turn: Option<&S>) -> Option<Vec<S>> {
         self.rows(at, &self.own.iter().map(|s| (s.clone(), int(0))).collect(), turn)
     }
 
     /// The derivatives of the rows by a parameter (by the turn of an unmeasured heading where there is none), where
     /// all own parameters are zero.
-    pub fn slopes(&self, at: &Point, by: Option<&Symbol>) -> Option<Vec<Normal>> {
+    pub fn slopes<S: Carrier>(&self, at: &Point<S>, by: Option<&Symbol>) -> Option<Vec<S>> {
         let value = |s: &Symbol| match (by == Some(s), self.own.contains(s)) {
             (true, true) => Tangent::parameter(),
-            (true, false) => Tangent { value: Normal::symbol(s.clone()), slope: int(1) },
+            (true, false) => Tangent { value: at.open(s), slope: int(1) },
             (false, true) => Tangent::constant(int(0)),
             (false, false) => Tangent::constant(self.constant(at, s)),
         };
@@ -94,7 +84,7 @@ impl Family {
 
     /// Whether the own parameters change what is measured at all.
     pub fn acts(&self) -> bool {
-        let open = Point::default();
+        let open = Point::<Normal>::default();
         let (Some(with), Some(without)) = (self.rows(&open, &Values::new(), None), self.neutral(&open, None)) else {
             return false;
         };
@@ -111,43 +101,6 @@ fn zeros(model: &Model) -> Vec<Symbol> {
 /// Whether rows are proved equal, one by one.
 pub fn all_equal(a: &[Normal], b: &[Normal]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.equals(b))
-}
-
-/// Numbers u for which arctan u has a rational sine, and speeds to go with them: simple ones first.
-const NUMBERS: [[(i64, i64); 6]; 5] = [
-    [(0, 1), (3, 4), (0, 1), (4, 3), (5, 12), (0, 1)],
-    [(3, 4), (0, 1), (4, 3), (5, 12), (0, 1), (8, 15)],
-    [(4, 3), (5, 12), (3, 4), (8, 15), (-3, 4), (12, 5)],
-    [(-5, 12), (-4, 3), (8, 15), (3, 4), (12, 5), (-3, 4)],
-    [(8, 15), (12, 5), (-5, 12), (-3, 4), (20, 21), (4, 3)],
-];
-
-/// Points at which the motion is compared before it is compared everywhere.
-pub fn points(model: &Model) -> Vec<Point> {
-    let inputs: Vec<(Symbol, bool)> =
-        model.inputs.iter().map(|role| (Symbol::new(role), is_angle(model, role))).collect();
-    let point = |(k, numbers): (usize, &[(i64, i64); 6])| {
-        let mut next = numbers.iter().cycle().map(|(p, q)| BigRational::new((*p).into(), (*q).into()));
-        let mut angle = || next.next().map_or_else(|| int(0), |u| Normal::call(Fun::Atan, &Normal::number(&u)));
-        let mut at = Values::from([("x".into(), int(0)), ("y".into(), int(0)), ("phi".into(), angle())]);
-        at.extend((1..=model.trailer_count()).map(|i| (trailer_heading(i), angle())));
-        for (i, (role, is_angle)) in inputs.iter().enumerate() {
-            let speed = BigRational::new((2 + (3 * k + 5 * i * (k + 1)) as i64 % 11).into(), 2.into());
-            at.insert(role.clone(), if *is_angle { angle() } else { Normal::number(&speed) });
-        }
-        Point(at)
-    };
-    NUMBERS.iter().enumerate().map(point).collect()
-}
-
-fn is_angle(model: &Model, role: &str) -> bool {
-    model.vehicle.inputs.get(role).is_some_and(|i| i.unit == "rad")
-}
-
-/// A normal form as a formula.
-pub fn formula(value: &Normal) -> Expr {
-    let below = value.denominator();
-    if below.is_one() { value.numerator() } else { &value.numerator() / &below }
 }
 
 /// Whether every row is zero.

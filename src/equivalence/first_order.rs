@@ -1,20 +1,35 @@
-//! Whether effects agree for small values of their parameters.
+//! Agreement to first order: derivatives at zero as combinations of one another with constant coefficients.
 
-use super::constant_coefficients::constants;
-use super::family::{Point, vanish};
-use super::reparametrisation::{Pair, side_by_side};
+use super::carrier::Carrier;
+use super::equation::{Equation, side_by_side};
+use super::family::vanish;
+use super::linear_system::LinearSystem;
+use super::pair::Pair;
+use super::points::Point;
+use super::solution::solution;
 use crate::formula::{Normal, Scalar, Symbol};
 
-impl Pair<'_> {
-    /// Whether both families are smooth at zero.
-    pub fn is_regular(&self) -> bool {
-        self.given.regular && self.sought.regular
+/// The slopes of the given family by one parameter as a combination of those of the sought one.
+struct Combination<'a> {
+    of: &'a Symbol,
+    turning: bool,
+}
+
+impl LinearSystem for Combination<'_> {
+    fn unknowns(&self, pair: &Pair) -> usize {
+        pair.directions(self.turning).len()
     }
 
+    fn equations<S: Carrier>(&self, pair: &Pair, at: &Point<S>) -> Option<Vec<Equation<S>>> {
+        Some(side_by_side(&pair.columns(at, self.turning)?, &pair.given.slopes(at, Some(self.of))?))
+    }
+}
+
+impl Pair<'_> {
     /// The slopes of the given family at zero as combinations of those of the sought one, row by row for each given
     /// parameter, as far as a few points tell; where no heading is measured (`turning`), a turn of it is free.
     pub fn slopes(&self, turning: bool) -> Option<Vec<Vec<Normal>>> {
-        self.given.own.iter().map(|p| self.combination(p, turning)).collect()
+        self.given.own.iter().map(|of| solution(self, &Combination { of, turning })).collect()
     }
 
     fn directions(&self, turning: bool) -> Vec<Option<&Symbol>> {
@@ -22,21 +37,15 @@ impl Pair<'_> {
         symbols.chain(turning.then_some(None)).collect()
     }
 
-    fn columns(&self, at: &Point, turning: bool) -> Option<Vec<Vec<Normal>>> {
+    fn columns<S: Carrier>(&self, at: &Point<S>, turning: bool) -> Option<Vec<Vec<S>>> {
         self.directions(turning).into_iter().map(|by| self.sought.slopes(at, by)).collect()
-    }
-
-    fn combination(&self, p: &Symbol, turning: bool) -> Option<Vec<Normal>> {
-        let equations = |at: &Point| Some(side_by_side(&self.columns(at, turning)?, &self.given.slopes(at, Some(p))?));
-        let all = self.points.iter().flat_map(|at| equations(at).unwrap_or_default());
-        constants(self.directions(turning).len(), all)
     }
 
     /// Whether such combinations hold in every state and for every input, and are not of what both sides have in
     /// common alone.
     pub fn agree(&self, slopes: &[Vec<Normal>], turning: bool) -> bool {
         let own = self.sought.own.len();
-        let open = Point::default();
+        let open = Point::<Normal>::default();
         let Some(columns) = self.columns(&open, turning) else { return false };
         let holds = |(p, c): (&Symbol, &Vec<Normal>)| {
             let Some(target) = self.given.slopes(&open, Some(p)) else { return false };

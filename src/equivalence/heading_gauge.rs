@@ -1,9 +1,56 @@
-//! Changes of parameter together with a turn of a heading that nothing measures.
+//! Gauge of an unmeasured heading: changes of parameter together with a turn of a heading that nothing measures.
 
-use super::constant_coefficients::{Equation, constants};
-use super::family::{Family, Point, Values, all_equal, int};
-use super::reparametrisation::{Pair, less, negative, side_by_side};
+use super::carrier::Carrier;
+use super::equation::{Equation, less, negative, side_by_side};
+use super::family::Family;
+use super::linear_system::LinearSystem;
+use super::pair::Pair;
+use super::points::Point;
+use super::proof::Claim;
+use super::solution::solution;
+use super::values::{Values, int};
 use crate::formula::{Normal, Symbol};
+
+/// The given parameter and the sought ones as functions of the turn, where both motions are of the first degree.
+struct Turned<'a> {
+    given: &'a Symbol,
+    turn: &'a Symbol,
+}
+
+impl LinearSystem for Turned<'_> {
+    fn unknowns(&self, pair: &Pair) -> usize {
+        1 + pair.sought.own.len()
+    }
+
+    fn equations<S: Carrier>(&self, pair: &Pair, at: &Point<S>) -> Option<Vec<Equation<S>>> {
+        let one = |f: &Family, s: &Symbol, turn: Option<&S>| {
+            let values = f.own.iter().map(|o| (o.clone(), int(i64::from(o == s)))).collect();
+            Some(less(&f.rows(at, &values, turn)?, &f.neutral(at, turn)?))
+        };
+        let turned = at.open(self.turn);
+        let given = one(pair.given, self.given, None)?;
+        let sought = pair.sought.own.iter().map(|q| Some(negative(&one(pair.sought, q, Some(&turned))?)));
+        let columns: Vec<Vec<S>> = std::iter::once(Some(given)).chain(sought).collect::<Option<_>>()?;
+        let target = less(&pair.sought.neutral(at, Some(&turned))?, &pair.given.neutral(at, None)?);
+        Some(side_by_side(&columns, &target))
+    }
+}
+
+/// The same to first order in the turn.
+struct FirstOrderTurn<'a>(&'a Symbol);
+
+impl LinearSystem for FirstOrderTurn<'_> {
+    fn unknowns(&self, pair: &Pair) -> usize {
+        1 + pair.sought.own.len()
+    }
+
+    fn equations<S: Carrier>(&self, pair: &Pair, at: &Point<S>) -> Option<Vec<Equation<S>>> {
+        let sought = pair.sought.own.iter().map(|q| Some(negative(&pair.sought.slopes(at, Some(q))?)));
+        let given = std::iter::once(pair.given.slopes(at, Some(self.0)));
+        let columns: Vec<Vec<S>> = given.chain(sought).collect::<Option<_>>()?;
+        Some(side_by_side(&columns, &pair.sought.slopes(at, None)?))
+    }
+}
 
 impl Pair<'_> {
     /// Where no heading is measured: the change with the true heading turned, p and q both as functions of the turn.
@@ -11,40 +58,18 @@ impl Pair<'_> {
     /// Only where the turn moves the given parameter to first order, so that all values near zero are reached.
     pub fn turned(&self, turn: &Symbol) -> Option<Values> {
         let [p] = &self.given.own[..] else { return None };
-        if !self.given.regular || !self.sought.regular || self.first_order_turn(p)?.is_zero() {
+        if !self.is_regular() || self.first_order_turn(p)?.is_zero() {
             return None;
         }
-        let unknowns = &self.sought.own;
-        let turned = Normal::symbol(turn.clone());
-        let equations = |at: &Point| -> Option<Vec<Equation>> {
-            let one = |f: &Family, s: &Symbol, turn: Option<&Normal>| {
-                let values = f.own.iter().map(|o| (o.clone(), int(i64::from(o == s)))).collect();
-                Some(less(&f.rows(at, &values, turn)?, &f.neutral(at, turn)?))
-            };
-            let given = one(self.given, p, None)?;
-            let sought = unknowns.iter().map(|q| Some(negative(&one(self.sought, q, Some(&turned))?)));
-            let columns: Vec<Vec<Normal>> = std::iter::once(Some(given)).chain(sought).collect::<Option<_>>()?;
-            let target = less(&self.sought.neutral(at, Some(&turned))?, &self.given.neutral(at, None)?);
-            Some(side_by_side(&columns, &target))
-        };
-        let all = self.points.iter().flat_map(|at| equations(at).unwrap_or_default());
-        let mut found = constants(1 + unknowns.len(), all)?.into_iter();
+        let mut found = solution(self, &Turned { given: p, turn })?.into_iter();
         let given: Values = [(p.clone(), found.next()?)].into();
-        let change: Values = unknowns.iter().cloned().zip(found).collect();
-        let open = Point::default();
-        let (a, b) = (self.given.rows(&open, &given, None)?, self.sought.rows(&open, &change, Some(&turned))?);
-        all_equal(&a, &b).then(|| given.into_iter().chain(change).collect())
+        let sought: Values = self.sought.own.iter().cloned().zip(found).collect();
+        let claim = Claim { given: &given, sought: &sought, turn: Some(turn) };
+        if claim.is_proved(self) { Some(given.into_iter().chain(sought).collect()) } else { None }
     }
 
     /// The slope of the given parameter by the turn, to first order.
     fn first_order_turn(&self, p: &Symbol) -> Option<Normal> {
-        let equations = |at: &Point| -> Option<Vec<Equation>> {
-            let sought = self.sought.own.iter().map(|q| Some(negative(&self.sought.slopes(at, Some(q))?)));
-            let columns: Vec<Vec<Normal>> =
-                std::iter::once(self.given.slopes(at, Some(p))).chain(sought).collect::<Option<_>>()?;
-            Some(side_by_side(&columns, &self.sought.slopes(at, None)?))
-        };
-        let all = self.points.iter().flat_map(|at| equations(at).unwrap_or_default());
-        constants(1 + self.sought.own.len(), all)?.into_iter().next()
+        solution(self, &FirstOrderTurn(p))?.into_iter().next()
     }
 }

@@ -1,6 +1,6 @@
 //! The motion as a sensor sees it: rates of what is measured in terms of what is measured.
 
-use super::Measured;
+use super::relation::Measured;
 use crate::formula::{Expr, Fun, Scalar, Symbol};
 use crate::mechanism::Definitions;
 use crate::model::{Model, trailer_heading};

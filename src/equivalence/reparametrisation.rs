@@ -1,18 +1,14 @@
 //! The change of parameter that turns one family of motions into another.
 
-use super::constant_coefficients::{Equation, constants};
-use super::family::{Family, Point, Values, all_equal, int};
+use super::carrier::Carrier;
+use super::equation::{Equation, less, side_by_side};
+use super::linear_system::LinearSystem;
+use super::pair::Pair;
+use super::points::Point;
+use super::proof::Claim;
+use super::solution::solution;
+use super::values::{Values, int};
 use crate::formula::{Fun, Normal, Scalar, Symbol};
-
-/// What the two sides of a comparison have in common.
-pub struct Pair<'a> {
-    /// The family whose parameters are given.
-    pub given: &'a Family,
-    /// The family whose parameters are sought.
-    pub sought: &'a Family,
-    /// Points at which they are compared first.
-    pub points: &'a [Point],
-}
 
 /// A way to write a parameter q in terms of an unknown in which the motion may be of the first degree.
 #[derive(Clone, Copy)]
@@ -24,12 +20,62 @@ enum Chart {
 }
 
 impl Chart {
-    fn parameter(self, u: &Normal) -> Normal {
+    fn parameter<S: Carrier>(self, u: &S) -> S {
         match self {
             Chart::Plain => u.clone(),
-            Chart::Slope => Normal::call(Fun::Atan, u),
+            Chart::Slope => S::call(Fun::Atan, u),
         }
     }
+}
+
+/// Where the motion is of the first degree in its parameters: F = F₀ + Σ qⱼ·Gⱼ.
+struct Affine<'a>(&'a [Symbol]);
+
+impl LinearSystem for Affine<'_> {
+    fn unknowns(&self, _: &Pair) -> usize {
+        self.0.len()
+    }
+
+    fn equations<S: Carrier>(&self, pair: &Pair, at: &Point<S>) -> Option<Vec<Equation<S>>> {
+        let (target, neutral) = (pair.given_at(at)?, pair.sought_at(at, self.0, None)?);
+        let unit = |j: usize| Some(less(&pair.sought_at(at, self.0, Some((j, int(1))))?, &neutral));
+        let columns = (0..self.0.len()).map(unit).collect::<Option<Vec<_>>>()?;
+        Some(side_by_side(&columns, &less(&target, &neutral)))
+    }
+}
+
+/// Where the motion is a quotient of the first degree in one parameter: F = (n₀ + n₁·u)/(1 + d·u).
+struct Fractional<'a> {
+    unknown: &'a Symbol,
+    chart: Chart,
+}
+
+impl LinearSystem for Fractional<'_> {
+    fn unknowns(&self, _: &Pair) -> usize {
+        1
+    }
+
+    fn equations<S: Carrier>(&self, pair: &Pair, at: &Point<S>) -> Option<Vec<Equation<S>>> {
+        let single = std::slice::from_ref(self.unknown);
+        let f = |u: i64| pair.sought_at(at, single, Some((0, self.chart.parameter(&int(u)))));
+        let (target, f) = (pair.given_at(at)?, [f(0)?, f(1)?, f(2)?]);
+        let rows = (0..target.len()).map(|i| quotient([&f[0][i], &f[1][i], &f[2][i]], &target[i]));
+        Some(rows.collect())
+    }
+}
+
+/// The equation u·(n₁ − t·d) = t − n₀ from values at u = 0, 1, 2.
+fn quotient<S: Carrier>(f: [&S; 3], target: &S) -> Equation<S> {
+    let two: S = int(2);
+    let rise = f[2].sub(f[1]);
+    let d = match rise.vanishes_beside(&[f[1], f[2]]) {
+        // Constant beyond zero: of the first degree only where it is constant throughout.
+        Some(true) => int(0),
+        Some(false) => two.mul(f[1]).sub(f[0]).sub(f[2]).div(&two.mul(&rise)),
+        None => int::<S>(0).recip(),
+    };
+    let n = d.add(&int(1)).mul(f[1]).sub(f[0]);
+    Equation { factors: vec![n.sub(&target.mul(&d))], target: target.sub(f[0]) }
 }
 
 impl Pair<'_> {
@@ -43,47 +89,22 @@ impl Pair<'_> {
         let mut found = self.affine(own);
         if let [single] = &own[..] {
             found = found.or_else(|| self.fractional(single, Chart::Plain));
-            found = found.or_else(|| self.fractional(single, Chart::Slope).filter(|_| self.sought.is_angle(single)));
+            if self.sought.is_angle(single) {
+                found = found.or_else(|| self.fractional(single, Chart::Slope));
+            }
             found = found.or_else(|| self.proportional(single, slopes));
         }
         found.or_else(|| if all.len() > own.len() { self.affine(&all) } else { None })
     }
 
-    fn given_at(&self, at: &Point) -> Option<Vec<Normal>> {
-        self.given.rows(at, &Values::new(), None)
-    }
-
-    /// The motion sought where the unknowns are all zero, or one of them is something else.
-    fn sought_at(&self, at: &Point, unknowns: &[Symbol], other: Option<(usize, Normal)>) -> Option<Vec<Normal>> {
-        let mut values: Values = self.sought.own.iter().chain(unknowns).map(|s| (s.clone(), int(0))).collect();
-        values.extend(other.map(|(j, v)| (unknowns[j].clone(), v)));
-        self.sought.rows(at, &values, None)
-    }
-
-    /// Where the motion is of the first degree in its parameters: F = F₀ + Σ qⱼ·Gⱼ.
     fn affine(&self, unknowns: &[Symbol]) -> Option<Values> {
-        let equations = |at: &Point| -> Option<Vec<Equation>> {
-            let (target, neutral) = (self.given_at(at)?, self.sought_at(at, unknowns, None)?);
-            let unit = |j: usize| Some(less(&self.sought_at(at, unknowns, Some((j, int(1))))?, &neutral));
-            let columns = (0..unknowns.len()).map(unit).collect::<Option<Vec<_>>>()?;
-            Some(side_by_side(&columns, &less(&target, &neutral)))
-        };
-        let all = self.points.iter().flat_map(|at| equations(at).unwrap_or_default());
-        self.proved(unknowns.iter().cloned().zip(constants(unknowns.len(), all)?).collect())
+        let found = solution(self, &Affine(unknowns))?;
+        self.proved(unknowns.iter().cloned().zip(found).collect())
     }
 
-    /// Where the motion is a quotient of the first degree in one parameter: F = (n₀ + n₁·u)/(1 + d·u).
     fn fractional(&self, unknown: &Symbol, chart: Chart) -> Option<Values> {
-        let single = std::slice::from_ref(unknown);
-        let equations = |at: &Point| -> Option<Vec<Equation>> {
-            let f = |u: i64| self.sought_at(at, single, Some((0, chart.parameter(&int(u)))));
-            let (target, f) = (self.given_at(at)?, [f(0)?, f(1)?, f(2)?]);
-            let rows = (0..target.len()).map(|i| quotient([&f[0][i], &f[1][i], &f[2][i]], &target[i]));
-            Some(rows.collect())
-        };
-        let all = self.points.iter().flat_map(|at| equations(at).unwrap_or_default());
-        let u = constants(1, all)?;
-        self.proved([(unknown.clone(), chart.parameter(&u[0]))].into())
+        let found = solution(self, &Fractional { unknown, chart })?;
+        self.proved([(unknown.clone(), chart.parameter(found.first()?))].into())
     }
 
     /// Where the first order may be the whole: an angle for an angle.
@@ -95,38 +116,7 @@ impl Pair<'_> {
 
     /// The change, if both motions are equal with it in every state and for every input.
     fn proved(&self, change: Values) -> Option<Values> {
-        let open = Point::default();
-        let (a, b) = (self.given_at(&open)?, self.sought.rows(&open, &change, None)?);
-        all_equal(&a, &b).then_some(change)
+        let claim = Claim { given: &Values::new(), sought: &change, turn: None };
+        claim.is_proved(self).then_some(change)
     }
-}
-
-/// The equation u·(n₁ − t·d) = t − n₀ from values at u = 0, 1, 2.
-fn quotient(f: [&Normal; 3], target: &Normal) -> Equation {
-    let two = int(2);
-    let rise = f[2].sub(f[1]);
-    let d = if rise.is_zero() {
-        // Constant beyond zero: of the first degree only where it is constant throughout.
-        int(0)
-    } else {
-        two.mul(f[1]).sub(f[0]).sub(f[2]).div(&two.mul(&rise))
-    };
-    let n = d.add(&int(1)).mul(f[1]).sub(f[0]);
-    Equation { factors: vec![n.sub(&target.mul(&d))], target: target.sub(f[0]) }
-}
-
-/// a − b, row by row.
-pub fn less(a: &[Normal], b: &[Normal]) -> Vec<Normal> {
-    a.iter().zip(b).map(|(a, b)| a.sub(b)).collect()
-}
-
-/// −a, row by row.
-pub fn negative(rows: &[Normal]) -> Vec<Normal> {
-    rows.iter().map(Scalar::neg).collect()
-}
-
-/// The equations Σ cⱼ·columnⱼ = target, row by row.
-pub fn side_by_side(columns: &[Vec<Normal>], target: &[Normal]) -> Vec<Equation> {
-    let row = |i: usize| columns.iter().map(|c| c[i].clone()).collect();
-    target.iter().enumerate().map(|(i, t)| Equation { factors: row(i), target: t.clone() }).collect()
 }

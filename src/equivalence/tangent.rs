@@ -1,24 +1,22 @@
-//! A value with its derivative as a carrier, both in normal form.
+//! Forward differentiation: a value with its derivative as a carrier (dual numbers over normal forms or numbers).
 
+use super::carrier::Carrier;
+use super::values::int;
 use crate::formula::{BigRational, Fun, Normal, Scalar};
 use num_traits::Zero;
 
 /// f + f′·ε with ε² = 0: exact derivatives of formulas as formulas.
 #[derive(Clone, Debug)]
-pub struct Tangent {
+pub struct Tangent<S = Normal> {
     /// f
-    pub value: Normal,
+    pub value: S,
     /// f′
-    pub slope: Normal,
+    pub slope: S,
 }
 
-fn int(n: i64) -> Normal {
-    Normal::number(&BigRational::from_integer(n.into()))
-}
-
-impl Tangent {
+impl<S: Carrier> Tangent<S> {
     /// What does not depend on the parameter.
-    pub fn constant(value: Normal) -> Self {
+    pub fn constant(value: S) -> Self {
         Self { value, slope: int(0) }
     }
 
@@ -27,14 +25,14 @@ impl Tangent {
         Self { value: int(0), slope: int(1) }
     }
 
-    fn times(&self, factor: &Normal) -> Normal {
+    fn times(&self, factor: &S) -> S {
         self.slope.mul(factor)
     }
 }
 
-impl Scalar for Tangent {
+impl<S: Carrier> Scalar for Tangent<S> {
     fn number(value: &BigRational) -> Self {
-        Self::constant(Normal::number(value))
+        Self::constant(S::number(value))
     }
 
     fn add(&self, other: &Self) -> Self {
@@ -63,17 +61,17 @@ impl Scalar for Tangent {
     }
 
     fn call(f: Fun, x: &Self) -> Self {
-        let value = Normal::call(f, &x.value);
-        let square = |v: &Normal| int(1).add(&v.mul(v));
+        let value = S::call(f, &x.value);
+        let square = |v: &S| int::<S>(1).add(&v.mul(v));
         let outer = match f {
             // What does not vary needs no derivative.
-            _ if x.slope.is_zero() => int(0),
-            Fun::Sin => Normal::call(Fun::Cos, &x.value),
-            Fun::Cos => Normal::call(Fun::Sin, &x.value).neg(),
+            _ if x.slope.is_exactly_zero() => int(0),
+            Fun::Sin => S::call(Fun::Cos, &x.value),
+            Fun::Cos => S::call(Fun::Sin, &x.value).neg(),
             Fun::Tan => square(&value),
             Fun::Cot => square(&value).neg(),
             Fun::Atan => square(&x.value).recip(),
-            _ => Normal::number(&BigRational::zero()).recip(),
+            _ => S::number(&BigRational::zero()).recip(),
         };
         Self { value, slope: x.times(&outer) }
     }
@@ -93,7 +91,7 @@ mod tests {
 
     #[test]
     fn equal_are_both_value_and_slope() {
-        let (p, two) = (Tangent::parameter(), Tangent::constant(int(2)));
+        let (p, two) = (Tangent::<Normal>::parameter(), Tangent::constant(int(2)));
         assert!(p.add(&two).equals(&two.add(&p)));
         assert!(!p.add(&two).equals(&two) && !p.equals(&p.add(&p)) && !two.equals(&two.add(&two)));
     }

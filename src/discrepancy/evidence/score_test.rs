@@ -43,8 +43,8 @@ fn is_regular(effect: &Effect, model: &Model, trailer: Option<usize>) -> bool {
 
 /// The candidates for a model by what they promise, best first.
 ///
-/// Effects that vanish at zero are weighed together by one pass over the data; effects with states, and those a
-/// local search reaches from several starts only, by one pass a start.
+/// Effects that vanish at zero are weighed together by one pass over the data, a large library of them by one pass for
+/// every few; effects with states, and those a local search reaches from several starts only, by one pass a start.
 pub fn promises(problem: &Problem, base: &Fit, model: &Model, open: &[(&Effect, Option<usize>)]) -> Result<ScoreTests> {
     let (regular, others): (Vec<_>, Vec<_>) = open.iter().partition(|(e, t)| is_regular(e, model, *t));
     let applied = |(e, t): &(&Effect, Option<usize>)| {
@@ -60,8 +60,12 @@ pub fn promises(problem: &Problem, base: &Fit, model: &Model, open: &[(&Effect, 
         })
         .map(|a| vec![a])
         .collect();
-    let groups: Vec<Vec<Applied>> = std::iter::once(together).filter(|g| !g.is_empty()).chain(alone).collect();
-    let found: Vec<ScoreTests> = groups.par_iter().map(|g| promise(problem, base, model, g)).collect::<Result<_>>()?;
+    // Two of a whole library of terms are not weighed together: small groups have small Gram matrices.
+    let paired = together.len() <= MOST_PAIRED;
+    let regular = together.chunks(if paired { MOST_PAIRED } else { UNPAIRED }).map(<[Applied]>::to_vec);
+    let groups: Vec<Vec<Applied>> = regular.chain(alone).collect();
+    let weighed = groups.par_iter().map(|g| promise(problem, base, model, g, paired));
+    let found: Vec<ScoreTests> = weighed.collect::<Result<_>>()?;
     let mut all = ScoreTests::default();
     for group in found {
         all.single.extend(group.single);
@@ -84,7 +88,7 @@ fn keep_best_start(found: &mut Vec<ScoreTest>) {
     *found = kept;
 }
 
-fn promise(problem: &Problem, base: &Fit, model: &Model, group: &[Applied]) -> Result<ScoreTests> {
+fn promise(problem: &Problem, base: &Fit, model: &Model, group: &[Applied], paired: bool) -> Result<ScoreTests> {
     let joint = group.iter().fold(model.clone(), |m, a| m.with_effect(a.clone()));
     let free = joint.free_parameters();
     let equations = joint.equations(&free)?;
@@ -110,7 +114,7 @@ fn promise(problem: &Problem, base: &Fit, model: &Model, group: &[Applied]) -> R
     };
     let single: Vec<ScoreTest> = group.iter().filter_map(|a| weigh(&[a])).flatten().collect();
     let two = |i: usize| group[i + 1..].iter().map(move |b| [&group[i], b]);
-    let mut pairs: Vec<[ScoreTest; 2]> = match group.len() <= MOST_PAIRED {
+    let mut pairs: Vec<[ScoreTest; 2]> = match paired {
         true => (0..group.len()).flat_map(two).filter_map(|ab| weigh(&ab)?.try_into().ok()).collect(),
         false => vec![],
     };
@@ -136,6 +140,9 @@ fn joined(problem: &Problem, base: &Fit, equations: &Equations, p: &[f64]) -> Op
 
 /// Of more candidates than these, pairs are not looked for: a library of terms.
 const MOST_PAIRED: usize = 40;
+
+/// So many of them share one linearisation.
+const UNPAIRED: usize = 8;
 
 /// A first-order step that stays where the effect has a meaning.
 fn moved(value: f64, step: f64, a: &Applied) -> f64 {

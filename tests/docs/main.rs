@@ -1,5 +1,6 @@
 //! The documents hold: their links lead somewhere, their commands run and print what is shown.
 
+mod arrows;
 mod commands;
 mod documents;
 mod fences;
@@ -12,6 +13,12 @@ use documents::{Document, all};
 /// Faults of all documents, one a line.
 fn none(faults: Vec<String>) {
     assert!(faults.is_empty(), "\n{}\n", faults.join("\n"));
+}
+
+#[test]
+fn stages_import_one_way() {
+    let sources = arrows::Sources::read(&documents::root().join("src"));
+    none([sources.homeless(), sources.upward(), sources.circles()].concat());
 }
 
 #[test]

@@ -15,7 +15,8 @@ pub(crate) use atomic_write::{check_target, put_in_place, unwritable, write_whol
 pub use atomic_write::{write_all_or_nothing, write_whole, write_whole_by};
 pub use extension::claims::{ClaimEntry, read_claims};
 pub use extension::effects::{EffectsFile, OwnEffect};
-pub use extension::vehicles::{OwnConstraint, OwnPart, OwnVehicle, VehiclesFile};
+pub use extension::user_vehicle::{OwnConstraint, OwnPart, OwnVehicle};
+pub use extension::vehicles::VehiclesFile;
 pub use log::columns::{Columns, InputColumn, Resolved, ResolvedInput};
 pub use log::header::read_header;
 pub use log::inputs::Inputs;

@@ -1,11 +1,11 @@
 //! `type` of `[[vehicle.constraints]]`: one of the catalogue, or a table that says a new one.
 
 use super::effect_parameter::read_unit;
-use super::vehicle_constraints::bounded;
 use super::vehicle_quantities::check_symbol;
 use crate::error::Result;
 use crate::files::toml::spanned_table::{Section, Value};
 use crate::files::toml::suggestions;
+use crate::files::toml::user_file::bounded;
 use crate::formula::Symbol;
 use crate::mechanism::{ConstraintType, Printed, Regimes, Slot, constraint_types};
 use std::sync::Arc;

@@ -4,6 +4,7 @@ pub(crate) mod claims;
 pub(crate) mod constraint_types;
 pub(crate) mod effect_parameter;
 pub(crate) mod effects;
+pub(crate) mod user_vehicle;
 pub(crate) mod vehicle_constraints;
 pub(crate) mod vehicle_parts;
 pub(crate) mod vehicle_quantities;

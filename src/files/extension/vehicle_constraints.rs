@@ -2,21 +2,17 @@
 
 use super::constraint_types::read_type;
 use super::effect_parameter::read_unit;
+use super::user_vehicle::{OwnConstraint, OwnVehicle};
 use super::vehicle_quantities::{MOST, check_symbol, read_meaning};
-use super::vehicles::{OwnConstraint, OwnVehicle};
-use crate::error::{Error, Result};
-use crate::files::toml::formula_text::FormulaText;
+use crate::error::Result;
 use crate::files::toml::location::Spot;
 use crate::files::toml::spanned_table::{Section, Value};
 use crate::files::toml::suggestions;
-use crate::files::toml::user_file::at_most;
-use crate::formula::{Size, Symbol};
+use crate::files::toml::user_file::{at_most, bounded};
+use crate::formula::Symbol;
 use crate::mechanism::{Constraint, ConstraintType, Momentum, Part, Slot};
 use crate::vehicles::Coordinate;
 use std::sync::Arc;
-
-/// The most factors in a product of a formula of a constraint, which is multiplied out.
-const MOST_FACTORS: usize = 8;
 
 /// Reads the coordinates of its own, and which of them is its heading.
 pub(crate) fn read_coordinates(own: &mut OwnVehicle, section: &Section) -> Result<()> {
@@ -171,18 +167,4 @@ fn derived(
     let constraint = momentum.constraint(name, creep.as_str()).map_err(|e| text.at_start(e))?;
     places.formulas.push(text);
     Ok(constraint)
-}
-
-/// A formula that may be multiplied out.
-pub(crate) fn bounded(value: &Value) -> Result<FormulaText> {
-    let text = FormulaText::read(value)?;
-    match Size::of(&text.formula, &|_| Size::SYMBOL).degree > MOST_FACTORS {
-        true => Err(too_long(&text)),
-        false => Ok(text),
-    }
-}
-
-fn too_long(text: &FormulaText) -> Error {
-    let error = text.error(format!("a constraint has a product of more than {MOST_FACTORS} factors"));
-    error.help("define a symbol for a part of it")
 }

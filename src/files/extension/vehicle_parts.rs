@@ -1,7 +1,7 @@
 //! `[[vehicle.wheels]]` and `[[vehicle.trailers]]`.
 
+use super::user_vehicle::{OwnPart, OwnVehicle};
 use super::vehicle_quantities::check_symbol;
-use super::vehicles::{OwnPart, OwnVehicle};
 use crate::error::Result;
 use crate::files::toml::formula_text::FormulaText;
 use crate::files::toml::location::Spot;

@@ -1,7 +1,7 @@
 //! `[vehicle.parameters.…]`, `[vehicle.inputs.…]` and `[vehicle.define]`: the names of a vehicle's formulas.
 
 use super::effect_parameter::read_unit;
-use super::vehicles::OwnVehicle;
+use super::user_vehicle::OwnVehicle;
 use crate::error::Result;
 use crate::files::toml::formula_text::FormulaText;
 use crate::files::toml::spanned_table::{Section, Value};

@@ -1,12 +1,12 @@
 //! A user's own vehicles: wheels, trailers, parameters and inputs, from which everything else is derived.
 
+use super::user_vehicle::OwnVehicle;
 use super::vehicle_constraints::{read_constraints, read_coordinates};
 use super::vehicle_parts::{read_trailers, read_wheels};
 use super::vehicle_quantities::{read_definitions, read_inputs, read_quantities};
 use crate::error::Result;
-use crate::files::toml::formula_text::FormulaText;
 use crate::files::toml::location::Spot;
-use crate::files::toml::spanned_table::{Section, Source, Value};
+use crate::files::toml::spanned_table::{Section, Source};
 use crate::files::toml::user_file::{at_most, read_id, read_own};
 use crate::formula::Symbol;
 use crate::provenance::Origin;
@@ -23,55 +23,6 @@ const MOST_VEHICLES: usize = 20;
 pub struct VehiclesFile {
     /// The vehicles, in the order of the file.
     pub vehicles: Vec<OwnVehicle>,
-}
-
-/// A vehicle and the places of its parts.
-#[derive(Clone, Debug)]
-pub struct OwnVehicle {
-    /// The vehicle.
-    pub vehicle: Vehicle,
-    /// Where its id stands.
-    pub id: Spot,
-    /// Where it says what to use instead.
-    pub instead: Option<Spot>,
-    /// Where each parameter, input, replacement of an input and defined symbol is named.
-    pub names: BTreeMap<Symbol, Spot>,
-    /// The formulas of the defined symbols.
-    pub define: BTreeMap<Symbol, FormulaText>,
-    /// The formulas of inputs from the columns logged in their place, by input.
-    pub replaced: BTreeMap<String, FormulaText>,
-    /// The wheels.
-    pub wheels: Vec<OwnPart>,
-    /// The trailers.
-    pub trailers: Vec<OwnPart>,
-    /// Where each coordinate of its own is named.
-    pub coordinates: Vec<Spot>,
-    /// Its constraints beside those of wheels.
-    pub constraints: Vec<OwnConstraint>,
-    /// Where each held name stands.
-    pub held: Vec<Spot>,
-}
-
-/// The places of a wheel or a trailer.
-#[derive(Clone, Debug)]
-pub struct OwnPart {
-    /// Where it is named.
-    pub name: Spot,
-    /// Its lengths by key.
-    pub lengths: BTreeMap<&'static str, FormulaText>,
-    /// Where its symbols stand, by key.
-    pub symbols: BTreeMap<&'static str, Spot>,
-}
-
-/// The places of a constraint.
-#[derive(Clone, Debug)]
-pub struct OwnConstraint {
-    /// Where it is named.
-    pub name: Spot,
-    /// Where its coefficient stands.
-    pub creep: Spot,
-    /// What stands in its slots, or the energy and the generator it is derived from.
-    pub formulas: Vec<FormulaText>,
 }
 
 impl VehiclesFile {
@@ -172,16 +123,4 @@ fn read_held(own: &mut OwnVehicle, section: &Section) -> Result<()> {
         own.held.push(Spot::at(section.source, name.span().start));
     }
     Ok(())
-}
-
-impl OwnVehicle {
-    /// Takes down a name that a formula or a model file may use.
-    pub(crate) fn declare(&mut self, symbol: Symbol, value: &Value) -> Result<()> {
-        match self.names.insert(symbol.clone(), Spot::at(value.source, value.key_at)) {
-            None => Ok(()),
-            Some(first) => Err(value
-                .key_error(format!("{symbol} is declared twice, first at line {}", first.line()))
-                .help("parameters, inputs and defined symbols share one set of names; give one of them another")),
-        }
-    }
 }

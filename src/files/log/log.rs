@@ -2,7 +2,7 @@
 
 use super::csv_table::{Numbers, Sheet};
 #[cfg(feature = "mcap")]
-use super::mcap::Bag;
+use super::mcap::bag::Bag;
 #[cfg(feature = "parquet")]
 use super::parquet::ParquetLog;
 use crate::error::{Error, Result};

@@ -1,15 +1,19 @@
 //! What files of a user's own effects and vehicles have in common.
 
+use super::formula_text::FormulaText;
 use super::spanned_table::Value;
 use super::suggestions::shown;
 use super::text::read_hashed;
 use crate::error::{Error, Result};
+use crate::formula::Size;
 use crate::provenance::Origin;
 use std::path::Path;
 use std::sync::Arc;
 
 /// The largest file, in bytes; a vehicle has some dozens of lines, an effect a few.
 const LARGEST: usize = 256 << 10;
+/// The most factors in a product of a formula of a constraint, which is multiplied out.
+const MOST_FACTORS: usize = 8;
 
 /// A file's text, kept as the origin of what it defines.
 pub(crate) fn read_own(path: &Path, what: &str) -> Result<Arc<Origin>> {
@@ -42,4 +46,18 @@ pub(crate) fn at_most(value: &Value, found: usize, most: usize) -> Result<()> {
         true => Ok(()),
         false => Err(value.error(format!("{} has {found} entries", value.name)).help(format!("give at most {most}"))),
     }
+}
+
+/// A formula that may be multiplied out.
+pub(crate) fn bounded(value: &Value) -> Result<FormulaText> {
+    let text = FormulaText::read(value)?;
+    match Size::of(&text.formula, &|_| Size::SYMBOL).degree > MOST_FACTORS {
+        true => Err(too_long(&text)),
+        false => Ok(text),
+    }
+}
+
+fn too_long(text: &FormulaText) -> Error {
+    let error = text.error(format!("a constraint has a product of more than {MOST_FACTORS} factors"));
+    error.help("define a symbol for a part of it")
 }

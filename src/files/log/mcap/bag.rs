@@ -1,0 +1,158 @@
+//! An MCAP file of ROS 2 messages as a log: its topics looked through once, its columns read in a second pass.
+
+use super::messages::Layout;
+use super::{cdr, merge, messages};
+use crate::error::{Error, Result};
+use crate::files::log::csv_table::Numbers;
+use crate::files::log::row_order;
+use crate::files::log::usable_rows::{hash, usable};
+use crate::files::toml::suggestions;
+use crate::files::toml::text::open;
+use mcap::io::MessageReader;
+use mcap::sans_io::LinearReaderOptions;
+use mcap::{McapError, Message};
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+
+/// Names of the times of a message: of its header, and of its recording.
+const TIMES: [&str; 3] = ["time", "stamp", "log_time"];
+/// A record may be as large as the file, or so many bytes.
+const LARGEST_RECORD: u64 = 64 << 20;
+/// More columns than these are no log.
+const MOST_COLUMNS: usize = 20_000;
+
+/// An MCAP file whose topics are known.
+pub(crate) struct Bag {
+    pub path: PathBuf,
+    pub header: Vec<String>,
+    /// The topic and field of each column behind the times.
+    fields: Vec<(String, String)>,
+}
+
+impl Bag {
+    /// Looks through a file for the topics and fields that it has.
+    pub fn open(path: &Path) -> Result<Self> {
+        let mut known: BTreeMap<String, Vec<String>> = BTreeMap::new();
+        let mut others: BTreeMap<String, String> = BTreeMap::new();
+        let mut columns = 0;
+        for (n, message) in messages(path)?.enumerate() {
+            let message = message.map_err(|e| unreadable(path, n, &e))?;
+            let Some(layout) = Layout::of(&message.channel) else {
+                others.entry(message.channel.topic.clone()).or_insert_with(|| kind(&message));
+                continue;
+            };
+            let fields = known.entry(message.channel.topic.clone()).or_default();
+            if !fields.is_empty() && !layout.varies() {
+                continue;
+            }
+            for name in layout.fields(&message.data).map_err(|e| malformed(path, &message, n, e))? {
+                if !fields.contains(&name) {
+                    fields.push(name);
+                    columns += 1;
+                }
+            }
+            if columns > MOST_COLUMNS {
+                return Err(Error::input("has too many fields").at_file(path).help("give a bag with fewer joints"));
+            }
+        }
+        if known.is_empty() {
+            let there: Vec<String> = others.iter().map(|(topic, kind)| format!("{topic} ({kind})")).collect();
+            let there: Vec<&str> = there.iter().map(String::as_str).collect();
+            return Err(Error::input("has no message that creepage reads").at_file(path).help(format!(
+                "it reads {} in CDR; the bag has: {}",
+                messages::NAMES.join(", "),
+                suggestions::list(&there)
+            )));
+        }
+        let fields: Vec<(String, String)> =
+            known.into_iter().flat_map(|(topic, f)| f.into_iter().map(move |f| (topic.clone(), f))).collect();
+        let names = fields.iter().map(|(topic, field)| format!("{topic}:{field}"));
+        let header = TIMES.iter().map(|t| (*t).to_string()).chain(names).collect();
+        Ok(Self { path: path.to_path_buf(), header, fields })
+    }
+
+    /// Reads columns, the time first. Those of the topic with the most messages stay as they are; those of others are
+    /// interpolated to its times.
+    pub fn numbers(self, wanted: &[usize]) -> Result<Numbers> {
+        let by_stamp = wanted.first().is_none_or(|c| self.header[*c] != TIMES[2]);
+        let fields: Vec<&(String, String)> =
+            wanted.iter().skip(1).filter_map(|c| self.fields.get(c.wrapping_sub(TIMES.len()))).collect();
+        if fields.len() + 1 != wanted.len() {
+            return Err(Error::input("a time of the messages is named for another quantity")
+                .at_file(&self.path)
+                .help("name a column TOPIC:FIELD under [columns]"));
+        }
+        let mut topics = self.read(&fields, by_stamp)?;
+        topics.values_mut().for_each(|columns| {
+            row_order::sort(columns);
+        });
+        let sha256 = hash(&self.path)?;
+        let longest = topics.iter().max_by_key(|(topic, c)| (c[0].len(), std::cmp::Reverse(*topic)));
+        let base = longest.map(|(topic, _)| topic.clone()).unwrap_or_default();
+        let time = topics.get(&base).map_or_else(Vec::new, |c| c[0].clone());
+        let mut columns = vec![time.clone()];
+        let mut next: BTreeMap<&str, usize> = BTreeMap::new();
+        for (topic, _) in &fields {
+            let at = next.entry(topic).or_insert(0);
+            *at += 1;
+            let Some(own) = topics.get(topic) else { continue };
+            columns.push(match *topic == base {
+                true => own[*at].clone(),
+                false => merge::at_times(&own[0], &own[*at], &time),
+            });
+        }
+        let names: Vec<&str> = wanted.iter().map(|c| self.header[*c].as_str()).collect();
+        Ok(usable(columns, &names, sha256))
+    }
+
+    /// The times and wanted fields of each topic.
+    fn read(&self, wanted: &[&(String, String)], by_stamp: bool) -> Result<BTreeMap<String, Vec<Vec<f64>>>> {
+        let mut found: BTreeMap<String, Vec<Vec<f64>>> = BTreeMap::new();
+        let of = |topic: &str| -> Vec<&str> {
+            wanted.iter().filter(|(t, _)| t == topic).map(|(_, field)| field.as_str()).collect()
+        };
+        for (topic, _) in wanted {
+            found.entry(topic.clone()).or_insert_with(|| vec![vec![]; of(topic).len() + 1]);
+        }
+        for (n, message) in messages(&self.path)?.enumerate() {
+            let message = message.map_err(|e| unreadable(&self.path, n, &e))?;
+            let Some(columns) = found.get_mut(&message.channel.topic) else { continue };
+            let Some(layout) = Layout::of(&message.channel) else { continue };
+            let fields = of(&message.channel.topic);
+            let (stamp, values) =
+                layout.values(&message.data, &fields).map_err(|e| malformed(&self.path, &message, n, e))?;
+            let logged = message.log_time as f64 * 1e-9;
+            columns[0].push(if by_stamp { stamp } else { logged });
+            columns[1..].iter_mut().zip(values).for_each(|(c, v)| c.push(v));
+        }
+        Ok(found)
+    }
+}
+
+fn messages(path: &Path) -> Result<MessageReader<BufReader<File>>> {
+    let file = open(path)?;
+    let size = file.metadata().map_or(0, |m| m.len());
+    let limit = usize::try_from(size.max(LARGEST_RECORD)).unwrap_or(usize::MAX);
+    let options = LinearReaderOptions::default().with_record_length_limit(limit);
+    Ok(MessageReader::new_with_options(BufReader::new(file), options))
+}
+
+fn kind(message: &Message) -> String {
+    message.channel.schema.as_ref().map_or_else(|| message.channel.message_encoding.clone(), |s| s.name.clone())
+}
+
+fn unreadable(path: &Path, n: usize, e: &McapError) -> Error {
+    let why: String = e.to_string().chars().map(|c| if c.is_control() { ' ' } else { c }).take(200).collect();
+    Error::input(format!("cannot be read as MCAP behind message {n}: {why}"))
+        .at_file(path)
+        .help("the recording may be cut off; `mcap recover` saves what is whole")
+}
+
+fn malformed(path: &Path, message: &Message, n: usize, why: cdr::Malformed) -> Error {
+    let topic = suggestions::shown(&message.channel.topic);
+    Error::input(format!("message {} on {topic} is no {} in CDR: {why}", n + 1, suggestions::shown(&kind(message))))
+        .at_file(path)
+        .help("check the bag's schema; its messages may be of another type than it says")
+}

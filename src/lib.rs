@@ -56,6 +56,7 @@ pub mod extensions;
 pub mod figures;
 pub mod files;
 pub mod formula;
+mod front_door;
 pub mod mechanism;
 pub mod model;
 pub mod motion;
@@ -68,4 +69,7 @@ pub mod theory;
 pub mod vehicles;
 mod wording;
 
+pub use discrepancy::report::{Report, Verdict};
 pub use error::{Error, Result};
+pub use files::Run;
+pub use front_door::{Discovery, Model, Options, Pose, check, describe, discover, discover_with, simulate};

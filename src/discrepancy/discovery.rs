@@ -54,6 +54,8 @@ pub(crate) fn empty_report(request: &Request, data: &Data) -> Report {
     hashes.insert(request.file.path.to_string_lossy().into_owned(), request.file.sha256.clone());
     let own = request.library.iter().filter_map(|e| e.origin.as_deref()).chain(request.file.vehicle_origin());
     hashes.extend(own.map(|o| (o.path.to_string_lossy().into_owned(), o.sha256.clone())));
+    // What was given as arrays has no file.
+    hashes.retain(|path, _| !path.is_empty());
     let warnings = warnings.chain(data.warnings()).collect();
     Report {
         schema: 1,

@@ -60,8 +60,8 @@ pub struct Apart {
 
 impl Run {
     /// Reads a log by the columns of a model file, in one pass; a bag, whose topics have times of their own, in two.
-    pub fn read(path: impl AsRef<Path>, model: &ModelFile) -> Result<Self> {
-        let path = path.as_ref();
+    pub fn read(path: impl AsRef<Path>, model: &impl AsRef<ModelFile>) -> Result<Self> {
+        let (path, model) = (path.as_ref(), model.as_ref());
         let log = Log::open(path)?;
         if log.has_topics() {
             return Self::read_bag(path, model);

@@ -96,6 +96,12 @@ pub struct Noise {
     pub heading: Option<f64>,
 }
 
+impl AsRef<ModelFile> for ModelFile {
+    fn as_ref(&self) -> &Self {
+        self
+    }
+}
+
 impl ModelFile {
     /// Reads and checks a model file.
     ///

@@ -1,0 +1,121 @@
+//! The main jobs as calls: discover, check, describe, simulate.
+
+use super::discovery::Discovery;
+use super::model::Model;
+use super::options::Options;
+use crate::describe::Description;
+use crate::discrepancy::check::check_aligned;
+use crate::discrepancy::discover::discover_aligned;
+use crate::discrepancy::identifiability::{Check, Checked};
+use crate::discrepancy::request::Request;
+use crate::error::Result;
+use crate::files::Run;
+use crate::model::Model as VehicleModel;
+use crate::motion::{Integrator, Signals, Table, simulate_model};
+
+/// Finds where a model and measured runs disagree, names the missing effect, and adds it to the model.
+///
+/// ```
+/// use creepage::{Model, Run};
+/// let model = Model::read("examples/runs/cornering/model.toml")?;
+/// let runs = Run::read_all(["examples/runs/cornering/eights.csv", "examples/runs/cornering/rosette.csv"], &model)?;
+/// let found = creepage::discover(&model, &runs)?;
+/// assert_eq!(found.report.summary, "The model misses cornering-creep.");
+/// assert!(found.model.text().contains("cornering-creep"));
+/// # Ok::<(), creepage::Error>(())
+/// ```
+///
+/// # Errors
+/// When runs log different inputs, or the constraints of the model do not determine its motion.
+pub fn discover(model: &Model, runs: &[Run]) -> Result<Discovery> {
+    discover_with(model, runs, &Options::default())
+}
+
+/// As [`discover`](crate::discover), with runs held out, horizons and a seed of one's own.
+///
+/// ```
+/// use creepage::{Model, Options, Run};
+/// let model = Model::read("examples/runs/cornering/model.toml")?;
+/// let eights = Run::read("examples/runs/cornering/eights.csv", &model)?;
+/// let bay = Run::read("examples/runs/cornering/bay_held_out.csv", &model)?;
+/// let options = Options { held_out: vec![bay], horizons: vec![5.0], ..Options::default() };
+/// let found = creepage::discover_with(&model, &[eights], &options)?;
+/// let gap = found.report.gap[0].held_out.unwrap();
+/// assert!(gap.position_rms_after < 0.1 * gap.position_rms_before);
+/// # Ok::<(), creepage::Error>(())
+/// ```
+///
+/// # Errors
+/// As [`discover`](crate::discover).
+pub fn discover_with(model: &Model, runs: &[Run], options: &Options) -> Result<Discovery> {
+    model.file.no_forces("discover")?;
+    VehicleModel::check_motion(&model.file)?;
+    let request = Request {
+        file: &model.file,
+        runs,
+        held_out: &options.held_out,
+        library: &model.library,
+        horizons: &options.horizons,
+        seed: options.seed,
+    };
+    let found = discover_aligned(&request, options.clock_offset, &|_| ())?;
+    let patched = model.rewritten(&found.patched(&model.file))?;
+    Ok(Discovery { report: found.report, model: patched, pictures: found.pictures })
+}
+
+/// Says before any fit what runs can tell of a model: which effects would be seen, which would not be told apart.
+///
+/// ```
+/// use creepage::{Model, Run};
+/// let model = Model::read("examples/runs/cornering/model.toml")?;
+/// let told = creepage::check(&model, &[Run::read("examples/runs/cornering/eights.csv", &model)?])?;
+/// assert!(told.effects.iter().any(|e| e.id == "cornering-creep"));
+/// # Ok::<(), creepage::Error>(())
+/// ```
+///
+/// # Errors
+/// As [`discover`](crate::discover).
+pub fn check(model: &Model, runs: &[Run]) -> Result<Check> {
+    model.file.no_forces("check")?;
+    VehicleModel::check_motion(&model.file)?;
+    check_aligned(&Checked { file: &model.file, runs, library: &model.library }, None, &|_| ())
+}
+
+/// The constraints of a model with equations, Jacobians, growth vector and RT signature.
+///
+/// ```
+/// let car = creepage::Model::new("car", &[("wheel_radius", 0.3), ("wheelbase", 2.6)])?;
+/// assert!(creepage::describe::text(&creepage::describe(&car)?).contains("growth"));
+/// # Ok::<(), creepage::Error>(())
+/// ```
+///
+/// # Errors
+/// When an effect of the model does not apply to its vehicle.
+pub fn describe(model: &Model) -> Result<Description> {
+    let roles: Vec<String> = model.file.columns.inputs.iter().map(|i| i.role.clone()).collect();
+    Description::of(&VehicleModel::from_file(&model.file, &model.library, &roles)?)
+}
+
+/// The motion of a model over the inputs of a run, from the first pose of the run, at the times of its poses.
+///
+/// ```
+/// use creepage::{Model, Run};
+/// let model = Model::read("examples/runs/cornering/model.toml")?;
+/// let run = Run::read("examples/runs/cornering/eights.csv", &model)?;
+/// let table = creepage::simulate(&model, &run)?;
+/// assert_eq!(table.rows(), run.time.len());
+/// # Ok::<(), creepage::Error>(())
+/// ```
+///
+/// # Errors
+/// When the motion cannot be integrated.
+pub fn simulate(model: &Model, run: &Run) -> Result<Table> {
+    model.file.no_forces("simulate")?;
+    let vehicle = VehicleModel::from_file(&model.file, &model.library, &run.roles)?;
+    let signals = Signals::new(run.input_time(), &run.inputs, model.file.input_timing.into());
+    let heading = run.heading.as_ref().map_or(0.0, |h| h[0]);
+    let measured = run.trailer_headings.iter().map(|h| h[0]);
+    let trailers: Vec<f64> = measured.chain(std::iter::repeat(heading)).take(vehicle.trailer_count()).collect();
+    let start: Vec<f64> = [run.x[0], run.y[0], heading].into_iter().chain(trailers).collect();
+    simulate_model(&vehicle, &signals, &run.time, &start, &Integrator::default())
+}

@@ -1,0 +1,13 @@
+//! The front door: the jobs of the program as calls of one line, on models and runs that need no file.
+
+mod discover;
+mod discovery;
+mod model;
+mod options;
+mod run;
+
+pub use discover::{check, describe, discover, discover_with, simulate};
+pub use discovery::Discovery;
+pub use model::Model;
+pub use options::Options;
+pub use run::Pose;

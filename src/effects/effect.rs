@@ -22,6 +22,10 @@ pub struct Effect {
     /// Whether it belongs to one trailer.
     #[serde(default)]
     pub per_trailer: bool,
+    /// Whether every vehicle has it in one form or another: where one of plausible size could hide, silence means
+    /// nothing. A user's own effect is not basic.
+    #[serde(default)]
+    pub basic: bool,
     /// Inputs the vehicle must have.
     #[serde(default)]
     pub needs: Vec<String>,

@@ -1,8 +1,10 @@
 //! The vehicles: descriptions as data. To add one, add it to `catalogue.toml`; a user adds one without recompiling,
 //! see [`extensions`](crate::extensions).
 
+mod moves;
 mod vehicle;
 
+pub use moves::Moves;
 pub use vehicle::{Coordinate, Definition, Input, Instead, Quantity, Section, Vehicle, Wheel};
 
 use std::sync::LazyLock;

@@ -1,5 +1,6 @@
 //! A vehicle: a body with wheels, trailers, inputs and parameters.
 
+use super::moves::Moves;
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::Constraint;
 use crate::provenance::Origin;
@@ -67,6 +68,14 @@ impl Vehicle {
     pub fn creeps(&self) -> impl Iterator<Item = &Symbol> {
         let wheels = self.wheels.iter().flat_map(|w| [&w.rotation_creep, &w.traverse_creep]).flatten();
         wheels.chain(self.constraints.iter().map(|c| &c.creep))
+    }
+
+    /// What a logged input does to the body, an input or a column in the place of one: as it is declared, else by its
+    /// name; `None` where neither says.
+    pub fn moved_by(&self, role: &str) -> Option<Moves> {
+        let instead = || self.inputs.values().filter_map(|i| i.instead.as_ref()).find(|i| i.role == role)?.moves;
+        let declared = self.inputs.get(role).map_or_else(instead, |i| i.moves);
+        declared.or_else(|| Moves::usual(role))
     }
 
     /// The coordinate of that name among those of its own.
@@ -138,6 +147,8 @@ pub struct Input {
     pub unit: String,
     /// Meaning.
     pub meaning: String,
+    /// What it does to the body; by its name where it is not declared.
+    pub moves: Option<Moves>,
     /// Another column that may be logged in its place.
     pub instead: Option<Instead>,
 }
@@ -148,6 +159,8 @@ pub struct Input {
 pub struct Instead {
     /// Role of the column.
     pub role: String,
+    /// What it does to the body; by its name where it is not declared.
+    pub moves: Option<Moves>,
     /// SI unit.
     pub unit: String,
     /// The input as a formula of this role and the parameters.

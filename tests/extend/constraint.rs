@@ -17,7 +17,7 @@ pub fn rope_cart() -> Vehicle {
     };
     let place = [("x", "m", "along x"), ("y", "m", "along y"), ("phi", "rad", "heading"), ("theta", "rad", "drum")];
     let radius = Quantity { unit: "m".into(), meaning: "radius of the drum".into(), optional: false };
-    let input = |meaning: &str| Input { unit: "rad/s".into(), meaning: meaning.into(), instead: None };
+    let input = |meaning: &str| Input { unit: "rad/s".into(), meaning: meaning.into(), moves: None, instead: None };
     let rate =
         |formula: &str| Definition { formula: Expr::sym(formula), unit: "rad/s".into(), meaning: formula.into() };
     let slots = [("pays'", "cos(phi)*x' + sin(phi)*y'"), ("drum", "drum_radius"), ("turns'", "theta'")];

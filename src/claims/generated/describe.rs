@@ -59,7 +59,7 @@ impl Generated {
         let mounted = wheels.iter().filter(|w| matches!(w.facing, Facing::Fixed(_))).filter_map(Placed::angle);
         let mut define: BTreeMap<Symbol, Definition> = mounted.map(|s| (s, defined("as_mounted"))).collect();
         define.insert("delta".into(), defined("steering_angle"));
-        let steering = Input { unit: "rad".into(), meaning: "steering angle".into(), instead: None };
+        let steering = Input { unit: "rad".into(), meaning: "steering angle".into(), moves: None, instead: None };
         Vehicle {
             id: "generated".into(),
             wheels: wheels.iter().map(Placed::described).collect(),

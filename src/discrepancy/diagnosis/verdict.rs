@@ -250,23 +250,12 @@ fn mismatched(clocks: &[Drift]) -> Option<String> {
     ))
 }
 
-/// Effects every vehicle has in one form or another: if one of plausible size could hide, silence means nothing.
-pub(crate) const BASIC: [&str; 7] = [
-    "rotation-creep",
-    "traverse-creep",
-    "yaw-rate-bias",
-    "yaw-rate-scale",
-    "track-width",
-    "steering-offset",
-    "steering-gain",
-];
-
 /// A basic effect that would not have stood out at its plausible size, where so many values say what one would.
 pub(crate) fn missed(candidates: &[Candidate], variance_inflation: f64) -> Option<&Candidate> {
     candidates.iter().find(|c| {
         let sizes = c.applied.effect.parameters.values().map(|p| p.size);
         let hides = |(size, std): (f64, &f64)| 4.0 * std * variance_inflation.sqrt() > size;
-        BASIC.contains(&c.applied.effect.id.as_str()) && sizes.zip(&c.std).any(hides)
+        c.applied.effect.basic && sizes.zip(&c.std).any(hides)
     })
 }
 

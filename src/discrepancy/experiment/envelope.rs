@@ -2,6 +2,7 @@
 
 use crate::discrepancy::record::record::Record;
 use crate::model::Model;
+use crate::vehicles::Moves;
 
 /// What a driver can change beside the speed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,7 +49,7 @@ impl Envelope {
     /// The envelope of runs; `None` for inputs it does not know.
     pub fn of(model: &Model, records: &[Record]) -> Option<Self> {
         let inputs = model.inputs.iter().map(|role| input(model, role)).collect::<Option<Vec<_>>>()?;
-        let steered = model.inputs.iter().any(|r| r == "steering_angle");
+        let steered = model.inputs.iter().any(|r| model.vehicle.moved_by(r) == Some(Moves::Steering));
         let turning = match (inputs.iter().any(|i| i.turn != 0.0), steered) {
             (false, _) => Turning::Nothing,
             (true, true) => Turning::Angle,
@@ -92,13 +93,13 @@ impl Envelope {
 fn input(model: &Model, role: &str) -> Option<Input> {
     let radius = || model.parameters.get("wheel_radius").copied().filter(|r| *r > 0.0);
     let half_track = || Some(0.5 * model.parameters.get("track_width")?);
-    Some(match role {
-        "speed" => Input { speed: 1.0, turn: 0.0 },
-        "wheel_rate" => Input { speed: 1.0 / radius()?, turn: 0.0 },
-        "yaw_rate" | "steering_angle" => Input { speed: 0.0, turn: 1.0 },
-        "wheel_rate_left" => Input { speed: 1.0 / radius()?, turn: -half_track()? / radius()? },
-        "wheel_rate_right" => Input { speed: 1.0 / radius()?, turn: half_track()? / radius()? },
-        _ => return None,
+    Some(match model.vehicle.moved_by(role)? {
+        Moves::Forward => Input { speed: 1.0, turn: 0.0 },
+        Moves::Wheel => Input { speed: 1.0 / radius()?, turn: 0.0 },
+        Moves::Yaw | Moves::Steering => Input { speed: 0.0, turn: 1.0 },
+        Moves::LeftWheel => Input { speed: 1.0 / radius()?, turn: -half_track()? / radius()? },
+        Moves::RightWheel => Input { speed: 1.0 / radius()?, turn: half_track()? / radius()? },
+        Moves::Shape => return None,
     })
 }
 

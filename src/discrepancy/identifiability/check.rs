@@ -9,7 +9,6 @@ use super::expected_gain::Background;
 use super::fisher_information::Driven;
 use crate::discrepancy::diagnosis::equivalents::measured;
 use crate::discrepancy::diagnosis::verdict;
-use crate::discrepancy::diagnosis::verdict::BASIC;
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::estimation::variance_components::without_jump;
@@ -17,7 +16,7 @@ use crate::discrepancy::preprocessing::outliers::without_gross_errors;
 use crate::discrepancy::preprocessing::unit_errors::too_sparse;
 use crate::discrepancy::record::record::Record;
 use crate::discrepancy::report::Verdict;
-use crate::effects::Effect;
+use crate::effects::{self, Effect};
 use crate::error::Result;
 use crate::files::{ModelFile, Run};
 use crate::model::Model;
@@ -145,7 +144,7 @@ fn without_fit(data: Health, outcome: verdict::Outcome) -> Check {
 /// The verdict by the basic effects, and a sentence.
 fn standing(effects: &[Prospect]) -> (Standing, String) {
     let missed: Vec<&str> = effects.iter().filter(|e| e.seen == Seen::No).map(|e| e.id.as_str()).collect();
-    let basic = missed.iter().any(|id| BASIC.contains(id));
+    let basic = missed.iter().any(|id| effects::named(id).is_some_and(|e| e.basic));
     let named = listed(missed.iter().copied().take(NAMED));
     let more = missed.len().saturating_sub(NAMED);
     let more = if more > 0 { format!(" (and {more} more)") } else { String::new() };

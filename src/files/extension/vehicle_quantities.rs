@@ -45,7 +45,7 @@ pub(crate) fn read_inputs(own: &mut OwnVehicle, section: &Section) -> Result<()>
         let table = entry.section(format!("[vehicle.inputs.{}]", entry.name))?;
         table.only(&["unit", "meaning", "instead"])?;
         let instead = table.get("instead").map(|v| read_instead(own, &entry.name, &v)).transpose()?;
-        let input = Input { unit: read_unit(&table)?, meaning: read_meaning(&table)?, instead };
+        let input = Input { unit: read_unit(&table)?, meaning: read_meaning(&table)?, moves: None, instead };
         own.vehicle.inputs.insert(entry.name.clone(), input);
     }
     Ok(())
@@ -59,7 +59,8 @@ fn read_instead(own: &mut OwnVehicle, input: &str, value: &Value) -> Result<Inst
     check_role(&role, role.text()?)?;
     own.declare(Symbol::new(role.text()?), &role)?;
     let formula = FormulaText::read(&table.need("formula", example)?)?;
-    let instead = Instead { role: role.text()?.into(), unit: read_unit(&table)?, formula: formula.formula.clone() };
+    let instead =
+        Instead { role: role.text()?.into(), moves: None, unit: read_unit(&table)?, formula: formula.formula.clone() };
     own.replaced.insert(input.into(), formula);
     Ok(instead)
 }

@@ -1,0 +1,67 @@
+//! The part of an input in the motion of the body: what it drives and what it turns.
+
+use serde::Deserialize;
+
+/// What a measured input does to the body, with v its speed, m/s, and w its yaw rate, rad/s.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Moves {
+    /// It is the speed v, m/s.
+    Forward,
+    /// The rate of a wheel of radius r that drives: v/r, rad/s.
+    Wheel,
+    /// The rate of a left wheel, of radius r on an axle of track a: (v - a·w/2)/r, rad/s.
+    LeftWheel,
+    /// The rate of a right wheel, of radius r on an axle of track a: (v + a·w/2)/r, rad/s.
+    RightWheel,
+    /// It is the yaw rate w, rad/s.
+    Yaw,
+    /// A steering angle, rad.
+    Steering,
+    /// It changes the shape: it neither drives nor turns the body.
+    Shape,
+}
+
+impl Moves {
+    /// What an input of a usual name does, of a vehicle that does not declare it.
+    pub(super) fn usual(role: &str) -> Option<Self> {
+        Some(match role {
+            "speed" => Self::Forward,
+            "wheel_rate" => Self::Wheel,
+            "wheel_rate_left" => Self::LeftWheel,
+            "wheel_rate_right" => Self::RightWheel,
+            "yaw_rate" => Self::Yaw,
+            "steering_angle" => Self::Steering,
+            _ => return None,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vehicles;
+
+    #[test]
+    fn every_input_of_the_catalogue_declares_what_it_does() {
+        for vehicle in vehicles::all() {
+            for (role, input) in &vehicle.inputs {
+                assert!(input.moves.is_some(), "{}: {role}", vehicle.id);
+                let instead = input.instead.as_ref();
+                assert!(instead.is_none_or(|i| i.moves.is_some()), "{}: in the place of {role}", vehicle.id);
+                let usual = Moves::usual(role);
+                assert!(usual.is_none() || usual == input.moves, "{}: {role} is not the usual one", vehicle.id);
+            }
+        }
+    }
+
+    #[test]
+    fn a_declaration_goes_before_a_name() {
+        let mut own = vehicles::named("unicycle").unwrap().clone();
+        assert_eq!((own.moved_by("speed"), own.moved_by("crank")), (Some(Moves::Forward), None));
+        own.inputs.get_mut("yaw_rate").unwrap().moves = None;
+        assert_eq!(own.moved_by("yaw_rate"), Some(Moves::Yaw));
+        own.inputs.get_mut("yaw_rate").unwrap().moves = Some(Moves::Shape);
+        assert_eq!(own.moved_by("yaw_rate"), Some(Moves::Shape));
+    }
+}

@@ -46,7 +46,7 @@ pub(crate) fn without_name(terms: &[&SelectedEffect], data: &Data, after: &Fit, 
     let (without, with) = (violations(&bare)?, violations(&after.model)?);
     let one = |c: &&SelectedEffect| Unnamed {
         place: c.applied.effect.place.clone(),
-        equation: crate::model::effect_equation::equation(&c.applied, model),
+        equation: crate::model::effect_equation::term_equation(&c.applied, model),
         held_out_reduction: crate::discrepancy::localisation::constraint_residuals::reduction(
             &c.applied.effect.place,
             &without,

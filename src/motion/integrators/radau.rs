@@ -17,6 +17,10 @@ use differential_equations::status::Status;
 use ode_solvers::dop_shared::IntegrationError;
 use std::cell::RefCell;
 
+/// A right-hand side: writes f(t, y) into its last argument. It is called by its address, so that the crate's method is
+/// compiled once for each length of the state and not again for each right-hand side.
+pub(crate) type Rates<'a> = dyn FnMut(f64, &[f64], &mut [f64]) + 'a;
+
 /// ∂f/∂y of a right-hand side.
 pub(crate) trait Slopes {
     /// Writes ∂fᵢ/∂yⱼ row by row; false where they have to be had from differences.
@@ -76,8 +80,8 @@ pub(crate) struct Done {
 
 /// Integrates y′ = f(s, y) from s = 0 through a span.
 pub(crate) fn step_through(
-    rates: &mut impl FnMut(f64, &[f64], &mut [f64]),
-    slopes: &mut impl Slopes,
+    rates: &mut Rates<'_>,
+    slopes: &mut dyn Slopes,
     span: &Span,
     y: &[f64],
 ) -> Result<Done, IntegrationError> {
@@ -105,8 +109,8 @@ const MAX_STEP_GROWTH: f64 = 2.0;
 const NEWTON_TOLERANCE: f64 = 1e-3;
 
 fn padded<const N: usize>(
-    rates: &mut impl FnMut(f64, &[f64], &mut [f64]),
-    slopes: &mut impl Slopes,
+    rates: &mut Rates<'_>,
+    slopes: &mut dyn Slopes,
     span: &Span,
     y: &[f64],
 ) -> Result<Done, IntegrationError> {
@@ -136,9 +140,9 @@ fn padded<const N: usize>(
 }
 
 /// A right-hand side filled up to N components.
-struct Padded<'a, F, J> {
+struct Padded<'a> {
     n: usize,
-    parts: RefCell<(&'a mut F, &'a mut J)>,
+    parts: RefCell<(&'a mut Rates<'a>, &'a mut dyn Slopes)>,
 }
 
 struct Step<const N: usize> {
@@ -147,7 +151,7 @@ struct Step<const N: usize> {
     next: f64,
 }
 
-impl<F: FnMut(f64, &[f64], &mut [f64]), J: Slopes> Padded<'_, F, J> {
+impl Padded<'_> {
     /// A first step shorter than the shortest time constant: where a layer begins a span, longer ones are refused one after
     /// another until one is as short.
     fn cautious<const N: usize>(&self, y: &[f64; N], span: &Span) -> f64 {
@@ -180,7 +184,7 @@ impl<F: FnMut(f64, &[f64], &mut [f64]), J: Slopes> Padded<'_, F, J> {
     }
 }
 
-impl<F: FnMut(f64, &[f64], &mut [f64]), J: Slopes, const N: usize> ODE<f64, [f64; N]> for Padded<'_, F, J> {
+impl<const N: usize> ODE<f64, [f64; N]> for Padded<'_> {
     fn diff(&self, s: f64, y: &[f64; N], rates: &mut [f64; N]) {
         rates[self.n..].fill(0.0);
         (self.parts.borrow_mut().0)(s, &y[..self.n], &mut rates[..self.n]);
@@ -194,7 +198,7 @@ impl<F: FnMut(f64, &[f64], &mut [f64]), J: Slopes, const N: usize> ODE<f64, [f64
     }
 }
 
-impl<F: FnMut(f64, &[f64], &mut [f64]), J: Slopes> Padded<'_, F, J> {
+impl Padded<'_> {
     fn write_slopes<const N: usize>(&self, s: f64, y: &[f64; N], slopes: &mut [f64]) {
         if !self.parts.borrow_mut().1.write(s, &y[..self.n], slopes) {
             self.differences(s, y, slopes);

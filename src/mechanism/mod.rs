@@ -9,6 +9,7 @@
 //! Type T is kept as a pair (s, p) with s·q̇₁ − p·q̇₃ = 0 and σ = p/s, so that no configuration is singular.
 //! A type is data, a [`ConstraintType`]; those of the catalogue are [`constraint_types`].
 
+pub(crate) mod constrained_system;
 mod constraint;
 mod constraint_type;
 mod contact;
@@ -21,7 +22,6 @@ mod heading;
 pub(crate) mod integral_ansatz;
 pub(crate) mod integral_proof;
 mod integrals;
-pub(crate) mod mechanism;
 mod momentum;
 mod nonholonomy;
 pub(crate) mod passive_coefficients;
@@ -37,6 +37,7 @@ pub(crate) mod vector_field;
 mod velocity;
 pub(crate) mod zero_test;
 
+pub use constrained_system::Mechanism;
 pub use constraint::Constraint;
 pub(crate) use constraint_type::rank;
 pub use constraint_type::{ConstraintType, Printed, Regimes, Slot, constraint_types};
@@ -46,7 +47,6 @@ pub use form::Form;
 pub use growth_vector::Growth;
 pub use heading::Heading;
 pub use integrals::Integral;
-pub use mechanism::Mechanism;
 pub use momentum::Momentum;
 pub use nonholonomy::Nonholonomy;
 pub use point::Point;

@@ -1,26 +1,39 @@
-//! Comma-separated records (RFC 4180) that know the line and column of every cell.
+//! Comma-separated records (RFC 4180), read by `csv-core`, that know the line and column of every cell.
 //!
-//! Own code, because errors must name the exact place: the reader of the `csv` crate knows neither the
-//! column of a cell nor, with Windows line ends or blank lines, its line. That crate is the oracle of
-//! the tests below.
+//! The quoting and splitting are those of `csv-core`, the reader inside the crate `csv`. What is here besides is what that
+//! reader does not keep: it is given the lines one by one and asked for one cell at a time, so that an error can name the
+//! line and column where a cell begins, with Windows line ends and blank lines too; and blanks before an opening quote are
+//! skipped, as spreadsheets do.
 
-use std::borrow::Cow;
+use crate::files::toml::text::place;
+use csv_core::{ReadFieldResult, Reader, ReaderBuilder, Terminator};
 use std::io::{self, BufRead};
 use std::ops::Range;
 
 /// A reader of records; one is held at a time, so memory does not grow with the file.
 pub(crate) struct Records<R> {
     input: R,
+    splitter: Reader,
     /// The bytes of the current record, line ends included.
     raw: Vec<u8>,
-    cells: Vec<Range<usize>>,
+    /// The text of its cells, one behind the other.
+    text: Vec<u8>,
+    cells: Vec<Place>,
     line: usize,
     next_line: usize,
 }
 
+/// Where a cell begins in the bytes of the record, and what it holds in the text of the cells.
+struct Place {
+    start: usize,
+    text: Range<usize>,
+}
+
 impl<R: BufRead> Records<R> {
     pub fn new(input: R) -> Self {
-        Self { input, raw: Vec::new(), cells: Vec::new(), line: 0, next_line: 1 }
+        // A carriage return before the line feed is a blank at the end of a cell; a bare one ends no line.
+        let splitter = ReaderBuilder::new().terminator(Terminator::Any(b'\n')).build();
+        Self { input, splitter, raw: vec![], text: vec![], cells: vec![], line: 0, next_line: 1 }
     }
 
     /// The input back, read as far as the last record.
@@ -61,17 +74,14 @@ impl<R: BufRead> Records<R> {
     }
 
     /// A cell without quotes and without blanks around it.
-    pub fn cell(&self, index: usize) -> Cow<'_, [u8]> {
-        let cell = self.raw[self.cells[index].clone()].trim_ascii();
-        if cell.first() == Some(&b'"') { Cow::Owned(unquote(cell)) } else { Cow::Borrowed(cell) }
+    pub fn cell(&self, index: usize) -> &[u8] {
+        self.text[self.cells[index].text.clone()].trim_ascii()
     }
 
     /// Line and column, from one and in characters, where a cell begins.
     pub fn place(&self, index: usize) -> (usize, usize) {
-        let cell = self.cells[index].clone();
-        let blanks = self.raw[cell.clone()].iter().take_while(|b| matches!(b, b' ' | b'\t')).count();
-        let before = String::from_utf8_lossy(&self.raw[..cell.start + blanks]);
-        let (line, column) = crate::files::toml::text::place(&before, usize::MAX);
+        let before = String::from_utf8_lossy(&self.raw[..self.cells[index].start]);
+        let (line, column) = place(&before, usize::MAX);
         (self.line + line - 1, column)
     }
 
@@ -88,63 +98,32 @@ impl<R: BufRead> Records<R> {
         }
     }
 
+    /// Splits the record into its cells; a quoted one may take in further lines.
     fn split(&mut self) -> io::Result<()> {
-        let mut at = 0;
+        let (mut at, mut written) = (0, 0);
         loop {
-            let end = self.cell_end(at)?;
-            self.cells.push(at..end);
-            if self.raw.get(end) != Some(&b',') {
-                return Ok(());
-            }
-            at = end + 1;
-        }
-    }
-
-    /// Where the cell that begins at `at` ends; a quoted one may take in further lines.
-    fn cell_end(&mut self, at: usize) -> io::Result<usize> {
-        let mut at = at;
-        while matches!(self.raw.get(at), Some(b' ' | b'\t')) {
-            at += 1;
-        }
-        if self.raw.get(at) == Some(&b'"') {
-            at = self.quote_end(at + 1)?;
-        }
-        let rest = &self.raw[at..];
-        let comma = rest.iter().position(|&b| b == b',' || b == b'\n');
-        Ok(at + comma.unwrap_or(rest.len()))
-    }
-
-    /// Just behind the closing quote of a cell whose opening quote stands before `at`.
-    fn quote_end(&mut self, mut at: usize) -> io::Result<usize> {
-        loop {
-            match self.raw[at..].iter().position(|&b| b == b'"') {
-                Some(found) if self.raw.get(at + found + 1) == Some(&b'"') => at += found + 2,
-                Some(found) => return Ok(at + found + 1),
-                None => {
-                    at = self.raw.len();
-                    if !self.read_line()? {
-                        return Ok(at);
+            at += self.raw[at..].iter().take_while(|b| matches!(b, b' ' | b'\t')).count();
+            let (start, begun) = (at, written);
+            loop {
+                // The text of the cells is never longer than the record.
+                self.text.resize(self.text.len().max(self.raw.len()), 0);
+                let (found, read, wrote) = self.splitter.read_field(&self.raw[at..], &mut self.text[written..]);
+                (at, written) = (at + read, written + wrote);
+                match found {
+                    ReadFieldResult::Field { record_end } => {
+                        self.cells.push(Place { start, text: begun..written });
+                        if record_end {
+                            return Ok(());
+                        }
+                        break;
                     }
+                    // At the end of the input nothing is added, which ends the cell.
+                    ReadFieldResult::InputEmpty => _ = self.read_line()?,
+                    ReadFieldResult::OutputFull | ReadFieldResult::End => return Ok(()),
                 }
             }
         }
     }
-}
-
-/// The text of a quoted cell: a doubled quote is one, what follows the closing quote is kept, blanks around it are not.
-fn unquote(cell: &[u8]) -> Vec<u8> {
-    let mut text = Vec::with_capacity(cell.len());
-    let mut inside = true;
-    let mut bytes = cell[1..].iter().peekable();
-    while let Some(&byte) = bytes.next() {
-        let quote = inside && byte == b'"';
-        if quote && bytes.next_if(|&&b| b == b'"').is_none() {
-            inside = false;
-        } else {
-            text.push(byte);
-        }
-    }
-    text.trim_ascii().to_vec()
 }
 
 #[cfg(test)]
@@ -156,7 +135,7 @@ mod tests {
         let mut records = Records::new(text);
         let mut found = Vec::new();
         while records.advance().unwrap() {
-            found.push((0..records.len()).map(|i| records.cell(i).into_owned()).collect());
+            found.push((0..records.len()).map(|i| records.cell(i).to_vec()).collect());
         }
         found
     }

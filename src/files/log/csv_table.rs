@@ -108,7 +108,7 @@ impl<R: Read> Sheet<R> {
 
     fn read_header(&mut self) -> Result<()> {
         for index in 0..self.records.len() {
-            let name = String::from_utf8(self.records.cell(index).into_owned()).map_err(|_| {
+            let name = std::str::from_utf8(self.records.cell(index)).map_err(|_| {
                 let (line, column) = self.records.place(index);
                 not_utf8(line, column).at_file(&self.path)
             })?;
@@ -137,7 +137,7 @@ impl<R: Read> Sheet<R> {
     fn read_row(&self, places: &[usize], needed: usize, row: &mut [f64]) -> Result<Option<String>> {
         let mut why = None;
         for (i, (value, &index)) in row.iter_mut().zip(places).enumerate() {
-            match Cell::read(&self.records.cell(index)) {
+            match Cell::read(self.records.cell(index)) {
                 Cell::Number(number) => *value = number,
                 Cell::Word => return Err(self.word(index)),
                 Cell::Blank | Cell::Infinite if i >= needed => *value = f64::NAN,
@@ -151,8 +151,7 @@ impl<R: Read> Sheet<R> {
     }
 
     fn word(&self, index: usize) -> Error {
-        let cell = self.records.cell(index);
-        let word = String::from_utf8_lossy(&cell);
+        let word = String::from_utf8_lossy(self.records.cell(index));
         let (line, column) = self.records.place(index);
         Error::input(format!("\"{}\" in column \"{}\" is not a number", shown(&word), self.header[index]))
             .at_file(&self.path)

@@ -1,5 +1,15 @@
 //! Creep kinematics of nonholonomic vehicles: constraints derived, theorems checked, and models corrected by measured runs.
 //!
+//! ```
+//! use creepage::{Model, Run};
+//! let model = Model::read("examples/runs/cornering/model.toml")?;
+//! let runs = Run::read_all(["examples/runs/cornering/eights.csv", "examples/runs/cornering/rosette.csv"], &model)?;
+//! let found = creepage::discover(&model, &runs)?;
+//! assert_eq!(found.report.summary, "The model misses cornering-creep.");
+//! assert!(found.model.text().contains("cornering-creep"));
+//! # Ok::<(), creepage::Error>(())
+//! ```
+//!
 //! What holds a wheel or an axle is a row that is linear in rates, in one of two generic forms (paper, (13) and (20)):
 //!
 //! ```text
@@ -41,6 +51,7 @@
 //! | [`claims`] | what the paper says, with evidence that runs |
 //! | [`discrepancy`] | where model and measurement disagree, which effect is missing, how much it mends |
 //! | [`figures`], [`theory`] | the paper's figures; the long form of the paper |
+//! | `front_door` | the jobs as calls of one line: [`discover()`], [`check()`], [`describe()`], [`simulate()`] |
 #![warn(missing_docs)]
 
 pub mod claims;
@@ -73,3 +84,8 @@ pub use discrepancy::report::{Report, Verdict};
 pub use error::{Error, Result};
 pub use files::Run;
 pub use front_door::{Discovery, Model, Options, Pose, check, describe, discover, discover_with, simulate};
+
+/// The examples of the README are compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub mod readme {}

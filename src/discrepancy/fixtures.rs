@@ -1,7 +1,7 @@
 //! What tests of this layer begin with: a unicycle with effects, what it logs, a fit of it.
 
 use super::estimation::fit::Fit;
-use super::record::record::Record;
+use super::record::run_record::Record;
 use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::effects::{Applied, all, named};
 use crate::files::ModelFile;

@@ -116,7 +116,9 @@ mod tests {
         for model in models() {
             for (k, (model, [a, b])) in pairs(&model, 37).into_iter().enumerate() {
                 let measured = if k % 2 == 0 { Measured::ALL } else { Measured { heading: false, trailers: false } };
-                let ask = |samples: &[Sample]| compared(&model, &[a.clone()], &[b.clone()], measured, samples);
+                let ask = |samples: &[Sample]| {
+                    compared(&model, std::slice::from_ref(&a), std::slice::from_ref(&b), measured, samples)
+                };
                 let (quick, sure) = (ask(&samples(&model)), ask(&[]));
                 assert_eq!(quick, sure, "{}, {}, {measured:?}", a.label(), b.label());
                 related += usize::from(sure != Relation::Different);

@@ -245,6 +245,7 @@ fn term(target: &Target, factors: &[&Factor], symbols: &Symbols, model: &Model) 
         periodic: false,
     };
     Some(Effect {
+        basic: false,
         id: id(target, factors),
         place: target.place.into(),
         says: format!("the {} gains a term of {name}", target.place),

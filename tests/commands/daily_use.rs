@@ -5,7 +5,7 @@ use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
 use creepage::discrepancy::estimation::fit::Effort;
 use creepage::discrepancy::estimation::problem::Problem;
 use creepage::discrepancy::identifiability::{Check, Checked, Seen, Standing, check};
-use creepage::discrepancy::record::record::Record;
+use creepage::discrepancy::record::run_record::Record;
 use creepage::effects::Applied;
 use creepage::files::{ModelFile, Run};
 use creepage::model::{self, Model};

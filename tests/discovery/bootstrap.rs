@@ -5,7 +5,7 @@ use crate::simulator::{Noise, Scenario, Tractor};
 use creepage::discrepancy::estimation::fit::Effort;
 use creepage::discrepancy::estimation::problem::Problem;
 use creepage::discrepancy::evidence::parametric_bootstrap::{NullDistribution, is_regular};
-use creepage::discrepancy::record::record::Record;
+use creepage::discrepancy::record::run_record::Record;
 use creepage::effects::{self, Applied};
 use creepage::model::Model;
 

@@ -5,7 +5,7 @@ use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
 use creepage::discrepancy::estimation::fit::Effort;
 use creepage::discrepancy::estimation::problem::Problem;
 use creepage::discrepancy::pipeline::discover;
-use creepage::discrepancy::record::record::Record;
+use creepage::discrepancy::record::run_record::Record;
 use creepage::discrepancy::report::{Named, Report, Verdict};
 use creepage::discrepancy::request::Request;
 use creepage::effects::{self, Applied};

@@ -9,7 +9,7 @@ use creepage::discrepancy::estimation::problem::Problem;
 use creepage::discrepancy::estimation::variance_components;
 use creepage::discrepancy::initial_state::hidden_states;
 use creepage::discrepancy::initial_state::pose::pose_of;
-use creepage::discrepancy::record::record::{Channel, Record};
+use creepage::discrepancy::record::run_record::{Channel, Record};
 use creepage::discrepancy::shooting::linearised_window::LinearisedWindow;
 use creepage::discrepancy::shooting::window_integration::linearise;
 use creepage::discrepancy::shooting::windows::WindowStates;

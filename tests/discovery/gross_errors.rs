@@ -4,7 +4,7 @@
 use crate::read_back::read_back;
 use crate::simulator::{Hidden, Log, Noise, Scenario, Tractor};
 use creepage::discrepancy::preprocessing::outliers::without_gross_errors;
-use creepage::discrepancy::record::record::Record;
+use creepage::discrepancy::record::run_record::Record;
 use creepage::effects;
 use creepage::model::Model;
 

@@ -5,7 +5,7 @@ use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
 use creepage::discrepancy::experiment::envelope::Envelope;
 use creepage::discrepancy::experiment::manoeuvre::{LENGTH, library};
 use creepage::discrepancy::pipeline::discover;
-use creepage::discrepancy::record::record::Record;
+use creepage::discrepancy::record::run_record::Record;
 use creepage::discrepancy::report::{NextExperiment, Report};
 use creepage::discrepancy::request::Request;
 use creepage::effects::{self, Applied};

@@ -4,7 +4,7 @@ use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::localisation::clock_drift::DELAY;
 use crate::discrepancy::preprocessing::outliers::without_gross_errors;
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::files::{Clock, ModelFile, Run};

@@ -1,7 +1,7 @@
 //! The model before and after along the fitted and the held-out runs, and how far each strays.
 
 use crate::discrepancy::preprocessing::dataset::Data;
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::record::sensor_noise::Noise;
 use crate::discrepancy::report::{BeforeAfter, Floor, Gap, GapCurve, Step};
 use crate::discrepancy::selection::choice::Selected;

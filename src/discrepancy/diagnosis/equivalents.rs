@@ -1,6 +1,6 @@
 //! Effects that are listed beside a chosen one, and why.
 
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::selection::choice::{Selected, SelectedEffect};
 use crate::effects::{Applied, Effect};
 use crate::equivalence::{Measured, relation};

@@ -1,7 +1,7 @@
 //! Effects that the runs ask for far beyond what vehicles have: right numbers for a wrong reason, as a rule.
 
 use crate::discrepancy::preprocessing::unit_errors;
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::selection::choice::Selected;
 use crate::effects::Applied;
 use crate::error::Result;

@@ -4,7 +4,7 @@ use crate::discrepancy::estimation::noise_model::Estimated;
 use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::initial_state::heading_from_path;
 use crate::discrepancy::record::local_polynomial;
-use crate::discrepancy::record::record::{Channel, Record};
+use crate::discrepancy::record::run_record::{Channel, Record};
 use crate::discrepancy::shooting::windows::has_windows;
 use crate::discrepancy::shooting::windows::{Segment, WindowStates};
 use crate::error::Result;

@@ -4,7 +4,7 @@ use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::evidence::wald_test::neutral_at_zero;
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::shooting::windows::plan;
 use crate::effects::Applied;
 use crate::error::Result;

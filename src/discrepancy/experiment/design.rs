@@ -12,7 +12,7 @@ use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::estimation::problem::{Problem, starts};
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::report::{NextExperiment, Verdict};
 use crate::discrepancy::selection::choice::Selected;
 use crate::discrepancy::selection::search::without_effect;

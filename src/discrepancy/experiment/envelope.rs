@@ -1,6 +1,6 @@
 //! How a vehicle was driven: what a new manoeuvre may ask of it.
 
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::model::Model;
 use crate::vehicles::Moves;
 

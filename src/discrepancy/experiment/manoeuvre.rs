@@ -199,7 +199,7 @@ impl Phase {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::discrepancy::record::record::{Known, Record};
+    use crate::discrepancy::record::run_record::{Known, Record};
     use crate::model::Model;
     use crate::motion::{Signals, Timing};
 

@@ -14,7 +14,7 @@ use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::estimation::variance_components::without_jump;
 use crate::discrepancy::preprocessing::outliers::without_gross_errors;
 use crate::discrepancy::preprocessing::unit_errors::too_sparse;
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::report::Verdict;
 use crate::effects::{self, Effect};
 use crate::error::Result;

@@ -7,7 +7,7 @@ use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::preprocessing::outliers::GROSS;
 use crate::discrepancy::preprocessing::quantisation;
 use crate::discrepancy::preprocessing::unit_errors::{SPARSE, wrong_turn, wrong_way};
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::error::Result;
 use crate::files::Run;
 use crate::model::Model;

@@ -2,7 +2,7 @@
 
 use super::check_report::RunHealth;
 use crate::discrepancy::preprocessing::motion_ratios::{Ratios, STRAIGHT, Step, steps};
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::error::Result;
 use crate::model::Model;
 

@@ -2,7 +2,7 @@
 
 use crate::discrepancy::estimation::elimination::{InformationFilter, ReducedForm};
 use crate::discrepancy::estimation::noise_model::NoiseModel;
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::shooting::window_integration::each_window;
 use crate::discrepancy::shooting::windows::{Segment, WindowStates};
 use crate::effects::Applied;

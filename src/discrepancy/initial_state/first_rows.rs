@@ -2,7 +2,7 @@
 
 use crate::discrepancy::record::angle::wrapped;
 use crate::discrepancy::record::local_polynomial;
-use crate::discrepancy::record::record::{Channel, Record};
+use crate::discrepancy::record::run_record::{Channel, Record};
 use crate::model::Equations;
 use crate::motion::{LaneStates, LaneStepper, Stepper, initial_hidden};
 use nalgebra::DVector;

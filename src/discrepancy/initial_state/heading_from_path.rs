@@ -3,7 +3,7 @@
 use super::hidden_states;
 use crate::discrepancy::initial_state::pose::pose_of;
 use crate::discrepancy::record::angle::wrapped;
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::model::Equations;
 use crate::motion::{StateSensitivity, Stepper};
 use nalgebra::{Rotation2, Vector2};

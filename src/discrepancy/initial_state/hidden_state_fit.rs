@@ -1,7 +1,7 @@
 //! How states that no sensor sees began, where the log does not say: by what the poses do soon after.
 
 use super::first_rows::Rows;
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::model::Equations;
 use crate::motion::StateSensitivity;
 use nalgebra::{Cholesky, DMatrix, DVector};

@@ -1,7 +1,7 @@
 //! States that no sensor sees: carried along from the start of a log, as far as they hang on it by what the poses show.
 
 use super::hidden_state_fit::PropagatedState;
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::model::Equations;
 use crate::motion::{StateSensitivity, Stepper, initial_hidden};
 use nalgebra::DMatrix;

@@ -2,7 +2,7 @@
 
 use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::estimation::problem::Problem;
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;

@@ -4,7 +4,7 @@ use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::initial_state::heading_from_path::{MeasuredPose, PathHeading};
 use crate::discrepancy::initial_state::pose::pose_of;
 use crate::discrepancy::record::angle::wrapped;
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::record::sensor_noise::Noise;
 use crate::discrepancy::report::ResidualPicture;
 use crate::discrepancy::shooting::linearised_window::LinearisedWindow;

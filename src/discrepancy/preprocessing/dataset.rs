@@ -1,7 +1,7 @@
 //! What a request gives: the records to fit and those to judge by.
 
 use super::outliers;
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::request::Request;
 use crate::discrepancy::shooting::windows::has_windows;
 use crate::error::Result;

@@ -1,7 +1,7 @@
 //! How a run was driven: its windows by the model, beside what was measured.
 
 use crate::discrepancy::record::angle::wrapped;
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::shooting::rollout::Rollout;
 use crate::error::Result;
 use crate::model::Model;

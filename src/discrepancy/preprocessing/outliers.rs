@@ -2,7 +2,7 @@
 
 use crate::discrepancy::record::angle::wrapped;
 use crate::discrepancy::record::local_polynomial;
-use crate::discrepancy::record::record::{Channel, Record};
+use crate::discrepancy::record::run_record::{Channel, Record};
 use crate::discrepancy::shooting::rollout::Rollout;
 use crate::error::Result;
 use crate::model::Model;

@@ -2,7 +2,7 @@
 
 use super::motion_ratios::{Ratios, steps};
 use crate::discrepancy::record::local_polynomial::median;
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::error::Result;
 use crate::files::Run;
 use crate::model::{Equations, Model};

@@ -2,5 +2,5 @@
 
 pub mod angle;
 pub mod local_polynomial;
-pub mod record;
+pub mod run_record;
 pub mod sensor_noise;

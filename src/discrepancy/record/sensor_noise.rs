@@ -1,6 +1,6 @@
 //! What the sensor adds to the rows of a log.
 
-use super::record::Record;
+use super::run_record::Record;
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;

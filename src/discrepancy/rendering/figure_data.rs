@@ -2,7 +2,7 @@
 
 use crate::discrepancy::diagnosis::before_after::{ModelComparison, Rollouts};
 use crate::discrepancy::preprocessing::dataset::Data;
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::report::{CandidatePicture, PathPicture, Pictures, Report};
 use crate::discrepancy::selection::choice::Selected;
 use crate::discrepancy::shooting::rollout::Rollout;

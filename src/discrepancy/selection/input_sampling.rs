@@ -9,7 +9,7 @@ use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::evidence::wald_test::distance_of;
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::motion::Signals;

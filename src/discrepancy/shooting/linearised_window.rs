@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 /// residuals r + J·(δz, δp) and end e + F·δz + B·δp.
 #[derive(Clone, Debug)]
 pub struct LinearisedWindow {
-    /// Σ (J, r)ᵀ(J, r) for each [`Channel`](crate::discrepancy::record::record::Channel), columns (z, p, 1).
+    /// Σ (J, r)ᵀ(J, r) for each [`Channel`](crate::discrepancy::record::run_record::Channel), columns (z, p, 1).
     pub gram: [DMatrix<f64>; 3],
     /// Number of values of each channel.
     pub count: [usize; 3],

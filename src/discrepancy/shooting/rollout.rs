@@ -6,7 +6,7 @@ use crate::discrepancy::initial_state::hidden_states;
 use crate::discrepancy::initial_state::pose::pose_of;
 use crate::discrepancy::record::angle::wrapped;
 use crate::discrepancy::record::local_polynomial;
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::record::sensor_noise::Noise;
 use crate::error::Result;
 use crate::model::{Equations, Model};

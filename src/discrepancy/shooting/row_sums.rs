@@ -1,7 +1,7 @@
 //! Some windows row by row, and what is summed over their rows.
 
 use crate::discrepancy::record::angle::wrapped;
-use crate::discrepancy::record::record::{Channel, Record};
+use crate::discrepancy::record::run_record::{Channel, Record};
 use crate::discrepancy::shooting::block_sums::{Blocks, Run};
 use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
 use crate::formula::Kernel;

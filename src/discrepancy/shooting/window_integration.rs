@@ -1,7 +1,7 @@
 //! A model along the windows of a segment: side by side, though each as if it were alone.
 
 use super::row_sums::{NormalEquations, WindowKernel};
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
 use crate::discrepancy::shooting::windows::{Segment, WindowStates};
 use crate::model::Equations;

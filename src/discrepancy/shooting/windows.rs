@@ -1,6 +1,6 @@
 //! Runs cut into windows, and the model linearised along each.
 
-use crate::discrepancy::record::record::Record;
+use crate::discrepancy::record::run_record::Record;
 use std::ops::Range;
 
 /// Length of a window, s.

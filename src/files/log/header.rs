@@ -1,6 +1,6 @@
 //! The names of a log's columns.
 
-use super::log::Log;
+use super::log_file::Log;
 use crate::error::Result;
 use std::path::Path;
 

@@ -2,7 +2,7 @@
 
 use super::columns::Resolved;
 use super::csv_table::Numbers;
-use super::log::Log;
+use super::log_file::Log;
 use super::run::{arrange, enough};
 use crate::error::Result;
 use crate::files::{Initial, ModelFile};

@@ -6,7 +6,7 @@ pub(crate) mod csv_records;
 pub(crate) mod csv_table;
 pub(crate) mod header;
 pub(crate) mod inputs;
-pub(crate) mod log;
+pub(crate) mod log_file;
 #[cfg(feature = "mcap")]
 pub(crate) mod mcap;
 #[cfg(feature = "parquet")]

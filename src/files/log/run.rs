@@ -2,7 +2,7 @@
 
 use super::columns::Resolved;
 use super::csv_table::{Numbers, Sheet};
-use super::log::Log;
+use super::log_file::Log;
 use super::row_order;
 use crate::error::{Error, Result};
 use crate::files::model::model_file::ModelFile;

@@ -1,7 +1,7 @@
 //! A run in two files, inputs and measured poses, each with a clock and a rate of its own.
 
 use super::csv_table::Numbers;
-use super::log::Log;
+use super::log_file::Log;
 use super::run::{Apart, Run, arrange, enough, wanted};
 use crate::error::{Error, Result};
 use crate::files::model::model_file::ModelFile;

@@ -1,38 +1,23 @@
-//! Effects written into the text of a model file, and nothing else touched.
+//! Format-preserving edits of a model file by `toml_edit`: effects are added or updated, comments and order are kept.
+//!
+//! What is here besides: Windows line ends, and whole numbers of more than 64 bits, neither of which `toml_edit` keeps.
 
 use super::effect_entry::EffectEntry;
-use crate::files::toml::spanned_table::{Section, Source, Value};
-use std::ops::Range;
-use std::path::Path;
+use toml_edit::{Array, ArrayOfTables, Decor, DocumentMut, InlineTable, Item, Key, Table, TableLike, Value};
 
-/// A piece of the text to be replaced.
-type Edit = (Range<usize>, String);
+/// The key of the list of effects.
+const EFFECTS: &str = "effects";
 
 /// The text with effects added or replaced; see [`ModelFile::patched`](crate::files::ModelFile::patched).
 pub(crate) fn patched(text: &str, added: &[EffectEntry]) -> String {
-    let source = Source { path: Path::new(""), text };
     // The text of a `ModelFile` has been parsed before; a caller who changed it gets it back as it is.
-    let Ok(document) = source.parse() else { return text.to_string() };
-    let top = Section::top(source, &document);
-    let list = top.get("effects");
-    let present = list.as_ref().and_then(|value| value.list("").ok()).unwrap_or_default();
-    let (mut edits, mut new) = (Vec::new(), Vec::new());
+    let Some(mut document) = parse(text).filter(|_| !added.is_empty()) else { return text.to_string() };
     for entry in last_of_each(added) {
-        match present.iter().find(|value| speaks_of(value, entry)) {
-            Some(value) => edits.extend(replace(value, entry)),
-            None => new.push(entry),
+        if !update(&mut document, entry) {
+            add(&mut document, entry);
         }
     }
-    match list.filter(|value| is_inline(text, value)) {
-        Some(value) => {
-            let line = text[..value.key_at].rfind('\n').map_or(0, |at| at + 1);
-            let notes = new.iter().filter_map(|entry| note(entry)).map(|note| note + newline(text));
-            edits.extend(notes.map(|note| (line..line, note)));
-            edits.extend(extend_list(&value, present.last(), &new));
-        }
-        None => edits.push((text.len()..text.len(), blocks(text, &new))),
-    }
-    apply(text, edits)
+    printed(&document, text)
 }
 
 /// What the file of a user's own vehicles is called beside a patched model.
@@ -41,18 +26,38 @@ pub const VEHICLES_FILE: &str = "model.vehicles.toml";
 /// The text with the file of its vehicle named as it lies beside a patched model; see
 /// [`ModelFile::patched`](crate::files::ModelFile::patched).
 pub(crate) fn with_vehicles(text: &str) -> String {
-    let source = Source { path: Path::new(""), text };
-    let Ok(document) = source.parse() else { return text.to_string() };
-    let top = Section::top(source, &document);
-    let edit = match (top.get("vehicles"), top.get("vehicle")) {
-        (Some(named), _) => (named.span(), quote(VEHICLES_FILE)),
-        (None, Some(vehicle)) => {
-            let at = vehicle.key_at;
-            (at..at, format!("vehicles = {}{}", quote(VEHICLES_FILE), newline(text)))
+    let Some(mut document) = parse(text) else { return text.to_string() };
+    if let Some(named) = document.get_mut("vehicles").and_then(Item::as_value_mut) {
+        replace(named, VEHICLES_FILE.into());
+    } else if document.contains_key("vehicle") {
+        insert_before(&mut document, "vehicle", "vehicles", VEHICLES_FILE.into());
+    }
+    printed(&document, text)
+}
+
+/// The document. A whole number of more than 64 bits, which `toml_edit` refuses, becomes one with a decimal point.
+fn parse(text: &str) -> Option<DocumentMut> {
+    let mut text = text.to_string();
+    loop {
+        let span = match text.parse::<DocumentMut>() {
+            Ok(document) => return Some(document),
+            Err(e) => e.span()?,
+        };
+        let digits = text.get(span.clone()).filter(|written| !written.is_empty())?;
+        if !digits.chars().all(|c| c.is_ascii_digit() || matches!(c, '_' | '+' | '-')) {
+            return None;
         }
-        (None, None) => return text.to_string(),
-    };
-    apply(text, vec![edit])
+        text.insert_str(span.end, ".0");
+    }
+}
+
+/// The document as text, with the line ends of the text that it was.
+fn printed(document: &DocumentMut, text: &str) -> String {
+    let printed = document.to_string();
+    match text.contains("\r\n") {
+        true => printed.replace("\r\n", "\n").replace('\n', "\r\n"),
+        false => printed,
+    }
 }
 
 /// Later entries win over earlier ones for the same target.
@@ -60,99 +65,131 @@ fn last_of_each(added: &[EffectEntry]) -> impl Iterator<Item = &EffectEntry> {
     added.iter().enumerate().filter(|(i, e)| !added[i + 1..].iter().any(|later| later.same_target(e))).map(|(_, e)| e)
 }
 
-fn speaks_of(value: &Value, entry: &EffectEntry) -> bool {
-    let Ok(section) = value.section(String::new()) else { return false };
-    let id = section.get("id").is_some_and(|id| id.text().is_ok_and(|id| id == entry.id));
-    id && section.get("trailer").and_then(|t| t.count().ok()) == entry.trailer
-}
-
-/// New values in an entry that is there; a parameter it lacks goes before its id.
-fn replace(value: &Value, entry: &EffectEntry) -> Vec<Edit> {
-    let Ok(section) = value.section(String::new()) else { return Vec::new() };
-    let text = value.source.text;
-    let end = if text[value.span()].starts_with('{') { ", " } else { newline(text) };
-    let edit = |(name, number): (&String, &f64)| match section.get(name) {
-        Some(old) => Some((old.span(), spell(*number))),
-        None => {
-            let at = section.get("id")?.key_at;
-            Some((at..at, format!("{} = {}{end}", key(name), spell(*number))))
+/// New values in an entry that is there; false where there is none for the target.
+fn update(document: &mut DocumentMut, entry: &EffectEntry) -> bool {
+    let found: Option<&mut dyn TableLike> = match document.get_mut(EFFECTS) {
+        Some(Item::ArrayOfTables(tables)) => {
+            tables.iter_mut().find(|table| speaks_of(*table, entry)).map(|table| table as &mut dyn TableLike)
         }
+        Some(Item::Value(Value::Array(list))) => {
+            let mut tables = list.iter_mut().filter_map(Value::as_inline_table_mut);
+            tables.find(|table| speaks_of(*table, entry)).map(|table| table as &mut dyn TableLike)
+        }
+        _ => None,
     };
-    entry.parameters.iter().filter_map(edit).collect()
+    let Some(table) = found else { return false };
+    entry.parameters.iter().for_each(|(name, value)| set(table, name, *value));
+    true
 }
 
-/// The user wrote `effects = [{…}]`, where `[[effects]]` may not follow.
-fn is_inline(text: &str, value: &Value) -> bool {
-    let list = &text[value.span()];
-    list.starts_with('[') && !list.starts_with("[[") && list.ends_with(']') && !list.starts_with("[effects")
+fn speaks_of(table: &dyn TableLike, entry: &EffectEntry) -> bool {
+    let id = table.get("id").and_then(Item::as_str).is_some_and(|id| id.trim() == entry.id);
+    let trailer = table.get("trailer").and_then(Item::as_integer).and_then(|n| usize::try_from(n).ok());
+    id && trailer == entry.trailer
 }
 
-fn extend_list(list: &Value, last: Option<&Value>, new: &[&EffectEntry]) -> Vec<Edit> {
-    let tables = new.iter().map(|entry| format!("{{ {} }}", lines(entry).join(", ")));
-    let (at, added) = match last {
-        Some(last) => (last.span().end, tables.map(|table| format!(", {table}")).collect()),
-        None => (list.span().start + 1, tables.collect::<Vec<_>>().join(", ")),
-    };
-    vec![(at..at, added)]
-}
-
-fn blocks(text: &str, new: &[&EffectEntry]) -> String {
-    let end = newline(text);
-    let mut added = String::new();
-    if !new.is_empty() && !text.is_empty() && !text.ends_with('\n') {
-        added.push_str(end);
+fn set(table: &mut dyn TableLike, name: &str, number: f64) {
+    if let Some(old) = table.get_mut(name).and_then(Item::as_value_mut) {
+        return replace(old, spelled(number));
     }
-    for entry in new {
-        let note = note(entry).map_or_else(String::new, |note| note + end);
-        added.push_str(&format!("{end}{note}[[effects]]{end}{}{end}", lines(entry).join(end)));
-    }
-    added
+    let end = take_blanks(table.iter_mut().last().and_then(|(_, last)| last.as_value_mut()));
+    let mut value = spelled(number);
+    end.into_iter().for_each(|end| value.decor_mut().set_suffix(end));
+    table.insert(name, Item::Value(value));
 }
 
-/// A comment that says where an effect of the user's own is defined.
+/// A new value with the blanks and the comment of the old one.
+fn replace(old: &mut Value, mut new: Value) {
+    new.decor_mut().clone_from(old.decor());
+    *old = new;
+}
+
+/// Adds an entry: to the list where the user wrote `effects = [{…}]`, else under `[[effects]]` at the end of the file.
+fn add(document: &mut DocumentMut, entry: &EffectEntry) {
+    if let Some(Item::Value(Value::Array(list))) = document.get_mut(EFFECTS) {
+        push(list, entry);
+        let key = document.key_mut(EFFECTS);
+        if let (Some(mut key), Some(note)) = (key, note(entry)) {
+            let decor = key.leaf_decor_mut();
+            decor.set_prefix(format!("{}{note}", prefix(decor)));
+        }
+        return;
+    }
+    let mut before = document.trailing().as_str().unwrap_or_default().to_string();
+    if !before.is_empty() && !before.ends_with('\n') {
+        before.push('\n');
+    }
+    document.set_trailing("");
+    let mut table = Table::new();
+    fields(entry).into_iter().for_each(|(name, value)| _ = table.insert(&name, Item::Value(value)));
+    table.decor_mut().set_prefix(format!("{before}\n{}", note(entry).unwrap_or_default()));
+    table.set_position(Some(isize::MAX));
+    let list = document.entry(EFFECTS).or_insert(Item::ArrayOfTables(ArrayOfTables::new()));
+    if let Some(tables) = list.as_array_of_tables_mut() {
+        tables.push(table);
+    }
+}
+
+/// Adds an entry to a list in brackets; one that has a line for each element keeps it so.
+fn push(list: &mut Array, entry: &EffectEntry) {
+    let table: InlineTable = fields(entry).into_iter().collect();
+    let last = list.iter_mut().last();
+    let before = last.as_ref().map(|value| prefix(value.decor()).to_string()).filter(|before| before.contains('\n'));
+    let end = take_blanks(last);
+    list.push(table);
+    if let Some(new) = list.iter_mut().last() {
+        before.into_iter().for_each(|before| new.decor_mut().set_prefix(before));
+        end.into_iter().for_each(|end| new.decor_mut().set_suffix(end));
+    }
+}
+
+/// Takes the blanks behind a value that is the last no longer.
+fn take_blanks(value: Option<&mut Value>) -> Option<String> {
+    let decor = value?.decor_mut();
+    let blanks = decor.suffix()?.as_str().filter(|end| end.trim().is_empty())?.to_string();
+    decor.set_suffix("");
+    Some(blanks)
+}
+
+fn insert_before(document: &mut DocumentMut, there: &str, name: &str, value: Value) {
+    let mut order: Vec<String> = document.iter().map(|(key, _)| key.to_string()).collect();
+    let at = order.iter().position(|key| key == there).unwrap_or(order.len());
+    order.insert(at, name.to_string());
+    let mut key = Key::new(name);
+    if let Some(mut next) = document.key_mut(there) {
+        let before = prefix(next.leaf_decor_mut()).to_string();
+        next.leaf_decor_mut().set_prefix("");
+        key.leaf_decor_mut().set_prefix(before);
+    }
+    document.insert_formatted(&key, Item::Value(value));
+    let place = |key: &Key| order.iter().position(|name| name == key.get());
+    document.sort_values_by(|a, _, b, _| place(a).cmp(&place(b)));
+}
+
+fn prefix(decor: &Decor) -> &str {
+    decor.prefix().and_then(|raw| raw.as_str()).unwrap_or_default()
+}
+
+/// What an entry says, by key.
+fn fields(entry: &EffectEntry) -> Vec<(String, Value)> {
+    let mut fields = vec![("id".to_string(), Value::from(&entry.id))];
+    fields.extend(entry.trailer.and_then(|n| i64::try_from(n).ok()).map(|n| ("trailer".to_string(), n.into())));
+    fields.extend(entry.parameters.iter().map(|(name, value)| (name.clone(), spelled(*value))));
+    fields
+}
+
+/// A comment line that says where an effect of the user's own is defined.
 fn note(entry: &EffectEntry) -> Option<String> {
     let path = entry.defined_in.as_ref()?.display().to_string();
     // A path may hold anything but must not end the comment.
     let path: String = path.chars().map(|c| if c.is_control() { '?' } else { c }).collect();
-    Some(format!("# \"{}\" is defined in {path}: wherever this model is used, add --effects {path}", entry.id))
+    Some(format!("# \"{}\" is defined in {path}: wherever this model is used, add --effects {path}\n", entry.id))
 }
 
-fn lines(entry: &EffectEntry) -> Vec<String> {
-    let mut lines = vec![format!("id = {}", quote(&entry.id))];
-    lines.extend(entry.trailer.map(|trailer| format!("trailer = {trailer}")));
-    lines.extend(entry.parameters.iter().map(|(name, value)| format!("{} = {}", key(name), spell(*value))));
-    lines
-}
-
-/// The shortest spelling that reads back as the same number.
-fn spell(number: f64) -> String {
-    if number.is_nan() { "nan".into() } else { format!("{number:?}") }
-}
-
-fn key(name: &str) -> String {
-    let bare = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
-    if bare { name.into() } else { quote(name) }
-}
-
-fn quote(text: &str) -> String {
-    toml::Value::String(text.into()).to_string()
-}
-
-fn newline(text: &str) -> &'static str {
-    if text.contains("\r\n") { "\r\n" } else { "\n" }
-}
-
-fn apply(text: &str, mut edits: Vec<Edit>) -> String {
-    edits.sort_by_key(|(span, _)| span.start);
-    let mut result = String::with_capacity(text.len());
-    let mut done = 0;
-    for (span, new) in edits {
-        result.push_str(&text[done..span.start]);
-        result.push_str(&new);
-        done = span.end;
-    }
-    result.push_str(&text[done..]);
-    result
+/// The shortest spelling that reads back as the same number; `toml_edit` would write 1e-7 in full.
+fn spelled(number: f64) -> Value {
+    let text = if number.is_nan() { "nan".into() } else { format!("{number:?}") };
+    text.parse().unwrap_or_else(|_| number.into())
 }
 
 #[cfg(test)]
@@ -178,7 +215,7 @@ mod tests {
         let text = "[[effects]]\nscale = 0.5   # guess\nid = \"a\"\n\n[[effects]] # b\nid = 'b'\ntrailer = 2\n";
         let new = [entry("a", None, &[("scale", 0.25)]), entry("b", Some(2), &[("e", -1.0)])];
         let expect =
-            "[[effects]]\nscale = 0.25   # guess\nid = \"a\"\n\n[[effects]] # b\ne = -1.0\nid = 'b'\ntrailer = 2\n";
+            "[[effects]]\nscale = 0.25   # guess\nid = \"a\"\n\n[[effects]] # b\nid = 'b'\ntrailer = 2\ne = -1.0\n";
         assert_eq!(patched(text, &new), expect);
         assert!(patched(text, &[entry("b", Some(1), &[])]).ends_with("\n[[effects]]\nid = \"b\"\ntrailer = 1\n"));
     }
@@ -189,8 +226,8 @@ mod tests {
         let text = "effects = [ { id = \"a\", scale = 1 }, ] # end\n[noise]\n";
         let expect = "effects = [ { id = \"a\", scale = 0.25 }, { id = \"c\", \"e e\" = 1.0 }, ] # end\n[noise]\n";
         assert_eq!(patched(text, &new), expect);
-        assert_eq!(patched("effects = []", &new[1..]), "effects = [{ id = \"c\", \"e e\" = 1.0 }]");
-        assert_eq!(patched("effects = [{id = \"a\"}]", &new[..1]), "effects = [{scale = 0.25, id = \"a\"}]");
+        assert_eq!(patched("effects = []", &new[1..]), "effects = [{ id = \"c\", \"e e\" = 1.0 }]\n");
+        assert_eq!(patched("effects = [{id = \"a\"}]", &new[..1]), "effects = [{id = \"a\", scale = 0.25}]\n");
     }
 
     #[test]
@@ -217,5 +254,38 @@ mod tests {
     fn the_last_of_two_wins() {
         let new = [entry("a", None, &[("e", 1.0)]), entry("a", None, &[("e", 2.0)])];
         assert_eq!(patched("", &new), "\n[[effects]]\nid = \"a\"\ne = 2.0\n");
+    }
+
+    /// A list with a line for each element gets another line, and blanks stay where they were.
+    #[test]
+    fn a_list_over_several_lines_stays_one() {
+        let new = [entry("b", None, &[("e", 1.0)])];
+        let text = "effects = [ # mine\n  { id = \"a\" },\n  { id = \"c\" }, # why\n]\n[noise]\n";
+        let expect = text.replace(" }, # why", " },\n  { id = \"b\", e = 1.0 }, # why");
+        assert_eq!(patched(text, &new), expect);
+        let expect = "effects = [ { id = \"b\", e = 1.0 } ]\n";
+        assert_eq!(patched("effects = [ { id = \"b\" } ]", &new), expect);
+        let two = "effects = [ { id = \"a\" }, { id = \"b\", e = 1.0 } ]\n";
+        assert_eq!(patched("effects = [ { id = \"a\" } ]", &new), two);
+    }
+
+    /// What stands between and behind the tables stays, and new effects go behind it.
+    #[test]
+    fn comments_and_order_are_kept() {
+        let text = "# top\na.b = 1 # one\n\n[b]  # two\nx = 0x10\n[a.c]\n# three\ny = +1_0\n\n# end";
+        let new = [entry("a", None, &[("e", 1.0)]), entry("b", Some(1), &[])];
+        let added = "\n\n[[effects]]\nid = \"a\"\ne = 1.0\n\n[[effects]]\nid = \"b\"\ntrailer = 1\n";
+        assert_eq!(patched(text, &new), format!("{text}{added}"));
+    }
+
+    /// A model file may hold a whole number that is too long for a machine word; it stays the same number.
+    #[test]
+    fn a_long_number_is_no_hindrance() {
+        let text = "x = -12_345678901234567890 # long\n[b]\ny = 99999999999999999999\n";
+        let found = patched(text, &[entry("a", None, &[])]);
+        let expect =
+            "x = -12_345678901234567890.0 # long\n[b]\ny = 99999999999999999999.0\n\n[[effects]]\nid = \"a\"\n";
+        assert_eq!(found, expect);
+        assert_eq!(patched("a = ", &[entry("a", None, &[])]), "a = ", "no TOML at all");
     }
 }

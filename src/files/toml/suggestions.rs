@@ -40,7 +40,7 @@ pub(crate) fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str>
     }
     let slips = |candidate: &&str| {
         let candidate = plain(candidate);
-        (candidate.len() <= LONGEST).then(|| distance(&word, &candidate))
+        (candidate.len() <= LONGEST).then(|| strsim::generic_levenshtein(&word, &candidate))
     };
     let close = candidates.iter().filter_map(|c| slips(c).map(|d| (d, *c))).min_by_key(|(d, _)| *d);
     match close {
@@ -68,28 +68,13 @@ fn plain(word: &str) -> Vec<char> {
     word.chars().take(LONGEST + 1).flat_map(char::to_lowercase).map(same).collect()
 }
 
-/// Levenshtein distance.
-fn distance(a: &[char], b: &[char]) -> usize {
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.iter().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let swapped = diagonal + usize::from(x != y);
-            diagonal = row[j + 1];
-            row[j + 1] = swapped.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn distances_are_known() {
-        let d = |a: &str, b: &str| distance(&plain(a), &plain(b));
+        let d = |a: &str, b: &str| strsim::generic_levenshtein(&plain(a), &plain(b));
         assert_eq!(d("kitten", "sitting"), 3);
         assert_eq!(d("", "abc"), 3);
         assert_eq!(d("Wheel-Rate", "wheel_rate"), 0);

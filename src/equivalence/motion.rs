@@ -4,12 +4,17 @@ use super::relation::Measured;
 use crate::formula::{Expr, Fun, Scalar, Symbol};
 use crate::mechanism::Definitions;
 use crate::model::{Model, trailer_heading};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A model whose true state is written as what the sensor shows, x = x_m − …, φ = heading_m − offset, so that a
 /// parameter of the sensor changes the motion as one of a constraint does.
 pub struct Motion {
-    definitions: Definitions,
+    /// Formulas that the motion comes down to, each after those it uses.
+    formulas: Vec<(Symbol, Expr)>,
+    /// Names of these and of all others that are defined.
+    defined: BTreeSet<Symbol>,
+    /// Where the sensor sits: lever_a, lever_b and heading_offset.
+    sensor: [Expr; 3],
     measured: Measured,
     /// Headings of trailers that are measured, or that what is measured depends on.
     trailers: Vec<Symbol>,
@@ -34,11 +39,24 @@ impl Motion {
             return None;
         }
         let hidden: Vec<(Symbol, Expr)> = model.effects.iter().flat_map(|e| e.states()).collect();
-        let roots = ["x'", "y'", "phi'", "delay"].map(Symbol::from).into_iter();
-        let seen = rests_on(&definitions, roots.chain(hidden.iter().flat_map(|(_, rate)| rate.symbols())).collect());
+        let mut roots: Vec<Symbol> = ["x'", "y'", "phi'", "delay"].map(Symbol::from).into();
+        roots.extend(hidden.iter().flat_map(|(_, rate)| rate.symbols()));
+        let seen = rests_on(&definitions, roots.clone());
         let shown = |s: &Symbol| measured.trailers || seen.contains(s);
-        let trailers = (1..=model.trailer_count()).map(trailer_heading).filter(shown).collect();
-        Some(Self { definitions, measured, trailers, hidden })
+        let trailers: Vec<Symbol> = (1..=model.trailer_count()).map(trailer_heading).filter(shown).collect();
+        roots.extend(trailers.iter().map(Symbol::rate));
+        let needed = rests_on(&definitions, roots);
+        let formulas = definitions.sorted().ok()?.into_iter().filter(|(name, _)| needed.contains(name)).cloned();
+        let sensor = ["lever_a", "lever_b", "heading_offset"].map(|name| definitions.get(&name.into()).cloned());
+        let [Some(a), Some(b), Some(offset)] = sensor else { return None };
+        Some(Self {
+            formulas: formulas.collect(),
+            defined: definitions.iter().map(|(name, _)| name.clone()).collect(),
+            sensor: [a, b, offset],
+            measured,
+            trailers,
+            hidden,
+        })
     }
 
     /// Rates of the measured x, y and heading, the delay, the rates of trailers' headings and of hidden states.
@@ -46,8 +64,8 @@ impl Motion {
     /// `value` gives parameters, inputs and what is measured under the names of the true states; `turn` is how far
     /// a heading that nothing measures is turned.
     pub fn rows<S: Scalar>(&self, value: &impl Fn(&Symbol) -> S, turn: Option<&S>) -> Option<Vec<S>> {
-        let constant = |name: &str| self.definitions.get(&name.into())?.eval(value);
-        let [a, b, offset] = [constant("lever_a")?, constant("lever_b")?, constant("heading_offset")?];
+        let [a, b, offset] = &self.sensor;
+        let (a, b, offset) = (a.eval(value)?, b.eval(value)?, offset.eval(value)?);
         let shown = value(&"phi".into());
         let phi = match (self.measured.heading, turn) {
             (true, _) => shown.sub(&offset),
@@ -60,10 +78,10 @@ impl Motion {
             "phi" => Some(phi.clone()),
             "x" => Some(value(s).sub(&arm[0])),
             "y" => Some(value(s).sub(&arm[1])),
-            _ if self.definitions.get(s).is_some() => None,
+            _ if self.defined.contains(s) => None,
             _ => Some(value(s)),
         };
-        let values = self.definitions.evaluate(&given).ok()?;
+        let values = self.evaluated(&given);
         let of = |name: Symbol| values.get(&name).cloned();
         let yaw = of("phi'".into())?;
         let mut rows = vec![
@@ -78,6 +96,18 @@ impl Motion {
         let known = |s: &Symbol| values.get(s).cloned().or_else(|| given(s)).unwrap_or_else(|| value(s));
         rows.extend(self.hidden.iter().map(|(_, rate)| rate.eval_undefined_as_value(&known)));
         rows.iter().all(Scalar::is_defined).then_some(rows)
+    }
+
+    /// The value of every formula; what `given` gives takes the place of a formula.
+    fn evaluated<S: Scalar>(&self, given: &impl Fn(&Symbol) -> Option<S>) -> BTreeMap<&Symbol, S> {
+        let undefined = || S::number(&num_traits::Zero::zero()).recip();
+        let mut values: BTreeMap<&Symbol, S> = BTreeMap::new();
+        for (name, formula) in &self.formulas {
+            let known = |s: &Symbol| values.get(s).cloned().or_else(|| given(s)).unwrap_or_else(undefined);
+            let value = given(name).unwrap_or_else(|| formula.eval_undefined_as_value(&known));
+            values.insert(name, value);
+        }
+        values
     }
 
     /// Whether two motions are of the same measured things and hidden states.

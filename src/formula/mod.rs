@@ -51,6 +51,7 @@ pub use jet::{Jet, Layout};
 pub use lanes::{Changes, Isa, Kernel, Lanes, Memory, Rows};
 pub use latex::latex_symbol;
 pub(crate) use lex::{caret, column_of};
+pub(crate) use normal::with_work_bounded;
 pub use normal::{Normal, identical};
 pub use polynomial::Polynomial;
 pub use program::Program;

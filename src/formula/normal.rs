@@ -4,6 +4,7 @@ mod angle;
 mod atom;
 mod fraction;
 mod poly;
+mod work;
 
 use super::{BigRational, Exact, Expr, Fun, Scalar, Symbol};
 use angle::Angle;
@@ -12,6 +13,7 @@ use fraction::Fraction;
 use num_traits::Zero;
 use std::fmt;
 use std::sync::Arc;
+pub(crate) use work::with_work_bounded;
 
 /// A quotient of polynomials in symbols, their sines and cosines, with rational coefficients.
 ///

@@ -1,6 +1,7 @@
 //! Polynomials in atoms with whole coefficients, each in its only form.
 
 use super::atom::{Atom, Monomial};
+use super::work::spend;
 use crate::formula::polynomial::signed_sum;
 use crate::formula::rational::{BigInt, BigRational, bits};
 use crate::formula::{Expr, Symbol};
@@ -104,6 +105,7 @@ impl Poly {
 
     /// v·self + w·other with v and w that are not zero.
     pub fn combined(&self, v: &BigInt, w: &BigInt, other: &Self) -> Option<Self> {
+        spend(self.terms.len() + other.terms.len())?;
         let mut sum = self.clone();
         sum.terms.values_mut().for_each(|x| *x *= v);
         other.terms.iter().for_each(|(m, x)| sum.add_term(m.clone(), x * w));
@@ -116,6 +118,7 @@ impl Poly {
         if work > MAX_WORK || self.degree() + other.degree() > MAX_DEGREE {
             return None;
         }
+        spend(work)?;
         let mut product = Self::default();
         self.terms.iter().for_each(|(m, v)| product.add_multiple(m, v, other));
         product.bounded()
@@ -159,6 +162,7 @@ impl Poly {
             if !remainder.is_zero() || quotient.terms.len() >= steps {
                 return None;
             }
+            spend(divisor.terms.len())?;
             // The leading term goes away and every other change is smaller: the loop ends.
             rest.add_multiple(&m, &-&ratio, divisor);
             quotient.add_term(m, ratio);

@@ -1,5 +1,5 @@
 //! The one place where differential equations are integrated: orders 4 and 5 by the crate `ode_solvers`, order 8 by
-//! [`Dop853`] of our own, and stiff ones by the crate `differential-equations` (see `stiff.rs`).
+//! [`Dop853`] of our own, and stiff ones by the crate `differential-equations` (see `radau.rs`).
 //!
 //! What was found in the crate's source and by running it (0.6.2), and what is done about it here:
 //!

@@ -30,7 +30,7 @@ pub struct Arguments {
     /// Everything generated follows from it
     #[arg(long, value_name = "S", allow_negative_numbers = true, default_value_t = 0)]
     seed: u64,
-    /// Adds claims of your own: identities of formulas, see the README
+    /// Adds claims of your own: identities of formulas, see "Checking the theory" in the book
     #[arg(long, value_name = "FILE.toml")]
     claims: Option<PathBuf>,
     #[command(flatten)]

@@ -93,6 +93,7 @@ fn read_effect(section: &Section, origin: &Arc<Origin>) -> Result<OwnEffect> {
         "says",
         "source",
         "per_trailer",
+        "basic",
         "needs",
         "limit",
         "parameters",
@@ -109,6 +110,7 @@ fn read_effect(section: &Section, origin: &Arc<Origin>) -> Result<OwnEffect> {
             says: text("says", "says = \"what the vehicle really does\"")?,
             source: section.get("source").map(|v| v.text()).transpose()?.unwrap_or("the user's own").into(),
             per_trailer: section.get("per_trailer").map_or(Ok(false), |v| v.truth())?,
+            basic: section.get("basic").map_or(Ok(false), |v| v.truth())?,
             limit: limit.as_ref().map(|v| v.text().map(str::to_string)).transpose()?,
             origin: Some(origin.clone()),
             ..Effect::default()

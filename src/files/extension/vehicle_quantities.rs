@@ -8,7 +8,7 @@ use crate::files::toml::spanned_table::{Section, Value};
 use crate::files::toml::suggestions::shown;
 use crate::files::toml::user_file::at_most;
 use crate::formula::{Fun, Symbol};
-use crate::vehicles::{Definition, Input, Instead, Quantity};
+use crate::vehicles::{Definition, Input, Instead, Moves, Quantity};
 
 /// The most parameters, inputs, defined symbols, coordinates or constraints of a vehicle.
 pub(crate) const MOST: usize = 60;
@@ -43,9 +43,10 @@ pub(crate) fn read_inputs(own: &mut OwnVehicle, section: &Section) -> Result<()>
         check_role(&entry, &entry.name)?;
         own.declare(Symbol::new(&entry.name), &entry)?;
         let table = entry.section(format!("[vehicle.inputs.{}]", entry.name))?;
-        table.only(&["unit", "meaning", "instead"])?;
+        table.only(&["unit", "meaning", "moves", "instead"])?;
         let instead = table.get("instead").map(|v| read_instead(own, &entry.name, &v)).transpose()?;
-        let input = Input { unit: read_unit(&table)?, meaning: read_meaning(&table)?, moves: None, instead };
+        let moves = read_moves(&table)?;
+        let input = Input { unit: read_unit(&table)?, meaning: read_meaning(&table)?, moves, instead };
         own.vehicle.inputs.insert(entry.name.clone(), input);
     }
     Ok(())
@@ -54,15 +55,31 @@ pub(crate) fn read_inputs(own: &mut OwnVehicle, section: &Section) -> Result<()>
 fn read_instead(own: &mut OwnVehicle, input: &str, value: &Value) -> Result<Instead> {
     let example = "instead = { role = \"speed\", unit = \"m/s\", formula = \"speed/wheel_radius\" }";
     let table = value.section_like("instead".into(), example)?;
-    table.only(&["role", "unit", "formula"])?;
+    table.only(&["role", "unit", "formula", "moves"])?;
     let role = table.need("role", example)?;
     check_role(&role, role.text()?)?;
     own.declare(Symbol::new(role.text()?), &role)?;
     let formula = FormulaText::read(&table.need("formula", example)?)?;
-    let instead =
-        Instead { role: role.text()?.into(), moves: None, unit: read_unit(&table)?, formula: formula.formula.clone() };
+    let instead = Instead {
+        role: role.text()?.into(),
+        moves: read_moves(&table)?,
+        unit: read_unit(&table)?,
+        formula: formula.formula.clone(),
+    };
     own.replaced.insert(input.into(), formula);
     Ok(instead)
+}
+
+/// Reads what an input does to the body; where it is left out, the usual names say it.
+fn read_moves(section: &Section) -> Result<Option<Moves>> {
+    let Some(value) = section.get("moves") else { return Ok(None) };
+    match Moves::ALL.into_iter().find(|(name, _)| value.text().is_ok_and(|text| text == *name)) {
+        Some((_, moves)) => Ok(Some(moves)),
+        None => {
+            let names = Moves::ALL.map(|(name, _)| name).join(", ");
+            Err(value.error("moves says what an input does to the body").help(format!("write one of {names}")))
+        }
+    }
 }
 
 /// Reads the defined symbols.

@@ -44,7 +44,7 @@
 //! | [`model`], [`motion`] | a vehicle with parameters and effects; its trajectories and their sensitivities |
 //! | [`energy_rule`] | the paper's rule for the energy of a creeping wheel, Fig. 7 |
 //! | [`equivalence`] | effects that are proved to give the same motions |
-//! | [`describe`], [`extensions`] | a model in formulas; a user's own effects and vehicles, held against every vehicle |
+//! | [`mod@describe`], [`extensions`] | a model in formulas; a user's own effects and vehicles, held against every vehicle |
 //! | [`connection`], [`dynamics`] | shapes that turn a body; motion by forces |
 //! | [`scaffold`], [`sweep`] | what `init` and `sweep` do |
 //! | [`picture`] | drawings as pure functions |

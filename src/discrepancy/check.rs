@@ -10,11 +10,11 @@ use crate::error::Result;
 use crate::files::Run;
 use crate::model::Model;
 
-/// As [`check`](crate::discrepancy::identifiability::check), the clocks of inputs and poses estimated first where they
+/// As [`check`], the clocks of inputs and poses estimated first where they
 /// stand in files of their own.
 ///
 /// # Errors
-/// As [`discover_aligned`].
+/// As [`discover_aligned`](crate::discrepancy::discover::discover_aligned).
 pub fn check_aligned(of: &Checked, near: Option<f64>, progress: &dyn Fn(&str)) -> Result<Check> {
     if of.runs.iter().all(is_aligned) {
         return check(of, progress);

@@ -1,4 +1,4 @@
-//! What `check` says, as data; its JSON form is documented in the README.
+//! What `check` says, as data; its JSON form is documented in the guide, "Checking a log before a fit".
 
 use crate::discrepancy::report::{NextExperiment, RunClock};
 use serde::{Deserialize, Serialize};

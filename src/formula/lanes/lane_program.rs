@@ -15,13 +15,13 @@ pub enum Changes {
     Lane,
 }
 
-/// A [`Program`] arranged to run over blocks of `L` lanes: the interpretation is paid once a block, and the loops over
+/// A [`Program`](crate::formula::Program) arranged to run over blocks of `L` lanes: the interpretation is paid once a block, and the loops over
 /// lanes become vector instructions.
 ///
 /// What depends on parameters alone runs once a block of cases, what depends on time alone runs once for all lanes, and
 /// sine and cosine of one angle are computed together.
 ///
-/// Results agree with [`Program::run`] to rounding: sums and products are the same, a sine or cosine differs by at most
+/// Results agree with [`Program::run`](crate::formula::Program::run) to rounding: sums and products are the same, a sine or cosine differs by at most
 /// 2 units in the last place, a tangent or cotangent by 6, as the standard library's are not the same on every system.
 /// Between processors, and whatever the width of their vectors, the results are the same bits.
 ///

@@ -3,7 +3,7 @@
 /// What became of a case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
-    /// Row by row what a logger would see, [`Ensemble::columns`] without the time; nothing where the motion is undefined.
+    /// Row by row what a logger would see, [`Ensemble::columns`](crate::motion::Ensemble::columns) without the time; nothing where the motion is undefined.
     pub values: Vec<f64>,
     /// The estimated error, absolute or relative to the size of a state above one; none where the motion is undefined.
     pub error: Option<f64>,

@@ -214,7 +214,7 @@ pub const BAD_VEHICLES: &[Case] = &[
     case(
         "instead key",
         &[("role = \"speed\"", "rolle = \"speed\"")],
-        "17:13: unknown key \"rolle\" in instead; did you mean \"role\"? known keys: role, unit, formula",
+        "17:13: unknown key \"rolle\" in instead; did you mean \"role\"? known keys: role, unit, formula, moves",
     ),
     case(
         "instead not table",

@@ -23,7 +23,7 @@ pub struct Effect {
     #[serde(default)]
     pub per_trailer: bool,
     /// Whether every vehicle has it in one form or another: where one of plausible size could hide, silence means
-    /// nothing. A user's own effect is not basic.
+    /// nothing. A user's own effect is basic where its file says so.
     #[serde(default)]
     pub basic: bool,
     /// Inputs the vehicle must have.

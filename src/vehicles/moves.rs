@@ -23,17 +23,6 @@ pub enum Moves {
 }
 
 impl Moves {
-    /// All of them by their names in a file.
-    pub const ALL: [(&str, Self); 7] = [
-        ("forward", Self::Forward),
-        ("wheel", Self::Wheel),
-        ("left-wheel", Self::LeftWheel),
-        ("right-wheel", Self::RightWheel),
-        ("yaw", Self::Yaw),
-        ("steering", Self::Steering),
-        ("shape", Self::Shape),
-    ];
-
     /// What an input of a usual name does, of a vehicle that does not declare it.
     pub(super) fn usual(role: &str) -> Option<Self> {
         Some(match role {

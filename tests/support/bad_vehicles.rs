@@ -217,6 +217,11 @@ pub const BAD_VEHICLES: &[Case] = &[
         "17:13: unknown key \"rolle\" in instead; did you mean \"role\"? known keys: role, unit, formula, moves",
     ),
     case(
+        "moves what",
+        &[("meaning = \"steering angle\"", "meaning = \"steering angle\"\nmoves = \"sideways\"")],
+        "21:9: moves: unknown variant `sideways`, expected one of `forward`, `wheel`, `left-wheel`, `right-wheel`, `yaw`, `steering`, `shape`",
+    ),
+    case(
         "instead not table",
         &[("instead = { role = \"speed\", unit = \"m/s\", formula = \"speed/wheel_radius\" }", "instead = \"speed\"")],
         "17:11: instead must be a table, not a text; write instead = { role = \"speed\", unit = \"m/s\", formula = \"speed/wheel_radius\" }",

@@ -16,7 +16,8 @@ use crate::discrepancy::preprocessing::outliers::without_gross_errors;
 use crate::discrepancy::preprocessing::unit_errors::too_sparse;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::report::Verdict;
-use crate::effects::{self, Effect};
+use crate::discrepancy::request::common_roles;
+use crate::effects::Effect;
 use crate::error::Result;
 use crate::files::{ModelFile, Run};
 use crate::model::Model;
@@ -51,7 +52,7 @@ const NAMED: usize = 4;
 /// # Errors
 /// When runs log different inputs, or the model file's effects do not apply to its vehicle.
 pub fn check(of: &Checked, progress: &dyn Fn(&str)) -> Result<Check> {
-    let roles = crate::discrepancy::request::common_roles(of.runs, &[])?;
+    let roles = common_roles(of.runs, &[])?;
     let model = Model::from_file(of.file, of.library, &roles)?;
     progress("looking at the rows");
     let sparse = too_sparse(&model, of.runs)?;
@@ -114,7 +115,7 @@ pub fn check(of: &Checked, progress: &dyn Fn(&str)) -> Result<Check> {
     let next_experiment = open.advice(&problem, &fit)?;
     let mut not_separated: Vec<_> = pairs.into_iter().map(|u| u.pair).collect();
     not_separated.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
-    let (verdict, summary) = standing(&effects);
+    let (verdict, summary) = standing(&effects, of.library);
     Ok(Check { schema: 1, verdict, summary, data, effects, not_separated, next_experiment })
 }
 
@@ -142,9 +143,9 @@ fn without_fit(data: Health, outcome: verdict::Outcome) -> Check {
 }
 
 /// The verdict by the basic effects, and a sentence.
-fn standing(effects: &[Prospect]) -> (Standing, String) {
+fn standing(effects: &[Prospect], library: &[Effect]) -> (Standing, String) {
     let missed: Vec<&str> = effects.iter().filter(|e| e.seen == Seen::No).map(|e| e.id.as_str()).collect();
-    let basic = missed.iter().any(|id| effects::named(id).is_some_and(|e| e.basic));
+    let basic = library.iter().any(|e| e.basic && missed.contains(&e.id.as_str()));
     let named = listed(missed.iter().copied().take(NAMED));
     let more = missed.len().saturating_sub(NAMED);
     let more = if more > 0 { format!(" (and {more} more)") } else { String::new() };
@@ -160,5 +161,27 @@ fn standing(effects: &[Prospect]) -> (Standing, String) {
         (false, true) => {
             (Standing::NotIdentifiable, format!("These runs would not show {named}{more} at a plausible size."))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeMap;
+
+    /// A basic effect that would be missed decides, a user's own as well as one of the catalogue.
+    #[test]
+    fn a_basic_effect_that_is_missed_says_not_identifiable() {
+        let own = Effect { id: "my-creep".into(), basic: true, ..Effect::default() };
+        let missed = Prospect {
+            id: own.id.clone(),
+            trailer: None,
+            place: String::new(),
+            seen: Seen::No,
+            parameters: BTreeMap::new(),
+        };
+        let plain = Effect { basic: false, ..own.clone() };
+        let told = |effect| standing(std::slice::from_ref(&missed), &[effect]).0;
+        assert_eq!((told(own), told(plain)), (Standing::NotIdentifiable, Standing::Identifiable));
     }
 }

@@ -9,6 +9,9 @@ use crate::files::toml::suggestions::shown;
 use crate::files::toml::user_file::at_most;
 use crate::formula::{Fun, Symbol};
 use crate::vehicles::{Definition, Input, Instead, Moves, Quantity};
+use serde::Deserialize;
+use serde::de::IntoDeserializer;
+use serde::de::value::StrDeserializer;
 
 /// The most parameters, inputs, defined symbols, coordinates or constraints of a vehicle.
 pub(crate) const MOST: usize = 60;
@@ -73,13 +76,8 @@ fn read_instead(own: &mut OwnVehicle, input: &str, value: &Value) -> Result<Inst
 /// Reads what an input does to the body; where it is left out, the usual names say it.
 fn read_moves(section: &Section) -> Result<Option<Moves>> {
     let Some(value) = section.get("moves") else { return Ok(None) };
-    match Moves::ALL.into_iter().find(|(name, _)| value.text().is_ok_and(|text| text == *name)) {
-        Some((_, moves)) => Ok(Some(moves)),
-        None => {
-            let names = Moves::ALL.map(|(name, _)| name).join(", ");
-            Err(value.error("moves says what an input does to the body").help(format!("write one of {names}")))
-        }
-    }
+    let named: StrDeserializer<'_, serde::de::value::Error> = value.text()?.into_deserializer();
+    Moves::deserialize(named).map(Some).map_err(|e| value.error(format!("moves: {e}")))
 }
 
 /// Reads the defined symbols.

@@ -5,9 +5,8 @@ use super::own::Own;
 use super::print;
 use clap::{Args, ValueEnum};
 use creepage::Result;
-use creepage::describe::{CreepLimits, Description, json, latex, text};
+use creepage::describe::{CreepLimits, json, latex, text};
 use creepage::mechanism::Limits;
-use creepage::model::Model;
 use std::path::PathBuf;
 
 /// Print a model's constraints, matrix, derivatives and motion, with every symbol and unit
@@ -51,11 +50,9 @@ enum Format {
 
 /// Carries out the command.
 pub fn run(arguments: &Arguments) -> Result<()> {
-    let (file, library) = &arguments.own.read(&arguments.model)?;
-    let roles: Vec<String> = file.columns.inputs.iter().map(|i| i.role.clone()).collect();
+    let model = arguments.own.model(&arguments.model)?;
     let limits = CreepLimits { rotation: arguments.rotation_limits, traverse: arguments.traverse_limits };
-    let description = Description::of(&Model::from_file(file, library, &roles)?);
-    let description = description.map_err(|e| e.at_file(&arguments.model))?.with_limits(limits);
+    let description = creepage::describe(&model).map_err(|e| e.at_file(&arguments.model))?.with_limits(limits);
     print(&match arguments.format {
         Format::Text => text(&description),
         Format::Latex => latex(&description),

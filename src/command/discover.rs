@@ -103,21 +103,16 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     drop(progress);
     write(&found, file, &arguments.out)?;
     match arguments.format {
-        Format::Json => print(&json(&found)?)?,
+        Format::Json => print(&found.report.json()?)?,
         Format::Text if !quiet => print(&screen(&found, &arguments.out))?,
         Format::Text => {}
     }
     Ok(())
 }
 
-fn json(found: &Discovery) -> Result<String> {
-    let json = serde_json::to_string_pretty(&found.report).map_err(|e| Error::run(format!("no report.json: {e}")))?;
-    Ok(json + "\n")
-}
-
 fn write(found: &Discovery, file: &ModelFile, out: &Path) -> Result<()> {
     let mut files = vec![
-        ("report.json", json(found)?),
+        ("report.json", found.report.json()?),
         ("report.html", html(&found.report, &found.pictures)),
         ("gap.svg", gap_svg(&found.report, &found.pictures)),
         ("model.patched.toml", found.patched(file)),

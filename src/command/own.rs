@@ -1,11 +1,10 @@
 //! `--vehicles FILE.toml` and `--effects FILE.toml`
 
 use clap::Args;
-use creepage::dynamics;
 use creepage::effects::{self, Effect};
 use creepage::files::ModelFile;
 use creepage::vehicles::{self, Vehicle};
-use creepage::{Result, extensions};
+use creepage::{Model, Result, extensions};
 use std::path::{Path, PathBuf};
 
 /// The user's own vehicles, beside those of the catalogue.
@@ -51,10 +50,12 @@ impl Own {
 
     /// A model file and the library of effects; the vehicles that the model names join the catalogue.
     pub fn read(&self, path: &Path) -> Result<(ModelFile, Vec<Effect>)> {
-        let vehicles = extensions::vehicles_of(path, self.vehicles.file())?;
-        let library = self.library(&vehicles)?;
-        let file = ModelFile::read(path, &dynamics::known_on(&vehicles, &library))?;
-        Ok((file, library))
+        Ok(self.model(path)?.into_parts())
+    }
+
+    /// A model with the library of effects.
+    pub fn model(&self, path: &Path) -> Result<Model> {
+        Model::read_with(path, self.vehicles.file(), self.effects.as_deref())
     }
 
     fn library(&self, vehicles: &[Vehicle]) -> Result<Vec<Effect>> {

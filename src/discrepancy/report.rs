@@ -1,5 +1,6 @@
 //! What `discover` says, as data: the contract's `report.json` and the pictures of `report.html`.
 
+use crate::error::{Error, Result};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -340,6 +341,17 @@ pub struct CandidatePicture {
     pub chosen: bool,
     /// Whether it is listed as indistinguishable from a chosen one.
     pub rival: bool,
+}
+
+impl Report {
+    /// The text of `report.json`.
+    ///
+    /// # Errors
+    /// When a number of the report has no JSON.
+    pub fn json(&self) -> Result<String> {
+        let json = serde_json::to_string_pretty(self).map_err(|e| Error::run(format!("no report.json: {e}")))?;
+        Ok(json + "\n")
+    }
 }
 
 /// The gap at the middle horizon; of two horizons the longer.

@@ -4,7 +4,7 @@ use super::model::Model;
 use crate::discrepancy::rendering::html::html;
 use crate::discrepancy::rendering::summary::summary_text;
 use crate::discrepancy::report::{Pictures, Report};
-use crate::error::{Error, Result};
+use crate::error::Result;
 
 /// The answer of [`discover`](crate::discover).
 pub struct Discovery {
@@ -21,8 +21,7 @@ impl Discovery {
     /// # Errors
     /// When a number of the report has no JSON.
     pub fn json(&self) -> Result<String> {
-        let json = serde_json::to_string_pretty(&self.report);
-        json.map(|text| text + "\n").map_err(|e| Error::run(format!("no report.json: {e}")))
+        self.report.json()
     }
 
     /// The report as a page that needs no other file.

@@ -32,8 +32,25 @@ impl Model {
     /// # Errors
     /// With file, line and column: no TOML, an unknown vehicle, key or effect, a value out of range.
     pub fn read(path: impl AsRef<Path>) -> Result<Self> {
+        Self::read_with(path, None, None)
+    }
+
+    /// As [`Model::read`], with files of the user's own vehicles and effects beside the catalogues.
+    ///
+    /// ```
+    /// let effects = Some("examples/effects/my_effects.toml".as_ref());
+    /// assert!(creepage::Model::read_with("examples/runs/cornering/model.toml", None, effects).is_ok());
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Model::read`]; when a vehicle or an effect of the user's own does not hold.
+    pub fn read_with(path: impl AsRef<Path>, vehicles: Option<&Path>, effects: Option<&Path>) -> Result<Self> {
         let path = path.as_ref();
-        let (vehicles, library) = (extensions::vehicles_of(path, None)?, effects::all().to_vec());
+        let vehicles = extensions::vehicles_of(path, vehicles)?;
+        let library = match effects {
+            Some(effects) => extensions::with_own_on(effects, &vehicles)?,
+            None => effects::all().to_vec(),
+        };
         let file = ModelFile::read(path, &dynamics::known_on(&vehicles, &library))?;
         Ok(Self { file, library, vehicles })
     }
@@ -97,6 +114,12 @@ impl Model {
     /// When the file cannot be read, or an effect of it does not hold on a vehicle it applies to.
     pub fn with_effects(self, path: impl AsRef<Path>) -> Result<Self> {
         Ok(Self { library: extensions::with_own_on(path, &self.vehicles)?, ..self })
+    }
+
+    /// The file and the effects that may be named.
+    #[doc(hidden)]
+    pub fn into_parts(self) -> (ModelFile, Vec<Effect>) {
+        (self.file, self.library)
     }
 
     /// The id of the vehicle.

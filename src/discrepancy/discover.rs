@@ -8,6 +8,7 @@ use super::pipeline::discover;
 use super::preprocessing::dataset::{Data, FITTED_SHARE};
 use super::selection::select::choose;
 use crate::discrepancy::clock_alignment::aligned_run::{is_aligned, without_delay};
+use crate::discrepancy::diagnosis::verdict;
 use crate::discrepancy::discovery::{Discovery, cut_short};
 use crate::discrepancy::request::{Request, common_roles};
 use crate::effects::Effect;
@@ -71,7 +72,7 @@ fn with_effects(request: &Request, model: &Model, first: &[Aligned], progress: &
     // Three quarters of the rows are enough to choose by.
     let data = Data::of(&request, model)?;
     let problem = Problem::new(data.fitted, request.file.noise.position, request.file.noise.heading);
-    if crate::discrepancy::diagnosis::verdict::before_fitting(&problem, model)?.is_some() {
+    if verdict::before_fitting(&problem, model)?.is_some() {
         return Ok(model.clone());
     }
     let Some(choice) = choose(&problem, model, request.library, progress)? else { return Ok(model.clone()) };

@@ -4,6 +4,7 @@ use super::diagnosis::verdict;
 use super::preprocessing::dataset::Data;
 use super::rendering::summary;
 use super::report::*;
+use crate::discrepancy::diagnosis::advice;
 use crate::discrepancy::preprocessing::outliers::GROSS;
 use crate::discrepancy::request::Request;
 use crate::error::Result;
@@ -12,7 +13,7 @@ use crate::number_format::significant;
 use std::collections::BTreeMap;
 
 /// A held-out gap that is so many times as large with what was found, and as the noise floor, has grown.
-pub(crate) const GREW: f64 = 1.25;
+const GREW: f64 = 1.25;
 
 /// What `discover` finds.
 pub struct Discovery {
@@ -34,7 +35,7 @@ impl Discovery {
 /// What inputs in coarse steps may have left unexplained; where nothing else has a say, finer ones are the advice.
 pub(crate) fn told_of_steps(report: &mut Report, steps: Vec<String>, is_contested: bool) {
     if let Some(first) = steps.first().filter(|_| report.verdict == Verdict::NotIdentifiable && !is_contested) {
-        report.next_experiment = Some(crate::discrepancy::diagnosis::advice::finer(first));
+        report.next_experiment = Some(advice::finer(first));
     }
     report.data.warnings.extend(steps);
 }

@@ -18,10 +18,12 @@ use super::selection::select::choose;
 use crate::discrepancy::discovery::{
     Discovery, cut_short, empty_report, nothing_to_fit, told_of_steps, too_long, worse,
 };
+use crate::discrepancy::estimation::unexplained;
 use crate::discrepancy::request::{Request, common_roles, horizons};
 use crate::discrepancy::selection::choice::SelectedEffect;
 use crate::error::Result;
 use crate::model::Model;
+use crate::model::effect_equation;
 
 /// Finds where a model and measured runs disagree, names the missing effect and shows the gap shrink.
 ///
@@ -52,11 +54,7 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
     let before = problem.violations(&model, &noise)?;
     let after = problem.violations(&choice.after.model, &noise)?;
     // What is explained to its noise needs no other clock.
-    let clocks = if crate::discrepancy::estimation::unexplained::remains(&choice.after) {
-        problem.drifts(&choice.after)?
-    } else {
-        vec![]
-    };
+    let clocks = if unexplained::remains(&choice.after) { problem.drifts(&choice.after)? } else { vec![] };
     let found = verdict::after_fitting(&problem, &choice, &after, &clocks)?;
     let mut report = empty_report(request, &data);
     report.verdict = found.verdict;
@@ -64,8 +62,7 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
     report.next_experiment = design::next(&problem, &choice, &relatives, &found)?;
     if report.verdict != Verdict::UnusableData {
         let each = choice.chosen.iter().zip(&relatives);
-        let (terms, effects): (Vec<_>, Vec<_>) =
-            each.partition(|(c, _)| crate::model::effect_equation::is_term(&c.applied));
+        let (terms, effects): (Vec<_>, Vec<_>) = each.partition(|(c, _)| effect_equation::is_term(&c.applied));
         report.effects = effects.into_iter().map(|(c, relatives)| named(c, relatives, &model)).collect();
         let terms: Vec<&SelectedEffect> = terms.into_iter().map(|(c, _)| c).collect();
         report.unnamed = without_name(&terms, &data, &choice.after, &model)?;
@@ -81,7 +78,7 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
         report.data.warnings.extend(plausibility::warnings(&choice, &problem.records)?);
         report.data.warnings.extend(worse(&report.gap));
     }
-    if crate::discrepancy::estimation::unexplained::remains(&choice.after) {
+    if unexplained::remains(&choice.after) {
         let steps = request.runs.iter().flat_map(|run| quantisation::says(&model, run)).collect();
         told_of_steps(&mut report, steps, contradictions::is_contested(&choice));
     }

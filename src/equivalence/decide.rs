@@ -90,11 +90,7 @@ mod tests {
 
     /// A vehicle with every length one, with a trailer or without.
     fn models() -> impl Iterator<Item = Model> {
-        let of = |v: &crate::vehicles::Vehicle| {
-            let ones: Vec<(&str, f64)> = v.parameters.keys().map(|name| (name.as_str(), 1.0)).collect();
-            Model::new(&v.id, &ones).ok()
-        };
-        let bare = vehicles::all().iter().filter_map(of).filter(|m| m.equations(&[]).is_ok());
+        let bare = vehicles::all().iter().filter_map(|v| Model::sample(v).ok()).filter(|m| m.equations(&[]).is_ok());
         bare.flat_map(|m| [m.clone(), m.with_trailers(&[Trailer { length: 1.0, hitch: 0.5 }])])
     }
 

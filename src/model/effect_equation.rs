@@ -1,8 +1,8 @@
 //! How an effect reads as an equation.
 
 use crate::effects::Applied;
-use crate::model::Model;
-use crate::model::{COEFFICIENT, PREFIX};
+use crate::formula::Expr;
+use crate::model::{COEFFICIENT, Model, PREFIX};
 use crate::number_format::significant;
 
 /// Whether an effect is a term of the library without names.
@@ -25,7 +25,7 @@ pub fn term_equation(term: &Applied, model: &Model) -> String {
 }
 
 /// The definition by which inputs lag.
-pub(crate) const DELAY: &str = "delay";
+const DELAY: &str = "delay";
 
 /// What an effect says, as equations: each definition it rewrites, and the rates of its states.
 pub fn equation(applied: &Applied, model: &Model) -> String {
@@ -38,7 +38,7 @@ pub fn equation(applied: &Applied, model: &Model) -> String {
         let short = old.filter(|f| f.to_string().len() <= 24);
         let shown = formula.substitute(&|s| match (s.as_str(), &short) {
             ("it", Some(f)) => Some(f.clone()),
-            ("it", None) => Some(crate::formula::Expr::sym(name.clone())),
+            ("it", None) => Some(Expr::sym(name.clone())),
             _ => None,
         });
         let verb = if short.is_some() { "=" } else { "becomes" };
@@ -52,7 +52,7 @@ pub fn equation(applied: &Applied, model: &Model) -> String {
 }
 
 /// The constraint whose creep coefficient a name is; of the time that inputs lag, what it does to them.
-pub(crate) fn constraint_of(name: &str, model: &Model) -> String {
+fn constraint_of(name: &str, model: &Model) -> String {
     match model.constraints().into_iter().find(|c| c.creep.as_str() == name) {
         Some(constraint) => format!("{} = 0", constraint.row()),
         None if name == DELAY => format!("u(t) becomes u(t - {DELAY})"),

@@ -3,6 +3,7 @@
 use crate::discrepancy::report::NextExperiment;
 use crate::discrepancy::selection::choice::Selected;
 use crate::effects::Applied;
+use crate::model::effect_equation;
 use crate::wording::listed_to;
 
 pub(crate) fn drive(why: &str) -> NextExperiment {
@@ -13,7 +14,7 @@ pub(crate) fn drive(why: &str) -> NextExperiment {
 }
 
 /// Names in a sentence.
-pub(crate) const NAMED: usize = 3;
+const NAMED: usize = 3;
 
 /// That parts of the data ask for something differently; `None` where they agree.
 pub(crate) fn contradiction(choice: &Selected) -> Option<String> {
@@ -25,7 +26,7 @@ pub(crate) fn contradiction(choice: &Selected) -> Option<String> {
 pub(crate) fn named(effects: &[Applied]) -> Option<String> {
     let mut names: Vec<String> = Vec::new();
     for effect in effects {
-        let name = match crate::model::effect_equation::is_term(effect) {
+        let name = match effect_equation::is_term(effect) {
             true => format!("a law without name at the {}", effect.effect.place),
             false => effect.label(),
         };

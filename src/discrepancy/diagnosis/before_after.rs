@@ -3,6 +3,7 @@
 use crate::discrepancy::preprocessing::dataset::Data;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::record::sensor_noise::Noise;
+use crate::discrepancy::report;
 use crate::discrepancy::report::{BeforeAfter, Floor, Gap, GapCurve, Step};
 use crate::discrepancy::selection::choice::Selected;
 use crate::discrepancy::shooting::rollout::{PredictionError, Rollout};
@@ -124,7 +125,7 @@ impl<'a> ModelComparison<'a> {
     /// When a model's formulas are malformed.
     pub fn steps(&self, choice: &Selected, gaps: &[Gap]) -> Result<Vec<Step>> {
         let fitted: Vec<Gap> = gaps.iter().filter(|g| g.fit.is_some()).cloned().collect();
-        let Some(horizon) = crate::discrepancy::report::middle(&fitted).map(|g| g.horizon_s) else { return Ok(vec![]) };
+        let Some(horizon) = report::middle(&fitted).map(|g| g.horizon_s) else { return Ok(vec![]) };
         let step = |(added, model): &(String, Model)| {
             let gap_after = Rollouts::new(model, &self.data.fitted)?.errors(horizon).position_rms();
             Ok(Step { added: added.clone(), gap_after })

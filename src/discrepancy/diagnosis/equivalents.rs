@@ -5,6 +5,7 @@ use crate::discrepancy::selection::choice::{Selected, SelectedEffect};
 use crate::effects::{Applied, Effect};
 use crate::equivalence::{Measured, relation};
 use crate::model::Model;
+use crate::model::effect_equation;
 use rayon::prelude::*;
 
 /// Another effect that explains what a chosen one explains.
@@ -38,7 +39,7 @@ pub fn relatives(choice: &Selected, library: &[Effect], measured: Measured) -> V
 }
 
 fn of_one(chosen: &SelectedEffect, after: &Model, library: &[Effect], measured: Measured) -> Vec<EquivalentEffect> {
-    if crate::model::effect_equation::is_term(&chosen.applied) {
+    if effect_equation::is_term(&chosen.applied) {
         return vec![];
     }
     let mut rest = after.clone();

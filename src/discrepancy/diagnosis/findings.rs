@@ -2,12 +2,13 @@
 
 use super::equivalents::EquivalentEffect;
 use crate::discrepancy::estimation::fit::Fit;
-use crate::discrepancy::localisation::constraint_residuals;
+use crate::discrepancy::localisation::constraint_residuals::{ConstraintResiduals, reduction};
 use crate::discrepancy::preprocessing::dataset::Data;
 use crate::discrepancy::report::{Estimate, Evidence, Named, Rival, Unnamed};
 use crate::discrepancy::selection::choice::SelectedEffect;
 use crate::error::Result;
 use crate::model::Model;
+use crate::model::effect_equation::{equation, is_term, term_equation};
 use std::collections::BTreeMap;
 
 /// A chosen effect as the report lists it.
@@ -28,7 +29,7 @@ pub(crate) fn named(chosen: &SelectedEffect, relatives: &[EquivalentEffect], mod
         parameters,
         evidence: Evidence { delta_bic: chosen.delta_bic, p_value: chosen.p_value },
         indistinguishable_from: relatives.iter().map(rival).collect(),
-        equation: crate::model::effect_equation::equation(a, model),
+        equation: equation(a, model),
     }
 }
 
@@ -39,19 +40,15 @@ pub(crate) fn without_name(terms: &[&SelectedEffect], data: &Data, after: &Fit, 
     }
     let judged = if data.held_out.is_empty() { &data.fitted } else { &data.held_out };
     let mut bare = after.model.clone();
-    bare.effects.retain(|e| !crate::model::effect_equation::is_term(e));
+    bare.effects.retain(|e| !is_term(e));
     let violations = |m: &Model| -> Result<Vec<_>> {
-        judged.iter().map(|r| constraint_residuals::ConstraintResiduals::of(m, r, &after.noise())).collect()
+        judged.iter().map(|r| ConstraintResiduals::of(m, r, &after.noise())).collect()
     };
     let (without, with) = (violations(&bare)?, violations(&after.model)?);
     let one = |c: &&SelectedEffect| Unnamed {
         place: c.applied.effect.place.clone(),
-        equation: crate::model::effect_equation::term_equation(&c.applied, model),
-        held_out_reduction: crate::discrepancy::localisation::constraint_residuals::reduction(
-            &c.applied.effect.place,
-            &without,
-            &with,
-        ),
+        equation: term_equation(&c.applied, model),
+        held_out_reduction: reduction(&c.applied.effect.place, &without, &with),
         parameters: named(c, &[], model).parameters,
     };
     Ok(terms.iter().map(one).collect())

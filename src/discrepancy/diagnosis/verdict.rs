@@ -5,6 +5,7 @@ use crate::discrepancy::diagnosis::advice::drive;
 use crate::discrepancy::diagnosis::advice::{oftener, settling};
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
+use crate::discrepancy::estimation::unexplained;
 use crate::discrepancy::localisation::clock_drift::Drift;
 use crate::discrepancy::localisation::constraint_residuals::{CONSTRAINTS, ConstraintResiduals};
 use crate::discrepancy::preprocessing::unit_errors;
@@ -15,6 +16,7 @@ use crate::discrepancy::selection::select::Candidate;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
+use crate::model::effect_equation;
 use crate::number_format::significant;
 use crate::wording::listed;
 
@@ -145,7 +147,7 @@ fn fitted(choice: &Selected, after: &[ConstraintResiduals], clocks: &[Drift]) ->
     if let Some(sentence) = sliding(after).or_else(|| mismatched(clocks)) {
         return outcome(Verdict::UnusableData, &sentence, None);
     }
-    let without_name = choice.chosen.iter().any(|c| crate::model::effect_equation::is_term(&c.applied));
+    let without_name = choice.chosen.iter().any(|c| effect_equation::is_term(&c.applied));
     let contradicted = !choice.inconsistent.is_empty();
     if !choice.chosen.is_empty() {
         let verdict = if without_name { Verdict::UnnamedEffect } else { Verdict::MissingEffect };
@@ -182,8 +184,7 @@ fn fitted(choice: &Selected, after: &[ConstraintResiduals], clocks: &[Drift]) ->
 
 /// What a model leaves beyond chance without standing out of the noise to the eye; `None` where it leaves nothing.
 fn trace(after: &Fit) -> Option<String> {
-    let places: Vec<&str> =
-        crate::discrepancy::estimation::unexplained::remaining(after).map(|c| CONSTRAINTS[c].0).collect();
+    let places: Vec<&str> = unexplained::remaining(after).map(|c| CONSTRAINTS[c].0).collect();
     (!places.is_empty()).then(|| {
         format!(
             "No effect is missing that can be named: the model explains these runs but for a trace at the {}, more than \
@@ -210,7 +211,7 @@ pub(crate) fn restated(choice: &Selected) -> Vec<String> {
 /// Whether what a fit leaves of a constraint is more than chance, and stands out of the noise to the eye.
 fn disagrees(fit: &Fit, after: &[ConstraintResiduals]) -> bool {
     let visible = |c: usize| ConstraintResiduals::rms(after, c).is_some_and(|(rms, noise)| rms > VISIBLE * noise);
-    crate::discrepancy::estimation::unexplained::remaining(fit).any(visible)
+    unexplained::remaining(fit).any(visible)
 }
 
 /// A model that misses most of the motion or of the turning, whatever is added to it.

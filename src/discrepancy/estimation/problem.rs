@@ -5,6 +5,7 @@ use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::initial_state::heading_from_path;
 use crate::discrepancy::record::local_polynomial;
 use crate::discrepancy::record::run_record::{Channel, Record};
+use crate::discrepancy::shooting::windows;
 use crate::discrepancy::shooting::windows::has_windows;
 use crate::discrepancy::shooting::windows::{Segment, WindowStates};
 use crate::error::Result;
@@ -34,7 +35,7 @@ impl Problem {
             true => records.into_iter().filter(has_windows).collect(),
             false => records,
         };
-        let plan = crate::discrepancy::shooting::windows::plan(&records);
+        let plan = windows::plan(&records);
         let channels = [Channel::Position, Channel::Heading, Channel::Trailer];
         let known = [position, heading, heading];
         let present = channels.map(|c| records.iter().any(|r| r.channels().contains(&c)));

@@ -4,7 +4,7 @@ use crate::discrepancy::estimation::autocorrelation::NOTICEABLE;
 use crate::discrepancy::estimation::fit::Fit;
 
 /// Named effects from which on one simpler term is tried whatever remains.
-pub(crate) const MANY: usize = 2;
+const MANY: usize = 2;
 
 /// Whether motion remains that a fit does not explain.
 pub fn remains(fit: &Fit) -> bool {

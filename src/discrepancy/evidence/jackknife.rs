@@ -12,13 +12,13 @@ use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// Parts at least; runs fewer than these are cut into as many pieces.
-pub(crate) const FEWEST: usize = 3;
+const FEWEST: usize = 3;
 
 /// Parts at most: each is a fit of its own.
-pub(crate) const MOST: usize = 5;
+const MOST: usize = 5;
 
 /// Largest probability that a value which scatters as much over the parts lies so far from neutral.
-pub(crate) const BY_CHANCE: f64 = 0.05;
+const BY_CHANCE: f64 = 0.05;
 
 /// How the values of a fit scatter over parts of the data.
 #[derive(Clone, Debug)]
@@ -73,7 +73,7 @@ pub(crate) fn parts(problem: &Problem) -> Vec<Problem> {
     (0..folds).map(without).collect()
 }
 
-pub(crate) fn thirds(run: &Record) -> [Record; 3] {
+fn thirds(run: &Record) -> [Record; 3] {
     let (first, rest) = run.split(1.0 / 3.0);
     let (second, third) = rest.split(0.5);
     [first, second, third]

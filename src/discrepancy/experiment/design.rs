@@ -12,6 +12,7 @@ use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::estimation::problem::{Problem, starts};
+use crate::discrepancy::initial_state::hidden_states;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::report::{NextExperiment, Verdict};
 use crate::discrepancy::selection::choice::Selected;
@@ -259,16 +260,7 @@ impl<'a> PredictedExperiment<'a> {
         let signals = record.signals.clone();
         let mut stepper = Stepper::new(&equations, &signals, &[]);
         let mut z = vec![0.0; equations.visible];
-        z.extend(
-            crate::discrepancy::initial_state::hidden_states::at_rest(
-                &equations,
-                &[],
-                &mut stepper,
-                record.time[0],
-                &z,
-            )
-            .z,
-        );
+        z.extend(hidden_states::at_rest(&equations, &[], &mut stepper, record.time[0], &z).z);
         let mut arc = StateSensitivity { z, s: vec![] };
         for i in 0..record.time.len() {
             let y = stepper.outputs(&arc.z);

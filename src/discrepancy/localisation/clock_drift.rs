@@ -3,6 +3,7 @@
 use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::record::run_record::Record;
+use crate::discrepancy::shooting::windows;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
@@ -67,9 +68,8 @@ impl Problem {
         let record = &self.records[run];
         let model = with_delay(&fit.model);
         let own = || self.plan.iter().zip(&fit.window_states).filter(|(s, _)| s.record == run);
-        let starts: crate::discrepancy::shooting::windows::WindowStates = own().map(|(_, s)| s.clone()).collect();
-        let plan =
-            own().map(|(s, _)| crate::discrepancy::shooting::windows::Segment { record: 0, ..s.clone() }).collect();
+        let starts: windows::WindowStates = own().map(|(_, s)| s.clone()).collect();
+        let plan = own().map(|(s, _)| windows::Segment { record: 0, ..s.clone() }).collect();
         let alone = Problem { records: vec![record.clone()], plan, ..self.clone() };
         let fitted = |rate: f64| -> Result<At> {
             let mut stretched = alone.clone();

@@ -8,6 +8,7 @@ use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::record::sensor_noise::Noise;
 use crate::discrepancy::report::ResidualPicture;
 use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
+use crate::discrepancy::shooting::window_integration;
 use crate::discrepancy::shooting::windows;
 use crate::discrepancy::shooting::windows::Segment;
 use crate::error::Result;
@@ -61,13 +62,7 @@ impl ConstraintResiduals {
         let at = |s: &Segment| s.windows.iter().map(|w| MeasuredPose::at(&equations, record, w.start)).collect();
         let placed: Vec<Vec<MeasuredPose>> = plan.iter().map(at).collect();
         let starts = placed.iter().map(|s| s.iter().map(|p| pose_of(&equations, &p.measured)).collect()).collect();
-        let linear = crate::discrepancy::shooting::window_integration::linearise(
-            &equations,
-            &[],
-            std::slice::from_ref(record),
-            &plan,
-            &starts,
-        );
+        let linear = window_integration::linearise(&equations, &[], std::slice::from_ref(record), &plan, &starts);
         let mut found = Self { run: record.name.clone(), ..Self::default() };
         let Some(linear) = linear else { return Ok(found) };
         let far = placed.iter().flatten().map(MeasuredPose::reach).fold(0.0, f64::max);

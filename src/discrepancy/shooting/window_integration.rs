@@ -1,6 +1,7 @@
 //! A model along the windows of a segment: side by side, though each as if it were alone.
 
 use super::row_sums::{NormalEquations, WindowKernel};
+use crate::discrepancy::initial_state::hidden_states;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
 use crate::discrepancy::shooting::windows::{Segment, WindowStates};
@@ -27,13 +28,7 @@ pub fn each_window(
     mut take: impl FnMut(LinearisedWindow) -> Option<()>,
 ) -> Option<()> {
     let along = Along { equations, p, record, windows: &segment.windows, starts };
-    let first = crate::discrepancy::initial_state::hidden_states::before(
-        equations,
-        p,
-        record,
-        segment.windows[0].start,
-        &starts[0],
-    );
+    let first = hidden_states::before(equations, p, record, segment.windows[0].start, &starts[0]);
     if p.len() > WIDE || segment.windows.len() == 1 {
         return along.side_by_side::<1>(0, &[first], &mut take).map(|_| ());
     }
@@ -203,6 +198,7 @@ pub fn linearise(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::discrepancy::shooting::windows;
     use crate::effects;
     use crate::effects::Applied;
     use crate::model::Model;
@@ -226,18 +222,12 @@ mod tests {
     /// All numbers of the windows, to their last bit, and how many went side by side.
     fn both(model: &Model) -> ([Vec<String>; 2], usize, usize) {
         let record = record();
-        let segment = crate::discrepancy::shooting::windows::plan(std::slice::from_ref(&record)).remove(0);
+        let segment = windows::plan(std::slice::from_ref(&record)).remove(0);
         let equations = model.free_equations().unwrap();
         let p = model.free_values();
         let starts: Vec<Vec<f64>> = segment.windows.iter().map(|w| record.measured(w.start)).collect();
         let along = Along { equations: &equations, p: &p, record: &record, windows: &segment.windows, starts: &starts };
-        let first = crate::discrepancy::initial_state::hidden_states::before(
-            &equations,
-            &p,
-            &record,
-            segment.windows[0].start,
-            &starts[0],
-        );
+        let first = hidden_states::before(&equations, &p, &record, segment.windows[0].start, &starts[0]);
         let mut alone = vec![];
         let listed = |found: &mut Vec<String>, w: LinearisedWindow| {
             found.push(format!("{w:?}"));
@@ -267,17 +257,11 @@ mod tests {
     #[test]
     fn windows_that_begin_elsewhere_go_alone() {
         let (record, model) = (record(), model("cornering-creep", &[0.3]));
-        let segment = crate::discrepancy::shooting::windows::plan(std::slice::from_ref(&record)).remove(0);
+        let segment = windows::plan(std::slice::from_ref(&record)).remove(0);
         let (equations, p) = (model.free_equations().unwrap(), model.free_values());
         let starts: Vec<Vec<f64>> = segment.windows.iter().map(|w| record.measured(w.start)).collect();
         let along = Along { equations: &equations, p: &p, record: &record, windows: &segment.windows, starts: &starts };
-        let first = crate::discrepancy::initial_state::hidden_states::before(
-            &equations,
-            &p,
-            &record,
-            segment.windows[0].start,
-            &starts[0],
-        );
+        let first = hidden_states::before(&equations, &p, &record, segment.windows[0].start, &starts[0]);
         let mut ahead = along.ahead(&first).unwrap();
         ahead[7].s[3 * 4 + 3] += 1e-12;
         let (done, hidden) = along.side_by_side::<LANES>(0, &ahead, &mut |_| Some(())).unwrap();

@@ -2,6 +2,7 @@
 
 use super::head::shrinkage;
 use super::part;
+use crate::discrepancy::report;
 use crate::discrepancy::report::{BeforeAfter, GapCurve, Pictures, Report};
 use crate::discrepancy::report::{judged, middle};
 use crate::number_format::{plain, prefixed};
@@ -58,7 +59,7 @@ fn heading_curve(report: &Report) -> Option<GapCurve> {
 fn tabled(
     report: &Report,
     values: impl Fn(&BeforeAfter) -> [Option<f64>; 2],
-    floor: impl Fn(&crate::discrepancy::report::Floor) -> Option<f64>,
+    floor: impl Fn(&report::Floor) -> Option<f64>,
 ) -> GapCurve {
     let mut curve = GapCurve::default();
     for (gap, (_, v)) in report.gap.iter().filter_map(|g| Some((g, judged(g)?))) {

@@ -3,6 +3,7 @@
 use super::head::{counted, parameter, shrinkage};
 use super::part::{Cell, holding, section, table};
 use crate::discrepancy::rendering::summary::{seconds, why};
+use crate::discrepancy::report;
 use crate::discrepancy::report::{BeforeAfter, Gap, Pictures, Report};
 use crate::number_format::{decimals, plain, prefixed, probability, significant, with_error};
 use crate::picture::svg::Element;
@@ -26,9 +27,8 @@ pub fn all(report: &Report, pictures: &Pictures) -> Vec<Element> {
 }
 
 fn effects(report: &Report) -> Option<Element> {
-    let row = |e: &crate::discrepancy::report::Named| {
-        let shown =
-            |(name, p): (&String, &crate::discrepancy::report::Estimate)| parameter(name, p).replace(' ', "\u{a0}");
+    let row = |e: &report::Named| {
+        let shown = |(name, p): (&String, &report::Estimate)| parameter(name, p).replace(' ', "\u{a0}");
         let rivals = e.indistinguishable_from.iter().map(|r| format!("{}: {}", r.id, why(r))).collect();
         vec![
             Cell::Lines(vec![e.id.clone(), e.place.clone()]),
@@ -44,7 +44,7 @@ fn effects(report: &Report) -> Option<Element> {
 }
 
 fn unnamed(report: &Report) -> Option<Element> {
-    let row = |u: &crate::discrepancy::report::Unnamed| {
+    let row = |u: &report::Unnamed| {
         let share = significant(100.0 * u.held_out_reduction, 2);
         vec![Cell::text(&u.place), Cell::Code(u.equation.clone()), Cell::Number(format!("{share} %"))]
     };
@@ -54,7 +54,7 @@ fn unnamed(report: &Report) -> Option<Element> {
 
 fn steps(report: &Report) -> Option<Element> {
     let (factor, unit) = prefixed(report.steps.iter().map(|s| s.gap_after).fold(0.0, f64::max), "m");
-    let row = |s: &crate::discrepancy::report::Step| {
+    let row = |s: &report::Step| {
         vec![Cell::text(&s.added), Cell::Number(format!("{} {unit}", significant(s.gap_after * factor, 3)))]
     };
     let headings = ["added", "#position gap of the fitted data after it, middle horizon"];
@@ -105,7 +105,7 @@ fn gap_table(
 }
 
 fn disagreement(report: &Report) -> Option<Element> {
-    let row = |d: &crate::discrepancy::report::Disagreement| {
+    let row = |d: &report::Disagreement| {
         let time = format!("{}–{}", decimals(d.from, 1), decimals(d.to, 1));
         let share = format!("{} %", significant(100.0 * d.share_of_gap, 2));
         vec![Cell::text(&d.run), Cell::text(&d.place), Cell::Number(time), Cell::text(&d.regime), Cell::Number(share)]
@@ -116,7 +116,7 @@ fn disagreement(report: &Report) -> Option<Element> {
 
 fn remaining(report: &Report) -> Option<Element> {
     let left = report.remaining.as_ref()?;
-    let row = |c: &crate::discrepancy::report::RemainingConstraint| {
+    let row = |c: &report::RemainingConstraint| {
         let (factor, unit) = prefixed(c.rms.max(c.noise), &c.unit);
         let number = |x: f64| Cell::Number(format!("{} {unit}", significant(x * factor, 3)));
         vec![Cell::text(&c.place), number(c.rms), number(c.noise), Cell::Number(probability(c.p_value))]
@@ -144,7 +144,7 @@ fn data(report: &Report) -> Vec<Element> {
 }
 
 fn clocks(report: &Report) -> Option<Element> {
-    let row = |c: &crate::discrepancy::report::RunClock| {
+    let row = |c: &report::RunClock| {
         let drift = with_error(1e6 * c.drift.value, c.drift.std.map(|s| 1e6 * s));
         vec![
             Cell::Lines(vec![c.run.clone(), c.truth.clone()]),

@@ -34,7 +34,7 @@ impl Discovery {
 
 /// What inputs in coarse steps may have left unexplained; where nothing else has a say, finer ones are the advice.
 pub(crate) fn told_of_steps(report: &mut Report, steps: Vec<String>, is_contested: bool) {
-    if let Some(first) = steps.first().filter(|_| report.verdict == Verdict::NotIdentifiable && !is_contested) {
+    if let Some(first) = steps.first().filter(|_| matches!(report.verdict, Verdict::NotIdentifiable | Verdict::Unexplained) && !is_contested) {
         report.next_experiment = Some(advice::finer(first));
     }
     report.data.warnings.extend(steps);
@@ -59,12 +59,15 @@ pub(crate) fn empty_report(request: &Request, data: &Data) -> Report {
     hashes.retain(|path, _| !path.is_empty());
     let warnings = warnings.chain(data.warnings()).collect();
     Report {
-        schema: 1,
+        schema: 2,
         verdict: Verdict::NoMissingEffect,
         summary: String::new(),
         effects: vec![],
         unnamed: vec![],
         disagreement: vec![],
+        refuted: vec![],
+        remains: None,
+        covariance: None,
         remaining: None,
         gap: vec![],
         next_experiment: None,

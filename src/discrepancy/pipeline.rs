@@ -3,7 +3,9 @@
 use super::diagnosis::before_after::ModelComparison;
 use super::diagnosis::equivalents;
 use super::diagnosis::equivalents::relatives;
-use super::diagnosis::findings::{named, without_name};
+use super::diagnosis::findings::{covariance, named, refuted, without_name};
+use super::diagnosis::held_out::Judge;
+use super::diagnosis::remains::remains;
 use super::diagnosis::{contradictions, plausibility, verdict};
 use super::estimation::problem::Problem;
 use super::experiment::design;
@@ -14,7 +16,7 @@ use super::preprocessing::quantisation;
 use super::preprocessing::unit_errors;
 use super::rendering::{figure_data, summary};
 use super::report::*;
-use super::selection::select::choose;
+use super::selection::select::{choose, refute};
 use crate::discrepancy::discovery::{
     Discovery, cut_short, empty_report, nothing_to_fit, told_of_steps, too_long, worse,
 };
@@ -39,7 +41,7 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
     }
     let data = Data::of(request, &model)?;
     let known = request.file.noise;
-    let problem = Problem::new(data.fitted.clone(), known.position, known.heading);
+    let problem = Problem::new(data.fitted.clone(), known.position, known.heading).knowing_its_inputs(&model)?;
     if let Some(verdict) = verdict::before_fitting(&problem, &model)? {
         let given = |r| figure_data::path_as_given(r, &model);
         let paths = data.fitted.iter().map(given).collect::<Result<_>>()?;
@@ -50,9 +52,19 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
         return Ok(nothing_to_fit(request, &data, paths, verdict::undefined_motion()));
     };
     progress("opening the held-out data");
+    let horizons = horizons(request);
+    let judge =
+        Judge { records: &data.held_out, horizons: &horizons, noise: choice.after.noise(), seed: request.seed };
+    let choice = refute(&problem, request.library, choice, &|with, without| judge.growth(with, without))?;
     let noise = choice.after.noise();
     let before = problem.violations(&model, &noise)?;
     let after = problem.violations(&choice.after.model, &noise)?;
+    if std::env::var_os("NAMES_DEBUG").is_some() {
+        for v in &after {
+            v.debug();
+        }
+        eprintln!("DBG jumps {:?} known {:?} unexplained {:?}", choice.after.variances.process, problem.input_jumps, choice.after.unexplained);
+    }
     // What is explained to its noise needs no other clock.
     let clocks = if unexplained::remains(&choice.after) { problem.drifts(&choice.after)? } else { vec![] };
     let found = verdict::after_fitting(&problem, &choice, &after, &clocks)?;
@@ -70,7 +82,7 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
     report.disagreement = driving_regimes::disagreements(&before);
     report.remaining = Some(remaining(&choice.after, data.fitted[0].has_heading, &after));
     let judged = ModelComparison::of(&data, &model, &choice, request.seed)?;
-    report.gap = judged.gaps(&horizons(request));
+    report.gap = judged.gaps(&horizons);
     report.data.warnings.extend(too_long(request, &report));
     if report.verdict != Verdict::UnusableData {
         report.data.warnings.extend(contradictions::warnings(&choice));
@@ -83,7 +95,16 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
         told_of_steps(&mut report, steps, contradictions::is_contested(&choice));
     }
     report.steps = judged.steps(&choice, &report.gap)?;
-    report.summary = found.sentence.unwrap_or_else(|| summary::verdict_sentence(&report));
+    if report.verdict != Verdict::UnusableData {
+        report.remains = remains(&choice.after, &after, &report.gap);
+        report.refuted = choice.refused.iter().map(refuted).collect();
+        report.covariance = covariance(&choice.after);
+        report.data.warnings.splice(0..0, report.refuted.iter().map(|r| r.says.clone()));
+    }
+    report.summary = match found.sentence {
+        Some(sentence) => summary::admitting(sentence, &report),
+        None => summary::verdict_sentence(&report),
+    };
     let added = match report.verdict {
         Verdict::UnusableData => vec![],
         _ => choice.chosen.iter().map(|c| c.applied.entry()).collect(),

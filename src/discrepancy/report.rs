@@ -19,6 +19,15 @@ pub struct Report {
     pub unnamed: Vec<Unnamed>,
     /// Where model and measurement disagree before anything is added.
     pub disagreement: Vec<Disagreement>,
+    /// What the fit asks for and is not named, and why.
+    #[serde(default)]
+    pub refuted: Vec<Refuted>,
+    /// What remains above the noise floor; null at the floor.
+    #[serde(default)]
+    pub remains: Option<Remains>,
+    /// Covariance of all fitted values.
+    #[serde(default)]
+    pub covariance: Option<Covariance>,
     /// What the last model leaves of each constraint.
     #[serde(default)]
     pub remaining: Option<Remaining>,
@@ -34,7 +43,7 @@ pub struct Report {
     pub provenance: Provenance,
 }
 
-/// The five verdicts of the contract.
+/// The verdicts of the contract.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
@@ -42,6 +51,8 @@ pub enum Verdict {
     UnusableData,
     /// Nothing significant found, and a plausible effect would have been missed.
     NotIdentifiable,
+    /// A significant disagreement that has neither a name nor an equation.
+    Unexplained,
     /// A repeatable disagreement that no effect explains.
     UnnamedEffect,
     /// One or more effects named.
@@ -113,6 +124,44 @@ pub struct Unnamed {
     /// Its coefficient by name.
     #[serde(default)]
     pub parameters: BTreeMap<String, Estimate>,
+}
+
+/// What the fit asks for, and is neither named nor in the patched model.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Refuted {
+    /// Its id in the library.
+    pub id: String,
+    /// Its fitted parameters by name.
+    pub parameters: BTreeMap<String, Estimate>,
+    /// Why, in words.
+    pub says: String,
+}
+
+/// What remains above the noise floor.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Remains {
+    /// The error over the noise floor, where that is largest.
+    pub ratio: f64,
+    /// The constraint that is violated most.
+    #[serde(rename = "where")]
+    pub place: String,
+    /// Start of the stretch in which it is, s.
+    pub from: f64,
+    /// End of the stretch, s.
+    pub to: f64,
+    /// What the vehicle does where it is violated most.
+    pub regime: String,
+    /// All this in words.
+    pub says: String,
+}
+
+/// The covariance of fitted values.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Covariance {
+    /// Effect and parameter of each row, such as `lever-arm a`.
+    pub names: Vec<String>,
+    /// Its rows.
+    pub matrix: Vec<Vec<f64>>,
 }
 
 /// A stretch of a run in which a constraint is violated.
@@ -354,9 +403,16 @@ impl Report {
     }
 }
 
-/// The gap at the middle horizon; of two horizons the longer.
+/// The gaps that are judged on the same runs: held-out ones where there are such.
+pub fn judged_alike(gaps: &[Gap]) -> Vec<&Gap> {
+    let is_held_out = gaps.iter().any(|g| g.held_out.is_some());
+    gaps.iter().filter(|g| g.held_out.is_some() == is_held_out).collect()
+}
+
+/// The gap at the middle horizon of those that are judged alike; of two horizons the longer.
 pub fn middle(gaps: &[Gap]) -> Option<&Gap> {
-    gaps.get(gaps.len() / 2)
+    let alike = judged_alike(gaps);
+    alike.get(alike.len() / 2).copied()
 }
 
 /// The numbers a gap is judged by, held out where there are such, and what they are called.

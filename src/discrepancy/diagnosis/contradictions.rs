@@ -47,6 +47,7 @@ mod tests {
                 candidates: vec![],
                 inconsistent,
                 sampling_sensitive,
+                refused: vec![],
             };
             (is_contested(&choice), warnings(&choice).count())
         };

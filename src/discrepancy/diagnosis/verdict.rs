@@ -164,8 +164,8 @@ fn fitted(choice: &Selected, after: &[ConstraintResiduals], clocks: &[Drift]) ->
         } else {
             "and neither an effect of the library nor a simple law explains it"
         };
-        let sentence = format!("Model and measurement disagree, {why}: nothing can be named.");
-        return outcome(Verdict::NotIdentifiable, &sentence, Some(settling(choice)));
+        let sentence = format!("Model and measurement disagree, {why}.");
+        return outcome(Verdict::Unexplained, &sentence, Some(settling(choice)));
     }
     match missed(&choice.candidates, choice.before.variance_inflation()) {
         Some(candidate) => {
@@ -209,7 +209,7 @@ pub(crate) fn restated(choice: &Selected) -> Vec<String> {
 }
 
 /// Whether what a fit leaves of a constraint is more than chance, and stands out of the noise to the eye.
-fn disagrees(fit: &Fit, after: &[ConstraintResiduals]) -> bool {
+pub(crate) fn disagrees(fit: &Fit, after: &[ConstraintResiduals]) -> bool {
     let visible = |c: usize| ConstraintResiduals::rms(after, c).is_some_and(|(rms, noise)| rms > VISIBLE * noise);
     unexplained::remaining(fit).any(visible)
 }

@@ -254,7 +254,7 @@ impl Problem {
         let k = point.p.len();
         let here = variance_components::deviance(&point.linear, v, &point.eliminated);
         std::array::from_fn(|c| {
-            let calm = variance_components::without_jump(*v, c);
+            let calm = variance_components::without_jump(*v, c, self.input_jumps[c]);
             let e = eliminate(&point.linear, &calm, k).filter(|_| self.free.process[c] && calm != *v);
             e.map_or(0.0, |e| variance_components::deviance(&point.linear, &calm, &e) - here)
         })

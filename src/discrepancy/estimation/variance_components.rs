@@ -32,9 +32,9 @@ fn restricted(segments: &[Vec<LinearisedWindow>], v: &NoiseModel, parameters: us
     if d.is_finite() { d } else { f64::INFINITY }
 }
 
-/// The variances without a jump, as far as that is told from none.
-pub fn without_jump(mut v: NoiseModel, c: usize) -> NoiseModel {
-    v.process[c] = least_jump(&v, c);
+/// The variances without a jump beyond what is known to be there, as far as that is told from none.
+pub fn without_jump(mut v: NoiseModel, c: usize, known: f64) -> NoiseModel {
+    v.process[c] = least_jump(&v, c).max(known).min(v.process[c]);
     v
 }
 

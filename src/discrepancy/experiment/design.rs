@@ -89,7 +89,7 @@ pub fn next(
 ) -> Result<Option<NextExperiment>> {
     let own = match outcome.verdict {
         Verdict::MissingEffect | Verdict::UnnamedEffect => between(problem, choice, relatives)?,
-        Verdict::NotIdentifiable => {
+        Verdict::NotIdentifiable | Verdict::Unexplained => {
             missed(&choice.candidates, choice.before.variance_inflation()).and_then(|c| revealing(problem, choice, c))
         }
         _ => None,

@@ -77,7 +77,7 @@ pub fn check(of: &Checked, progress: &dyn Fn(&str)) -> Result<Check> {
     let data = data.with_fit(&problem.variances.measurement, &fit, problem.records[0].has_heading);
     progress("weighing what each effect would leave in these runs");
     let all = candidates(&model, of.library);
-    let calm = (0..4).fold(fit.variances, without_jump);
+    let calm = (0..4).fold(fit.variances, |v, c| without_jump(v, c, 0.0));
     let variances = [calm, fit.variances];
     let variance_inflation = [fit.noise_correlation_time, fit.variance_inflation()];
     let bar = DetectionThreshold {

@@ -124,6 +124,15 @@ impl ConstraintResiduals {
         })
     }
 
+    /// The same beside jumps of known variances for each second, which are noise as well.
+    fn beside(mut self, jumps: &[f64; 4]) -> Self {
+        let duration = self.rms_of(|w| w.span[1] - w.span[0]);
+        let beside = |(noise, jump): (f64, &f64)| noise.hypot((jump / duration.max(f64::MIN_POSITIVE)).sqrt());
+        let all: Vec<f64> = self.noise.into_iter().zip(jumps).map(beside).collect();
+        self.noise.copy_from_slice(&all);
+        self
+    }
+
     /// Root mean square of something over the windows.
     pub(crate) fn rms_of(&self, what: impl Fn(&Window) -> f64) -> f64 {
         let squares: f64 = self.windows.iter().map(|w| what(w).powi(2)).sum();
@@ -147,6 +156,18 @@ impl ConstraintResiduals {
             squares(missed, self.rms_of(|w| w.speed), self.noise[0].hypot(self.noise[1])),
             squares(self.rms_of(|w| w.rates[2]), self.rms_of(|w| w.yaw), self.noise[2]),
         ]
+    }
+
+    pub fn debug(&self) {
+        for c in 0..self.constraints() {
+            let r: Vec<f64> = self.windows.iter().map(|w| w.rates[c]).collect();
+            let n = r.len() as f64;
+            let m2 = r.iter().map(|x| x * x).sum::<f64>() / n;
+            let m4 = r.iter().map(|x| x.powi(4)).sum::<f64>() / n;
+            let ac = |k: usize| r.iter().zip(r.iter().skip(k)).map(|(a, b)| a * b).sum::<f64>() / n / m2;
+            let sq = |k: usize| r.iter().zip(r.iter().skip(k)).map(|(a, b)| (a * a - m2) * (b * b - m2)).sum::<f64>() / n / (m4 - m2 * m2);
+            eprintln!("DBG rest {} {c}: n {n} rms {:.4} noise {:.4} kurt {:.2} ac {:.2} {:.2} {:.2} {:.2} sq {:.2} {:.2}", self.run, m2.sqrt(), self.noise[c], m4 / m2 / m2, ac(1), ac(2), ac(3), ac(4), sq(1), sq(2));
+        }
     }
 
     /// How many windows are judged.
@@ -242,7 +263,8 @@ impl Problem {
     /// # Errors
     /// As [`ConstraintResiduals::of`].
     pub fn violations(&self, model: &Model, noise: &Noise) -> Result<Vec<ConstraintResiduals>> {
-        self.records.iter().map(|r| ConstraintResiduals::of(model, r, noise)).collect()
+        let of = |r: &Record| Ok(ConstraintResiduals::of(model, r, noise)?.beside(&self.input_jumps));
+        self.records.iter().map(of).collect()
     }
 }
 

@@ -17,7 +17,7 @@ const WHOLE: f64 = 0.01;
 /// The step of a rounded column; `None` where its values are as good as continuous, or commands.
 ///
 /// Every change of a rounded signal is a whole number of steps, and where it is sampled often most are a single one.
-fn step_of(column: &[f64]) -> Option<f64> {
+pub(crate) fn step_of(column: &[f64]) -> Option<f64> {
     let rows = column.len() as f64;
     let size = (column.iter().map(|u| u * u).sum::<f64>() / rows).sqrt();
     let changes = column.windows(2).map(|w| (w[1] - w[0]).abs());

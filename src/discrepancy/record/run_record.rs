@@ -1,10 +1,11 @@
 //! A run as the fit sees it.
 
 use super::local_polynomial;
+use super::input_noise::InputNoise;
 use crate::files::{InputTiming, Run};
 use crate::motion::{Signals, Timing};
 use std::ops::Range;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// Rows of a run: measured pose, inputs as signals.
 #[derive(Clone, Debug)]
@@ -21,6 +22,8 @@ pub struct Record {
     pub signals: Signals,
     /// Trailers of the vehicle, measured or not.
     pub trailers: usize,
+    /// What was added to each input before it was logged.
+    pub(crate) input_noise: Arc<InputNoise>,
     /// Rows that take part.
     pub rows: Range<usize>,
     pub(crate) known: Known,
@@ -61,9 +64,11 @@ impl Record {
         timing: Timing,
     ) -> Self {
         let signals = Signals::new(&time, inputs, timing);
+        let input_noise = Arc::new(InputNoise::of(&time, inputs, timing));
         let rows = 0..time.len();
         let trailers = columns.len() - 2 - usize::from(has_heading);
-        Self { name: name.to_string(), time, columns, has_heading, signals, trailers, rows, known: Known::default() }
+        let (name, known) = (name.to_string(), Known::default());
+        Self { name, time, columns, has_heading, signals, trailers, input_noise, rows, known }
     }
 
     /// A run as it was read, of a vehicle with some trailers.
@@ -72,9 +77,15 @@ impl Record {
         columns.extend(run.heading.clone());
         columns.extend(run.trailer_headings.iter().cloned());
         let signals = Signals::new(run.input_time(), &run.inputs, timing.into());
+        let input_noise = Arc::new(InputNoise::of(run.input_time(), &run.inputs, timing.into()));
         let (rows, has_heading) = (0..run.time.len(), run.heading.is_some());
         let (name, time) = (run.name.clone(), run.time.clone());
-        Self { name, time, columns, has_heading, signals, trailers, rows, known: Known::default() }
+        Self { name, time, columns, has_heading, signals, trailers, input_noise, rows, known: Known::default() }
+    }
+
+    /// The run with inputs that are as noisy again.
+    pub(crate) fn with_noisier_inputs(&self, seed: u64) -> Record {
+        Record { signals: self.signals.plus(&self.input_noise.drawn(seed)), ..self.clone() }
     }
 
     /// The kind of each measured column.

@@ -1,7 +1,7 @@
 //! The report on one screen of a terminal, and the sentences every form of the report shares.
 
 use crate::discrepancy::report::judged;
-use crate::discrepancy::report::{BeforeAfter, Estimate, Gap, Named, Report, Rival, RunClock, Verdict};
+use crate::discrepancy::report::{judged_alike, BeforeAfter, Estimate, Gap, Named, Report, Rival, RunClock, Verdict};
 use crate::number_format::{decimals, plain, prefixed, significant, with_error};
 use crate::picture::svg::cut;
 use crate::wording::listed;
@@ -19,6 +19,7 @@ pub fn verdict_name(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::UnusableData => "Unusable data",
         Verdict::NotIdentifiable => "Not identifiable",
+        Verdict::Unexplained => "Unexplained",
         Verdict::UnnamedEffect => "Unnamed effect",
         Verdict::MissingEffect => "Missing effect",
         Verdict::NoMissingEffect => "No missing effect",
@@ -28,7 +29,15 @@ pub fn verdict_name(verdict: Verdict) -> &'static str {
 /// The verdict in one sentence: the report's own, or one made from its numbers where it has none.
 pub fn verdict_sentence(report: &Report) -> String {
     let own = report.summary.trim();
-    if own.is_empty() { composed_sentence(report) } else { own.into() }
+    if own.is_empty() { admitting(composed_sentence(report), report) } else { own.into() }
+}
+
+/// A sentence with what remains as its second half.
+pub fn admitting(sentence: String, report: &Report) -> String {
+    match &report.remains {
+        Some(remains) => format!("{}, and something remains: {}.", sentence.trim_end_matches('.'), remains.says),
+        None => sentence,
+    }
 }
 
 fn composed_sentence(report: &Report) -> String {
@@ -36,6 +45,9 @@ fn composed_sentence(report: &Report) -> String {
         Verdict::UnusableData => "The model does not apply to these data, so nothing can be said about it.".into(),
         Verdict::NotIdentifiable => {
             "These runs are too short or too still to tell whether the model misses an effect.".into()
+        }
+        Verdict::Unexplained => {
+            "Model and measurement disagree, and neither an effect of the library nor a simple law explains it.".into()
         }
         Verdict::UnnamedEffect => format!(
             "Model and measurement disagree in a repeatable way at the {}, and no known effect explains it.",
@@ -157,7 +169,8 @@ fn brief(e: &Estimate) -> String {
 }
 
 fn gap_lines(gaps: &[Gap]) -> Vec<String> {
-    let judged: Vec<_> = gaps.iter().filter_map(|g| judged(g).map(|(name, values)| (g, name, values))).collect();
+    let alike = judged_alike(gaps).into_iter();
+    let judged: Vec<_> = alike.filter_map(|g| judged(g).map(|(name, values)| (g, name, values))).collect();
     let Some((_, name, _)) = judged.first() else { return Vec::new() };
     let largest = |f: fn(&BeforeAfter) -> f64| judged.iter().map(|(_, _, v)| f(v)).fold(0.0, f64::max);
     let (metres, metre) = prefixed(largest(|v| v.position_rms_before), "m");

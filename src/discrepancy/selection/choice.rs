@@ -20,6 +20,56 @@ pub struct SelectedEffect {
     pub rivals: Vec<Applied>,
 }
 
+/// Why an effect that the fit asks for is not named.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Refusal {
+    /// Its value is at an end of its range, or a share of one and more.
+    Impossible,
+    /// The data leave its value open.
+    NoDeviation,
+    /// It is worth less than it costs.
+    BelowBar,
+    /// It only pays along a ridge with another.
+    Ridge(String),
+    /// It only stands beside a law without a name.
+    LeansOnLaw,
+    /// Its value is another in a regime of driving.
+    Regime(String),
+    /// The noise of the inputs makes as much of nothing.
+    InputNoise,
+    /// Held-out runs are predicted worse with it.
+    HeldOut(Growth),
+}
+
+/// A held-out gap that grows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Growth {
+    /// After so many seconds.
+    pub horizon_s: f64,
+    /// Whether it is the heading's, in rad, and not the position's, in m.
+    pub of_heading: bool,
+    /// Without and with what was found.
+    pub gap: [f64; 2],
+}
+
+impl Growth {
+    /// By how much it grows.
+    pub fn factor(&self) -> f64 {
+        self.gap[1] / self.gap[0].max(f64::MIN_POSITIVE)
+    }
+}
+
+/// What the fit asks for, and is not named.
+#[derive(Clone, Debug)]
+pub struct Refused {
+    /// The effect at its fitted values.
+    pub applied: Applied,
+    /// Standard deviations of its values, where the data give them.
+    pub std: Vec<Option<f64>>,
+    /// Why.
+    pub why: Refusal,
+}
+
 /// The outcome of the selection.
 #[derive(Clone, Debug)]
 pub struct Selected {
@@ -37,4 +87,6 @@ pub struct Selected {
     pub inconsistent: Vec<Applied>,
     /// Effects and terms that come and go with how often the inputs are logged, so that they are not kept.
     pub sampling_sensitive: Vec<Applied>,
+    /// What was found and refused again, and why.
+    pub refused: Vec<Refused>,
 }

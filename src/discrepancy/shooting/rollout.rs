@@ -47,6 +47,17 @@ impl PredictionError {
         self
     }
 
+    /// The same with independent errors of another source beside them, window by window.
+    pub fn beside(mut self, other: PredictionError) -> PredictionError {
+        if other.windows > 0 {
+            self.position += other.position * self.windows as f64 / other.windows as f64;
+        }
+        if other.headings > 0 {
+            self.heading += other.heading * self.headings as f64 / other.headings as f64;
+        }
+        self
+    }
+
     /// RMS position error, m.
     pub fn position_rms(&self) -> f64 {
         (self.position / self.windows as f64).sqrt()
@@ -174,6 +185,22 @@ impl<'a> Rollout<'a> {
             }
         }
         errors
+    }
+
+    /// By how much predictions move when the inputs are as noisy again.
+    pub fn moved_by_inputs(&self, horizon: f64, seed: u64) -> PredictionError {
+        let mut moved = PredictionError::default();
+        if !self.record.input_noise.is_there() {
+            return moved;
+        }
+        let noisier = self.record.with_noisier_inputs(seed);
+        let beside = Rollout { record: &noisier, equations: self.equations.clone(), hidden: self.hidden.clone() };
+        let windows = self.windows(horizon);
+        for ([_, here], [_, there]) in self.ends(&windows).iter().zip(beside.ends(&windows)) {
+            let heading = self.record.has_heading.then(|| there[2] - here[2]);
+            moved.add([0, 1].map(|c| there[c] - here[c]), heading);
+        }
+        moved
     }
 
     /// The windows of a horizon with what noise acts on.

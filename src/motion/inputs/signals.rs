@@ -94,6 +94,20 @@ impl Signals {
         Some(Self::new(&time, &columns, self.timing))
     }
 
+    /// The sum of two signals of the same rows.
+    ///
+    /// ```
+    /// use creepage::motion::{Signals, Timing};
+    /// let of = |u: [f64; 3]| Signals::new(&[0.0, 1.0, 2.0], &[u.to_vec()], Timing::Sample);
+    /// let (mut value, mut slope) = ([0.0], [0.0]);
+    /// of([1.0, 2.0, 4.0]).plus(&of([0.5, 0.0, -1.0])).at(2.0, &mut value, &mut slope);
+    /// assert!((value[0] - 3.0).abs() < 1e-12);
+    /// ```
+    pub fn plus(&self, other: &Self) -> Self {
+        let sum = |(a, b): (&[f64; 4], &[f64; 4])| std::array::from_fn(|k| a[k] + b[k]);
+        Self { pieces: self.pieces.iter().zip(&*other.pieces).map(sum).collect(), ..self.clone() }
+    }
+
     fn value_at_knot(&self, i: usize, channel: usize) -> f64 {
         let last = self.knots.len() - 2;
         let [a, b, d, e] = self.pieces[i.min(last) * self.channels + channel];

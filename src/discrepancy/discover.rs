@@ -4,12 +4,12 @@ use super::clock_alignment::aligned_run::{Aligned, aligned};
 use super::clock_alignment::refinement::refined;
 use super::estimation::problem::Problem;
 use super::localisation::clock_drift::DELAY;
-use super::pipeline::discover;
+use super::pipeline::{discover, discover_by_clocks, unfitted};
 use super::preprocessing::dataset::{Data, FITTED_SHARE};
 use super::selection::select::choose;
 use crate::discrepancy::clock_alignment::aligned_run::{is_aligned, without_delay};
 use crate::discrepancy::diagnosis::verdict;
-use crate::discrepancy::discovery::{Discovery, cut_short};
+use crate::discrepancy::discovery::{Clocks, Discovery};
 use crate::discrepancy::request::{Request, common_roles};
 use crate::effects::Effect;
 use crate::error::{Error, Result};
@@ -41,7 +41,7 @@ pub fn discover_aligned(request: &Request, near: Option<f64>, progress: &dyn Fn(
     let share = if request.held_out.is_empty() { FITTED_SHARE } else { 1.0 };
     let first = match aligned(request.runs, share, request, &model, near)? {
         Ok(first) => first,
-        Err(obstacle) => return cut_short(request, obstacle.outcome()),
+        Err(outcome) => return Ok(unfitted(request, Clocks::default(), outcome)),
     };
     let chosen = with_effects(request, &model, &first, progress)?;
     let again = |a: &Aligned| beside(a, request, &chosen, progress);
@@ -52,17 +52,17 @@ pub fn discover_aligned(request: &Request, near: Option<f64>, progress: &dyn Fn(
     // The held-out runs are looked at with the effects as they are: nothing but their clocks is fitted.
     let held_out = match aligned(request.held_out, 1.0, request, &chosen.fixed(), near)? {
         Ok(held_out) => held_out,
-        Err(obstacle) => return cut_short(request, obstacle.outcome()),
+        Err(outcome) => return Ok(unfitted(request, Clocks::default(), outcome)),
     };
     let library: Vec<Effect> = request.library.iter().filter(|e| e.id != DELAY).cloned().collect();
     let runs = |all: &[Aligned]| all.iter().map(|a| a.run.clone()).collect::<Vec<Run>>();
     let (by_one, judged) = (runs(&fitted), runs(&held_out));
     let request = Request { runs: &by_one, held_out: &judged, library: &library, ..*request };
-    let mut found = discover(&request, progress)?;
-    let data = &mut found.report.data;
-    data.clocks = fitted.iter().map(|a| a.clock(false)).chain(held_out.iter().map(|a| a.clock(true))).collect();
-    data.warnings.extend(fitted.iter().chain(&held_out).filter_map(Aligned::doubt).chain(delay));
-    Ok(found)
+    let clocks = Clocks {
+        clocks: fitted.iter().map(|a| a.clock(false)).chain(held_out.iter().map(|a| a.clock(true))).collect(),
+        warnings: fitted.iter().chain(&held_out).filter_map(Aligned::doubt).chain(delay).collect(),
+    };
+    discover_by_clocks(&request, clocks, progress)
 }
 
 /// The model with the effects that the aligned runs ask for, free; the delay they ask for goes into the clocks.

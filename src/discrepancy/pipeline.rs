@@ -1,28 +1,30 @@
 //! The main job in one line: runs → choice → gap → report.
 
-use super::diagnosis::before_after::ModelComparison;
-use super::diagnosis::equivalents;
-use super::diagnosis::equivalents::relatives;
-use super::diagnosis::findings::{covariance, named, refuted, without_name};
-use super::diagnosis::held_out::Judge;
-use super::diagnosis::remains::remains;
-use super::diagnosis::{contradictions, plausibility, verdict};
+use super::diagnosis::advice::Advice;
+use super::diagnosis::before_after::{ModelComparison, grown, too_long};
+use super::diagnosis::equivalents::{EquivalentEffect, measured, relatives};
+use super::diagnosis::findings::{covariance, named, without_name};
+use super::diagnosis::held_out::{Judge, refuted};
+use super::diagnosis::rest::rest;
+use super::diagnosis::verdict::{self, Outcome};
+use super::diagnosis::warning::Warning;
+use super::diagnosis::{contradictions, plausibility};
+use super::discovery::{Clocks, Discovery, Findings, report};
 use super::estimation::problem::Problem;
+use super::estimation::unexplained;
 use super::experiment::design;
+use super::experiment::next_step::NextStep;
 use super::localisation::driving_regimes;
 use super::localisation::unexplained_motion::remaining;
 use super::preprocessing::dataset::Data;
-use super::preprocessing::quantisation;
+use super::preprocessing::quantisation::{CoarseInput, coarse_inputs};
 use super::preprocessing::unit_errors;
-use super::rendering::{figure_data, summary};
-use super::report::*;
-use super::selection::select::{choose, refute};
-use crate::discrepancy::discovery::{
-    Discovery, cut_short, empty_report, nothing_to_fit, told_of_steps, too_long, worse,
-};
-use crate::discrepancy::estimation::unexplained;
-use crate::discrepancy::request::{Request, common_roles, horizons};
-use crate::discrepancy::selection::choice::SelectedEffect;
+use super::rendering::figure_data;
+use super::report::{Named, PathPicture, Pictures, Unnamed, Verdict};
+use super::request::{Request, common_roles, horizons};
+use super::selection::choice::{Selected, SelectedEffect};
+use super::selection::refute::refute;
+use super::selection::select::choose;
 use crate::error::Result;
 use crate::model::Model;
 use crate::model::effect_equation;
@@ -34,84 +36,120 @@ use crate::model::effect_equation;
 /// # Errors
 /// When runs log different inputs, or the model file's effects do not apply to its vehicle.
 pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery> {
+    discover_by_clocks(request, Clocks::default(), progress)
+}
+
+/// As [`discover`], of runs whose clocks were aligned before.
+pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &dyn Fn(&str)) -> Result<Discovery> {
     let roles = common_roles(request.runs, request.held_out)?;
     let model = Model::from_file(request.file, request.library, &roles)?;
-    if let Some(why) = unit_errors::too_sparse(&model, request.runs.iter().chain(request.held_out))? {
-        return cut_short(request, verdict::unusable(why));
+    if let Some(slip) = unit_errors::too_sparse(&model, request.runs.iter().chain(request.held_out))? {
+        return Ok(unfitted(request, clocks, verdict::unusable(slip)));
     }
     let data = Data::of(request, &model)?;
-    let known = request.file.noise;
-    let problem = Problem::new(data.fitted.clone(), known.position, known.heading).knowing_its_inputs(&model)?;
-    if let Some(verdict) = verdict::before_fitting(&problem, &model)? {
+    let problem = Problem::new(data.fitted.clone(), request.file.noise.position, request.file.noise.heading)
+        .knowing_its_inputs(&model)?;
+    if let Some(outcome) = verdict::before_fitting(&problem, &model)? {
         let given = |r| figure_data::path_as_given(r, &model);
         let paths = data.fitted.iter().map(given).collect::<Result<_>>()?;
-        return Ok(nothing_to_fit(request, &data, paths, verdict));
+        return Ok(early(request, &data, clocks, paths, outcome));
     }
-    let Some(choice) = choose(&problem, &model, request.library, progress)? else {
+    let Some(selected) = choose(&problem, &model, request.library, progress)? else {
         let paths = data.fitted.iter().map(|r| figure_data::measured_path(r, false)).collect();
-        return Ok(nothing_to_fit(request, &data, paths, verdict::undefined_motion()));
+        return Ok(early(request, &data, clocks, paths, verdict::undefined_motion()));
     };
     progress("opening the held-out data");
     let horizons = horizons(request);
     let judge =
-        Judge { records: &data.held_out, horizons: &horizons, noise: choice.after.noise(), seed: request.seed };
-    let choice = refute(&problem, request.library, choice, &|with, without| judge.growth(with, without))?;
-    let noise = choice.after.noise();
+        Judge { records: &data.held_out, horizons: &horizons, noise: selected.after.noise(), seed: request.seed };
+    let selected = refute(&problem, request.library, selected, &|with, without| judge.growth(with, without))?;
+    let noise = selected.after.noise();
     let before = problem.violations(&model, &noise)?;
-    let after = problem.violations(&choice.after.model, &noise)?;
-    if std::env::var_os("NAMES_DEBUG").is_some() {
-        for v in &after {
-            v.debug();
-        }
-        eprintln!("DBG jumps {:?} known {:?} unexplained {:?}", choice.after.variances.process, problem.input_jumps, choice.after.unexplained);
-    }
+    let after = problem.violations(&selected.after.model, &noise)?;
+    let remains = unexplained::remains(&selected.after);
     // What is explained to its noise needs no other clock.
-    let clocks = if unexplained::remains(&choice.after) { problem.drifts(&choice.after)? } else { vec![] };
-    let found = verdict::after_fitting(&problem, &choice, &after, &clocks)?;
-    let mut report = empty_report(request, &data);
-    report.verdict = found.verdict;
-    let relatives = relatives(&choice, request.library, equivalents::measured(&data.fitted[0]));
-    report.next_experiment = design::next(&problem, &choice, &relatives, &found)?;
-    if report.verdict != Verdict::UnusableData {
-        let each = choice.chosen.iter().zip(&relatives);
-        let (terms, effects): (Vec<_>, Vec<_>) = each.partition(|(c, _)| effect_equation::is_term(&c.applied));
-        report.effects = effects.into_iter().map(|(c, relatives)| named(c, relatives, &model)).collect();
-        let terms: Vec<&SelectedEffect> = terms.into_iter().map(|(c, _)| c).collect();
-        report.unnamed = without_name(&terms, &data, &choice.after, &model)?;
+    let drifts = if remains { problem.drifts(&selected.after)? } else { vec![] };
+    let outcome = verdict::after_fitting(&problem, &selected, &after, &drifts)?;
+    let relatives = relatives(&selected, request.library, measured(&data.fitted[0]));
+    let usable = outcome.verdict != Verdict::UnusableData;
+    let (effects, unnamed) = if usable { chosen(&selected, &relatives, &data, &model)? } else { (vec![], vec![]) };
+    let comparison = ModelComparison::of(&data, &model, &selected, request.seed)?;
+    let gap = comparison.gaps(&horizons);
+    let mut warnings = vec![];
+    if usable {
+        warnings.extend(refuted(&selected));
+        warnings.extend(grown(&gap));
     }
-    report.disagreement = driving_regimes::disagreements(&before);
-    report.remaining = Some(remaining(&choice.after, data.fitted[0].has_heading, &after));
-    let judged = ModelComparison::of(&data, &model, &choice, request.seed)?;
-    report.gap = judged.gaps(&horizons);
-    report.data.warnings.extend(too_long(request, &report));
-    if report.verdict != Verdict::UnusableData {
-        report.data.warnings.extend(contradictions::warnings(&choice));
-        report.data.warnings.extend(verdict::restated(&choice));
-        report.data.warnings.extend(plausibility::warnings(&choice, &problem.records)?);
-        report.data.warnings.extend(worse(&report.gap));
+    warnings.extend(too_long(&horizons, &gap));
+    if usable {
+        warnings.extend(contradictions::warnings(&selected));
+        warnings.extend(verdict::restated(&selected));
+        warnings.extend(plausibility::warnings(&selected, &problem.records)?);
     }
-    if unexplained::remains(&choice.after) {
-        let steps = request.runs.iter().flat_map(|run| quantisation::says(&model, run)).collect();
-        told_of_steps(&mut report, steps, contradictions::is_contested(&choice));
-    }
-    report.steps = judged.steps(&choice, &report.gap)?;
-    if report.verdict != Verdict::UnusableData {
-        report.remains = remains(&choice.after, &after, &report.gap);
-        report.refuted = choice.refused.iter().map(refuted).collect();
-        report.covariance = covariance(&choice.after);
-        report.data.warnings.splice(0..0, report.refuted.iter().map(|r| r.says.clone()));
-    }
-    report.summary = match found.sentence {
-        Some(sentence) => summary::admitting(sentence, &report),
-        None => summary::verdict_sentence(&report),
+    let steps = |run| if remains { coarse_inputs(&model, run) } else { vec![] };
+    let coarse: Vec<CoarseInput> = request.runs.iter().flat_map(steps).collect();
+    let next = next(&problem, &selected, &relatives, &outcome, coarse.first())?;
+    warnings.extend(coarse.into_iter().map(Warning::CoarseInput));
+    let found = Findings {
+        reason: outcome.reason,
+        next,
+        effects,
+        unnamed,
+        disagreement: driving_regimes::disagreements(&before),
+        rest: rest(&selected.after, &after, &gap).filter(|_| usable),
+        covariance: covariance(&selected.after).filter(|_| usable),
+        refused: selected.refused.iter().filter(|_| usable).cloned().collect(),
+        remaining: Some(remaining(&selected.after, data.fitted[0].has_heading, &after)),
+        steps: comparison.steps(&selected, &gap)?,
+        gap,
+        warnings,
     };
-    let added = match report.verdict {
-        Verdict::UnusableData => vec![],
-        _ => choice.chosen.iter().map(|c| c.applied.entry()).collect(),
-    };
-    let mut pictures = figure_data::pictures(&data, &choice, &report, &judged);
-    for (b, a) in before.iter().zip(&after) {
-        pictures.residuals.extend(b.pictures(a));
-    }
+    let report = report(request, &data, outcome.verdict, found, clocks);
+    let added = selected.chosen.iter().filter(|_| usable).map(|c| c.applied.entry()).collect();
+    let pictures = figure_data::pictures(&data, &selected, &report, &comparison, [&before, &after]);
     Ok(Discovery { report, pictures, added })
+}
+
+/// The chosen effects and the laws without a name, as the report lists them.
+fn chosen(
+    selected: &Selected,
+    relatives: &[Vec<EquivalentEffect>],
+    data: &Data,
+    model: &Model,
+) -> Result<(Vec<Named>, Vec<Unnamed>)> {
+    let each = selected.chosen.iter().zip(relatives);
+    let (terms, effects): (Vec<_>, Vec<_>) = each.partition(|(c, _)| effect_equation::is_term(&c.applied));
+    let effects = effects.into_iter().map(|(c, relatives)| named(c, relatives, model)).collect();
+    let terms: Vec<&SelectedEffect> = terms.into_iter().map(|(c, _)| c).collect();
+    Ok((effects, without_name(&terms, data, &selected.after, model)?))
+}
+
+/// What to drive or log next; inputs in finer steps where these may be all that is left unexplained.
+fn next(
+    problem: &Problem,
+    selected: &Selected,
+    relatives: &[Vec<EquivalentEffect>],
+    outcome: &Outcome,
+    coarse: Option<&CoarseInput>,
+) -> Result<Option<NextStep>> {
+    let open = matches!(outcome.verdict, Verdict::NotIdentifiable | Verdict::Unexplained)
+        && !contradictions::is_contested(selected);
+    match coarse.filter(|_| open) {
+        Some(input) => Ok(Some(NextStep::Advice(Advice::FinerInputs(input.clone())))),
+        None => design::next(problem, selected, relatives, outcome),
+    }
+}
+
+/// The answer for runs that are not even put to the model.
+pub(crate) fn unfitted(request: &Request, clocks: Clocks, outcome: Outcome) -> Discovery {
+    let none = Data { fitted: vec![], held_out: vec![], gross: 0 };
+    early(request, &none, clocks, vec![], outcome)
+}
+
+/// The answer for runs that are not fitted.
+fn early(request: &Request, data: &Data, clocks: Clocks, paths: Vec<PathPicture>, outcome: Outcome) -> Discovery {
+    let next = outcome.next.map(NextStep::Advice);
+    let found = Findings { reason: outcome.reason, next, ..Findings::default() };
+    let report = report(request, data, outcome.verdict, found, clocks);
+    Discovery { report, pictures: Pictures { paths, ..Pictures::default() }, added: vec![] }
 }

@@ -5,7 +5,7 @@ use crate::formula::{Expr, Symbol};
 use std::collections::BTreeMap;
 
 /// An effect with its values, and the trailer it belongs to where it belongs to one.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Applied {
     /// The effect.
     pub effect: Effect,

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Something a vehicle really does that its model leaves out.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Effect {
     /// Its name in files and reports.
@@ -49,7 +49,7 @@ pub struct Effect {
 }
 
 /// A parameter of an effect.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Parameter {
     /// SI unit.
@@ -70,7 +70,7 @@ pub struct Parameter {
 }
 
 /// A state that an effect adds.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct State {
     /// SI unit.

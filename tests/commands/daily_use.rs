@@ -2,9 +2,10 @@
 
 use crate::program::creepage;
 use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
+use creepage::discrepancy::check::check;
 use creepage::discrepancy::estimation::fit::Effort;
 use creepage::discrepancy::estimation::problem::Problem;
-use creepage::discrepancy::identifiability::{Check, Checked, Seen, Standing, check};
+use creepage::discrepancy::identifiability::{Check, Checked, Seen, Standing};
 use creepage::discrepancy::record::run_record::Record;
 use creepage::effects::Applied;
 use creepage::files::{ModelFile, Run};

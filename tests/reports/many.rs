@@ -4,8 +4,9 @@
 use crate::reviewed::reviewed;
 use crate::rounded::rounded;
 use crate::simulator::{Hidden, Mounting, Noise, Profile, Scenario, Signal, Timing, Tractor, Vehicle};
+use creepage::discrepancy::check::check;
 use creepage::discrepancy::discovery::Discovery;
-use creepage::discrepancy::identifiability::{Checked, check};
+use creepage::discrepancy::identifiability::Checked;
 use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::rendering::check_text::check_text;
 use creepage::discrepancy::rendering::html::html;

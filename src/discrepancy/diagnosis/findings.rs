@@ -4,10 +4,9 @@ use super::equivalents::EquivalentEffect;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::localisation::constraint_residuals::{ConstraintResiduals, reduction};
 use crate::discrepancy::preprocessing::dataset::Data;
-use crate::discrepancy::report::{Covariance, Estimate, Evidence, Named, Refuted, Rival, Unnamed};
-use crate::discrepancy::selection::choice::{Refusal, Refused, SelectedEffect};
-use crate::effects::{Applied, Parameter};
-use crate::number_format::significant;
+use crate::discrepancy::report::{Covariance, Estimate, Evidence, Named, Rival, Unnamed};
+use crate::discrepancy::selection::choice::SelectedEffect;
+use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
 use crate::model::effect_equation::{equation, is_term, term_equation};
@@ -33,35 +32,6 @@ pub(crate) fn named(chosen: &SelectedEffect, relatives: &[EquivalentEffect], mod
         indistinguishable_from: relatives.iter().map(rival).collect(),
         equation: equation(a, model),
     }
-}
-
-/// What is not named, as the report lists it.
-pub(crate) fn refuted(refused: &Refused) -> Refuted {
-    let a = &refused.applied;
-    let std = |i: usize| refused.std.get(i).copied().flatten();
-    let parameters = a.effect.parameters.iter().zip(&a.values).enumerate();
-    let estimate = |(i, ((name, p), value)): (usize, ((&String, &Parameter), &f64))| {
-        (name.clone(), Estimate { value: *value, std: std(i), unit: p.unit.clone() })
-    };
-    let label = a.label();
-    let says = match &refused.why {
-        Refusal::Impossible => format!("no vehicle has so much {label}: it is not named"),
-        Refusal::NoDeviation => format!("these runs leave the value of {label} open: it is not named"),
-        Refusal::BelowBar => format!("{label} is worth less than it costs: it is not named"),
-        Refusal::Ridge(other) => format!("{label} only pays beside {other}, of which it undoes a part: it is not named"),
-        Refusal::LeansOnLaw => format!("{label} stands only beside a law without a name: it is not named"),
-        Refusal::Regime(regime) => format!("{label} has another value {regime}: it is not named"),
-        Refusal::InputNoise => format!("the steps or the noise of the inputs alone make such a {label}: it is not named"),
-        Refusal::HeldOut(g) => {
-            let [before, after] = g.gap.map(|gap| significant(gap, 3));
-            let (of, unit) = if g.of_heading { ("heading gap", "rad") } else { ("gap", "m") };
-            format!(
-                "held-out runs refute {label}: their {of} after {} s grows with it from {before} to {after} {unit}",
-                g.horizon_s
-            )
-        }
-    };
-    Refuted { id: a.effect.id.clone(), parameters: parameters.map(estimate).collect(), says }
 }
 
 /// The covariance of all fitted values, as far as rows and windows are independent.

@@ -1,9 +1,10 @@
 //! What held-out runs say of a model: whether they are predicted worse with what was found.
 
 use super::before_after::Rollouts;
+use super::warning::Warning;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::record::sensor_noise::Noise;
-use crate::discrepancy::selection::choice::Growth;
+use crate::discrepancy::selection::choice::{Growth, Refusal, Selected};
 use crate::error::Result;
 use crate::model::Model;
 
@@ -11,6 +12,12 @@ use crate::model::Model;
 const GREW: f64 = 1.25;
 /// A growth over so few windows is chance.
 const FEWEST: usize = 2;
+
+/// What the report warns of first: the effects that held-out runs do not bear out.
+pub(crate) fn refuted(selected: &Selected) -> impl Iterator<Item = Warning> {
+    let of = selected.refused.iter().filter(|r| matches!(r.why, Refusal::HeldOut(_)));
+    of.cloned().map(Warning::Refuted)
+}
 
 /// Held-out runs that judge models.
 pub(crate) struct Judge<'a> {

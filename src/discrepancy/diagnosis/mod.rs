@@ -7,5 +7,7 @@ pub mod equivalents;
 pub(crate) mod findings;
 pub(crate) mod held_out;
 pub(crate) mod plausibility;
-pub(crate) mod remains;
+pub mod reason;
+pub(crate) mod rest;
 pub mod verdict;
+pub mod warning;

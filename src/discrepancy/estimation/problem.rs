@@ -66,7 +66,12 @@ impl Problem {
             let Some(noisy) = ends(&self.with_noisier_inputs(draw)) else { return Ok(self) };
             for (a, b) in quiet.iter().flatten().zip(noisy.iter().flatten()).filter(|(a, _)| !a.mismatch.is_empty()) {
                 time += a.duration;
-                a.mismatch.iter().zip(&b.mismatch).take(4).zip(&mut squares).for_each(|((a, b), s)| *s += (a - b).powi(2));
+                a.mismatch
+                    .iter()
+                    .zip(&b.mismatch)
+                    .take(4)
+                    .zip(&mut squares)
+                    .for_each(|((a, b), s)| *s += (a - b).powi(2));
             }
         }
         let input_jumps = squares.map(|s| if time > 0.0 { s / time } else { 0.0 });

@@ -148,8 +148,7 @@ fn joined(
         each_window(equations, p, record, segment, starts, |window| chain.push(&window))?;
         Some(chain)
     };
-    let chains: Vec<InformationFilter> =
-        problem.plan.par_iter().zip(starts).map(along).collect::<Option<_>>()?;
+    let chains: Vec<InformationFilter> = problem.plan.par_iter().zip(starts).map(along).collect::<Option<_>>()?;
     let mut total = ReducedForm::nothing(p.len());
     chains.into_iter().try_for_each(|c| total.add(c))?;
     Some(total)

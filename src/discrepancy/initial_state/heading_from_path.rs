@@ -58,8 +58,15 @@ impl PathHeading {
 /// slope or a current does to them. Reversing, sliding and a tracked point off the axle are in the motion, which a
 /// direction of travel alone does not know.
 pub fn heading_at(equations: &Equations, record: &Record, row: usize) -> PathHeading {
+    heading_over(equations, record, row, 0.0)
+}
+
+/// As [`heading_at`], from a stretch that reaches a third of a span and more to either side: a heading that is to hold
+/// over the span has to be known as well as the span is long.
+pub fn heading_over(equations: &Equations, record: &Record, row: usize, span: f64) -> PathHeading {
     let mut best = PathHeading { heading: record.smoothed(row)[2], ..PathHeading::default() };
-    for half in HALF_WIDTHS {
+    let widest = HALF_WIDTHS[HALF_WIDTHS.len() - 1];
+    for half in HALF_WIDTHS.into_iter().filter(|half| *half >= (span / 3.0).min(widest)) {
         let Some(course) = laid_on(equations, record, row, half, best.heading) else { continue };
         best = course;
         if best.is_told(record) {
@@ -212,8 +219,13 @@ pub struct MeasuredPose {
 impl MeasuredPose {
     /// At a row of a record.
     pub fn at(equations: &Equations, record: &Record, row: usize) -> Self {
+        Self::over(equations, record, row, 0.0)
+    }
+
+    /// At a row of a record, known well enough for a span of time, s.
+    pub fn over(equations: &Equations, record: &Record, row: usize, span: f64) -> Self {
         let mut measured = record.smoothed(row);
-        let course = (!record.has_heading).then(|| heading_at(equations, record, row));
+        let course = (!record.has_heading).then(|| heading_over(equations, record, row, span));
         if let Some(course) = &course {
             // Trailers that nothing measures follow straight.
             measured[2..].iter_mut().enumerate().for_each(|(i, y)| {

@@ -158,16 +158,9 @@ impl ConstraintResiduals {
         ]
     }
 
-    pub fn debug(&self) {
-        for c in 0..self.constraints() {
-            let r: Vec<f64> = self.windows.iter().map(|w| w.rates[c]).collect();
-            let n = r.len() as f64;
-            let m2 = r.iter().map(|x| x * x).sum::<f64>() / n;
-            let m4 = r.iter().map(|x| x.powi(4)).sum::<f64>() / n;
-            let ac = |k: usize| r.iter().zip(r.iter().skip(k)).map(|(a, b)| a * b).sum::<f64>() / n / m2;
-            let sq = |k: usize| r.iter().zip(r.iter().skip(k)).map(|(a, b)| (a * a - m2) * (b * b - m2)).sum::<f64>() / n / (m4 - m2 * m2);
-            eprintln!("DBG rest {} {c}: n {n} rms {:.4} noise {:.4} kurt {:.2} ac {:.2} {:.2} {:.2} {:.2} sq {:.2} {:.2}", self.run, m2.sqrt(), self.noise[c], m4 / m2 / m2, ac(1), ac(2), ac(3), ac(4), sq(1), sq(2));
-        }
+    /// The violated rates of a constraint, window by window.
+    pub(crate) fn rates(&self, c: usize) -> Vec<f64> {
+        self.windows.iter().filter_map(|w| w.rates.get(c).copied()).collect()
     }
 
     /// How many windows are judged.

@@ -26,6 +26,9 @@ impl Window {
     }
 }
 
+/// The regime of what is violated everywhere.
+pub(crate) const WHOLE_RUN: &str = "the whole run";
+
 const REGIMES: [(&str, Regime); 11] = [
     ("left turns", |w, _, t| w.yaw > 0.5 * t.yaw),
     ("right turns", |w, _, t| w.yaw < -0.5 * t.yaw),
@@ -46,7 +49,7 @@ fn regime(v: &ConstraintResiduals, c: usize) -> &'static str {
     let typical =
         Typical { speed, yaw: v.rms_of(|w| w.yaw), load: v.rms_of(Window::load), curve: v.rms_of(|w| w.curve(speed)) };
     let mean = v.rms_of(|w| w.rates[c]).powi(2);
-    let mut best = ("the whole run", 1.4);
+    let mut best = (WHOLE_RUN, 1.4);
     for (name, holds) in REGIMES {
         let inside: Vec<f64> = v
             .windows

@@ -1,7 +1,7 @@
 //! A run as the fit sees it.
 
-use super::local_polynomial;
 use super::input_noise::InputNoise;
+use super::local_polynomial;
 use crate::files::{InputTiming, Run};
 use crate::motion::{Signals, Timing};
 use std::ops::Range;

@@ -2,6 +2,7 @@
 
 use super::search::Candidate;
 use crate::discrepancy::estimation::fit::Fit;
+use crate::discrepancy::evidence::regime_stability::Regime;
 use crate::effects::Applied;
 use crate::model::Model;
 
@@ -30,11 +31,16 @@ pub enum Refusal {
     /// It is worth less than it costs.
     BelowBar,
     /// It only pays along a ridge with another.
-    Ridge(String),
+    Ridge(Applied),
     /// It only stands beside a law without a name.
     LeansOnLaw,
     /// Its value is another in a regime of driving.
-    Regime(String),
+    Regime {
+        /// The regime.
+        regime: Regime,
+        /// Its values elsewhere and there.
+        values: [f64; 2],
+    },
     /// The noise of the inputs makes as much of nothing.
     InputNoise,
     /// Held-out runs are predicted worse with it.
@@ -60,7 +66,7 @@ impl Growth {
 }
 
 /// What the fit asks for, and is not named.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Refused {
     /// The effect at its fitted values.
     pub applied: Applied,
@@ -68,6 +74,14 @@ pub struct Refused {
     pub std: Vec<Option<f64>>,
     /// Why.
     pub why: Refusal,
+}
+
+impl Refused {
+    /// One of the chosen effects.
+    pub(crate) fn of(chosen: &[SelectedEffect], applied: Applied, why: Refusal) -> Self {
+        let std = chosen.iter().find(|c| c.applied.same_as(&applied)).map_or_else(Vec::new, |c| c.std.clone());
+        Self { applied, std, why }
+    }
 }
 
 /// The outcome of the selection.

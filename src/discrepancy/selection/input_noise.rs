@@ -32,9 +32,6 @@ pub(crate) fn made_up(selection: &Search, fit: &Fit) -> Result<Option<Applied>> 
         let sum = |of: &dyn Fn(usize, f64) -> f64| own.iter().map(|(i, v)| of(*i, *v)).sum::<f64>();
         sum(&|i, v| grown[i] * v) / sum(&|_, v| v * v).max(f64::MIN_POSITIVE)
     };
-    if std::env::var_os("NAMES_DEBUG").is_some() {
-        fit.model.free_effects().for_each(|e| eprintln!("DBG made up of {}: {:.2}", e.label(), share(e)));
-    }
     let shares = fit.model.free_effects().map(|e| (share(e), e)).filter(|(s, _)| *s > MOST);
     Ok(shares.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, e)| e.clone()))
 }

@@ -6,6 +6,7 @@ pub mod choice;
 pub(crate) mod input_noise;
 pub(crate) mod input_sampling;
 pub(crate) mod refusals;
+pub(crate) mod refute;
 pub(crate) mod search;
 pub mod select;
 pub(crate) mod stability;

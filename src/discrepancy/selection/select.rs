@@ -2,12 +2,12 @@
 
 use super::candidates::FINALISTS;
 use super::input_sampling::{InputSampling, keep_sampled};
+use super::refusals::Standing;
 use super::search::{MOST, Search, SearchState, find};
 use super::stability;
 use super::stability::Stable;
 use super::transients;
 use super::unnamed_terms;
-use super::refusals::Standing;
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
@@ -15,7 +15,7 @@ use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
 use crate::discrepancy::evidence::jackknife::Jackknife;
 use crate::discrepancy::evidence::parametric_bootstrap;
 use crate::discrepancy::evidence::wald_test::tail;
-use crate::discrepancy::selection::choice::{Growth, Refusal, Refused, Selected, SelectedEffect};
+use crate::discrepancy::selection::choice::{Selected, SelectedEffect};
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::Model;
@@ -60,75 +60,9 @@ pub fn choose(
     let InputSampling { dropped: sampling_sensitive, missed } = keep_sampled(&selection, &mut grown, progress)?;
     // Where something went, the values no longer stand where they stood.
     let scatter = scatter.filter(|_| sampling_sensitive.is_empty());
-    let Standing { chosen, refused } = selection.keep_standing(&mut grown, scatter.as_ref(), missed, progress)?;
-    if std::env::var_os("NAMES_DEBUG").is_some() {
-        for (e, each) in problem.differences(&grown.fit)? {
-            let c = chosen.iter().find(|c| c.applied.same_as(&e));
-            eprintln!("DBG {} {:?} std {:?} infl {:.2}", e.label(), e.values, c.map(|c| c.std.clone()), grown.fit.variance_inflation());
-            for d in each {
-                eprintln!("DBG    {:12} chi2 {:9.1} share {:.2} {:.4?}", d.name, d.chi_squared, d.share, d.values);
-            }
-        }
-        if let Some(c) = &grown.fit.covariance {
-            let n = c.nrows();
-            for i in 0..n { for j in 0..i { eprintln!("DBG rho {i} {j} {:.3}", c[(i, j)] / (c[(i, i)] * c[(j, j)]).sqrt()); } }
-        }
-    }
+    let Standing { chosen, refused } = selection.keep_standing(&mut grown, scatter.as_ref(), missed)?;
     let SearchState { fit: after, steps, candidates, .. } = grown;
     Ok(Some(Selected { before, after, chosen, steps, candidates, inconsistent, sampling_sensitive, refused }))
-}
-
-/// Takes out of a choice what held-out runs are predicted worse with: an effect beside all others, or what was found
-/// as a whole.
-///
-/// `grows` says by how much a held-out gap grows with the first of two models in the place of the second.
-pub(crate) fn refute(
-    problem: &Problem,
-    library: &[Effect],
-    choice: Selected,
-    grows: &dyn Fn(&Model, &Model) -> Result<Option<Growth>>,
-) -> Result<Selected> {
-    let Selected { before, after, mut chosen, steps, candidates, inconsistent, sampling_sensitive, mut refused } = choice;
-    let quick = transients::without_transients(library);
-    let size = before.model.applicable(&quick).len().max(1) as f64;
-    let selection =
-        Search { problem, before: &before, library: &quick, size, most: MOST, exchanges: true, drops: true };
-    let mut grown = SearchState { fit: after, steps, candidates, refused: vec![] };
-    while let Some((applied, growth, smaller)) = refuted(&selection, &grown.fit, &chosen, grows)? {
-        let std = chosen.iter().find(|c| c.applied.same_as(&applied)).map_or_else(Vec::new, |c| c.std.clone());
-        grown.go_back_to(smaller);
-        refused.push(Refused { applied, std, why: Refusal::HeldOut(growth) });
-        // What is left of the others stands or falls anew.
-        let standing = selection.keep_standing(&mut grown, None, vec![], &|_| {})?;
-        chosen = standing.chosen;
-        refused.extend(standing.refused);
-    }
-    let SearchState { fit: after, steps, candidates, .. } = grown;
-    Ok(Selected { before, after, chosen, steps, candidates, inconsistent, sampling_sensitive, refused })
-}
-
-/// The effect with which a held-out gap grows most, and the fit without it; where only all together make it grow, the one
-/// that is worth least.
-fn refuted(
-    selection: &Search,
-    fit: &Fit,
-    chosen: &[SelectedEffect],
-    grows: &dyn Fn(&Model, &Model) -> Result<Option<Growth>>,
-) -> Result<Option<(Applied, Growth, Fit)>> {
-    let mut worst: Option<(Applied, Growth, Fit)> = None;
-    for c in chosen {
-        let Some(smaller) = selection.without(fit, &c.applied)? else { continue };
-        let Some(growth) = grows(&fit.model, &smaller.model)? else { continue };
-        if worst.as_ref().is_none_or(|(_, w, _)| growth.factor() > w.factor()) {
-            worst = Some((c.applied.clone(), growth, smaller));
-        }
-    }
-    let least = chosen.iter().min_by(|a, b| a.delta_bic.total_cmp(&b.delta_bic));
-    if let (None, Some(least), Some(growth)) = (&worst, least, grows(&fit.model, &selection.before.model)?) {
-        let smaller = selection.without(fit, &least.applied)?;
-        worst = smaller.map(|smaller| (least.applied.clone(), growth, smaller));
-    }
-    Ok(worst)
 }
 
 /// Numbers that stand for the free values of a fit, without those of an effect.
@@ -148,7 +82,12 @@ impl Search<'_> {
     /// Evidence, deviations and rivals of every chosen effect.
     ///
     /// `missed` is what the interpolation of the inputs may make up of each value; an offset no rows average out.
-    pub(crate) fn examined(&self, fit: &Fit, scatter: Option<&Jackknife>, missed: &[f64]) -> Result<Vec<SelectedEffect>> {
+    pub(crate) fn examined(
+        &self,
+        fit: &Fit,
+        scatter: Option<&Jackknife>,
+        missed: &[f64],
+    ) -> Result<Vec<SelectedEffect>> {
         let mut at = 0;
         let mut found = Vec::new();
         for applied in fit.model.free_effects().cloned() {

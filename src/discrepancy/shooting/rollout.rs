@@ -1,7 +1,7 @@
 //! The gap: how far a model strays from the measurements after a horizon, and what noise alone would make of it.
 
 use super::windows::MARGIN;
-use crate::discrepancy::initial_state::heading_from_path::{PathHeading, heading_at, measured_at};
+use crate::discrepancy::initial_state::heading_from_path::{MeasuredPose, PathHeading, heading_over, measured_at};
 use crate::discrepancy::initial_state::hidden_states;
 use crate::discrepancy::initial_state::pose::pose_of;
 use crate::discrepancy::record::angle::wrapped;
@@ -93,9 +93,10 @@ impl<'a> Rollout<'a> {
         Ok(Self { record, equations, hidden })
     }
 
-    /// The state at a row: the smoothed pose and the carried hidden states.
-    fn start(&self, i: usize) -> Vec<f64> {
-        let mut z = pose_of(&self.equations, &self.measured(i));
+    /// The state at the first of two rows, to be followed to the other: the smoothed pose and the carried hidden states.
+    fn start(&self, i: usize, to: usize) -> Vec<f64> {
+        let pose = MeasuredPose::over(&self.equations, self.record, i, self.record.time[to] - self.record.time[i]);
+        let mut z = pose_of(&self.equations, &pose.measured);
         z.extend(self.hidden.get(i).into_iter().flatten());
         z
     }
@@ -108,7 +109,7 @@ impl<'a> Rollout<'a> {
     /// The outputs at rows `from..=to`, restarted at `from`.
     pub fn outputs(&self, from: usize, to: usize) -> Vec<Vec<f64>> {
         let mut stepper = Stepper::new(&self.equations, &self.record.signals, &[]);
-        let mut arc = StateSensitivity { z: self.start(from), s: vec![] };
+        let mut arc = StateSensitivity { z: self.start(from, to), s: vec![] };
         let visible = self.equations.visible;
         let mut found = vec![stepper.outputs(&arc.z)[..visible].to_vec()];
         for i in from..to {
@@ -126,7 +127,7 @@ impl<'a> Rollout<'a> {
     /// As [`Rollout::ends`], of so many windows as there are lanes, or fewer: the last one fills the rest.
     fn side_by_side(&self, windows: &[(usize, usize)]) -> Vec<[Vec<f64>; 2]> {
         let rows: [Range<usize>; LANES] = std::array::from_fn(|l| windows[l.min(windows.len() - 1)]).map(|(i, k)| i..k);
-        let starts = rows.each_ref().map(|rows| self.start(rows.start));
+        let starts = rows.each_ref().map(|rows| self.start(rows.start, rows.end));
         let mut arcs = LaneStates::of(starts.each_ref().map(|z| &z[..]));
         let mut stepper = LaneStepper::new(&self.equations, &self.record.signals, [&[]; LANES]);
         let visible = self.equations.visible;
@@ -213,7 +214,7 @@ impl<'a> Rollout<'a> {
                 clean: self.record.columns.iter().map(|c| local_polynomial::value(c, &smoothing)).collect(),
                 smoothing,
                 displacement: [last[0] - first[0], last[1] - first[1]],
-                course: (!self.record.has_heading).then(|| heading_at(&self.equations, self.record, from)),
+                course: (!self.record.has_heading).then(|| heading_over(&self.equations, self.record, from, horizon)),
             }
         };
         windows.iter().zip(self.ends(&windows)).map(restart).collect()

@@ -1,14 +1,15 @@
 //! The outcome of a discovery: its report, put together once, its pictures and the patched model.
 
-use super::rendering::{experiment_text, reason_text, summary, warning_text};
+use super::rendering::{experiment_text, reason_text, regime_text, summary, warning_text};
 use super::report::*;
 use crate::discrepancy::diagnosis::reason::Reason;
 use crate::discrepancy::diagnosis::warning::Warning;
 use crate::discrepancy::experiment::next_step::NextStep;
+use crate::discrepancy::localisation::driving_regimes::Stretch;
 use crate::discrepancy::preprocessing::dataset::Data;
-use crate::discrepancy::preprocessing::outliers::GROSS;
 use crate::discrepancy::request::Request;
 use crate::files::{EffectEntry, ModelFile};
+use crate::wording::GROSS;
 use std::collections::BTreeMap;
 
 /// What `discover` finds.
@@ -42,7 +43,7 @@ pub(crate) struct Findings {
     pub next: Option<NextStep>,
     pub effects: Vec<Named>,
     pub unnamed: Vec<Unnamed>,
-    pub disagreement: Vec<Disagreement>,
+    pub disagreement: Vec<Stretch>,
     pub remaining: Option<Remaining>,
     pub gap: Vec<Gap>,
     pub steps: Vec<Step>,
@@ -63,7 +64,7 @@ pub(crate) fn report(request: &Request, data: &Data, verdict: Verdict, found: Fi
         summary: found.reason.as_ref().map_or_else(composed, reason_text::sentence),
         effects: found.effects,
         unnamed: found.unnamed,
-        disagreement: found.disagreement,
+        disagreement: found.disagreement.iter().map(regime_text::disagreement).collect(),
         remaining: found.remaining,
         gap: found.gap,
         next_experiment: found.next.as_ref().map(experiment_text::next_experiment),

@@ -8,11 +8,11 @@ mod figures;
 mod init;
 mod lists;
 mod man;
-mod own;
 mod progress;
 mod runs;
 mod simulate;
 mod sweep;
+mod user_catalogues;
 mod verify;
 
 use clap::{Args, Parser, Subcommand};

@@ -1,7 +1,6 @@
 //! `creepage check`
 
-use super::lists::Format;
-use super::print;
+use super::output::{Format, print};
 use super::progress::Progress;
 use super::runs;
 use super::user_catalogues::UserCatalogues;

@@ -1,7 +1,6 @@
 //! `creepage describe`
 
-use super::lists::pretty;
-use super::print;
+use super::output::{pretty, print};
 use super::user_catalogues::UserCatalogues;
 use clap::{Args, ValueEnum};
 use creepage::Result;

@@ -1,6 +1,6 @@
 //! `creepage init`
 
-use super::print;
+use super::output::print;
 use super::user_catalogues::UserVehicles;
 use clap::Args;
 use creepage::files::{ModelFile, read_header, write_whole};

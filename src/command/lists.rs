@@ -1,6 +1,6 @@
 //! `creepage vehicles` and `creepage effects`
 
-use super::print;
+use super::output::{Format, pretty, print};
 use super::user_catalogues::{UserCatalogues, UserVehicles};
 use clap::{Args, ValueEnum};
 use creepage::Result;
@@ -48,17 +48,6 @@ enum EffectsFormat {
     Json,
     /// A Markdown page: tables of the equations that every effect rewrites on every vehicle
     Page,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-pub(super) enum Format {
-    Text,
-    Json,
-}
-
-/// JSON for people.
-pub fn pretty(value: &serde_json::Value) -> String {
-    format!("{value:#}\n")
 }
 
 /// Carries out `creepage vehicles`.

@@ -1,7 +1,6 @@
 //! `creepage verify` and `creepage claims`
 
-use super::lists::pretty;
-use super::print;
+use super::output::{pretty, print};
 use super::progress::Progress;
 use super::user_catalogues::UserVehicles;
 use clap::{Args, ValueEnum};

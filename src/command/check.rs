@@ -1,10 +1,9 @@
 //! `creepage check`
 
-use super::lists::Format;
-use super::own::Own;
-use super::print;
+use super::output::{Format, print};
 use super::progress::Progress;
 use super::runs;
+use super::user_catalogues::UserCatalogues;
 use clap::Args;
 use creepage::discrepancy::check::check_aligned;
 use creepage::discrepancy::identifiability::Checked;
@@ -40,7 +39,7 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
     #[command(flatten)]
-    own: Own,
+    own: UserCatalogues,
 }
 
 /// Carries out the command.

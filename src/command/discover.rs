@@ -1,10 +1,9 @@
 //! `creepage discover`
 
-use super::lists::Format;
-use super::own::Own;
-use super::print;
+use super::output::{Format, print};
 use super::progress::Progress;
 use super::runs;
+use super::user_catalogues::UserCatalogues;
 use clap::Args;
 use creepage::discrepancy::discover::discover_aligned;
 use creepage::discrepancy::discovery::Discovery;
@@ -61,7 +60,7 @@ pub struct Arguments {
     #[arg(long, allow_negative_numbers = true, default_value_t = 0)]
     seed: u64,
     #[command(flatten)]
-    own: Own,
+    own: UserCatalogues,
 }
 
 fn horizon(text: &str) -> std::result::Result<f64, String> {

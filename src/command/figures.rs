@@ -1,6 +1,6 @@
 //! `creepage figures`
 
-use super::print;
+use super::output::print;
 use super::progress::Progress;
 use clap::Args;
 use creepage::Result;

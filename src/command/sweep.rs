@@ -1,6 +1,6 @@
 //! `creepage sweep`
 
-use super::print;
+use super::output::print;
 use super::progress::Progress;
 use super::runs::not_an_input;
 use clap::Args;

@@ -1,9 +1,8 @@
 //! `creepage verify` and `creepage claims`
 
-use super::lists::pretty;
-use super::own::OwnVehicles;
-use super::print;
+use super::output::{pretty, print};
 use super::progress::Progress;
+use super::user_catalogues::UserVehicles;
 use clap::{Args, ValueEnum};
 use creepage::claims::{self, Claim, Options, ledger};
 use creepage::{Error, Result};
@@ -34,7 +33,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.toml")]
     claims: Option<PathBuf>,
     #[command(flatten)]
-    own: OwnVehicles,
+    own: UserVehicles,
     /// How to print the ledger
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -56,7 +55,7 @@ pub struct List {
     #[arg(long, value_name = "FILE.toml")]
     claims: Option<PathBuf>,
     #[command(flatten)]
-    own: OwnVehicles,
+    own: UserVehicles,
     /// How to print them
     #[arg(long, value_enum, default_value_t = ListFormat::Text)]
     format: ListFormat,
@@ -70,7 +69,7 @@ enum ListFormat {
     Contents,
 }
 
-fn known(own: Option<&PathBuf>, vehicles: &OwnVehicles) -> Result<Vec<Claim>> {
+fn known(own: Option<&PathBuf>, vehicles: &UserVehicles) -> Result<Vec<Claim>> {
     // A file of vehicles is read even where no claim may speak of them: a slip in it is worth knowing.
     let vehicles = vehicles.all()?;
     let mut all = claims::all();

@@ -1,16 +1,17 @@
 //! The outcome of a discovery: its report, put together once, its pictures and the patched model.
 
-use super::rendering::{experiment_text, reason_text, refusal_text, rest_text, summary, warning_text};
+use super::rendering::{experiment_text, reason_text, refusal_text, regime_text, rest_text, summary, warning_text};
 use super::report::*;
 use crate::discrepancy::diagnosis::reason::Reason;
 use crate::discrepancy::diagnosis::rest::Rest;
 use crate::discrepancy::diagnosis::warning::Warning;
 use crate::discrepancy::experiment::next_step::NextStep;
+use crate::discrepancy::localisation::driving_regimes::Stretch;
 use crate::discrepancy::preprocessing::dataset::Data;
-use crate::discrepancy::preprocessing::outliers::GROSS;
 use crate::discrepancy::request::Request;
 use crate::discrepancy::selection::choice::Refused;
 use crate::files::{EffectEntry, ModelFile};
+use crate::wording::GROSS;
 use std::collections::BTreeMap;
 
 /// What `discover` finds.
@@ -44,7 +45,7 @@ pub(crate) struct Findings {
     pub next: Option<NextStep>,
     pub effects: Vec<Named>,
     pub unnamed: Vec<Unnamed>,
-    pub disagreement: Vec<Disagreement>,
+    pub disagreement: Vec<Stretch>,
     pub refused: Vec<Refused>,
     pub rest: Option<Rest>,
     pub covariance: Option<Covariance>,
@@ -70,7 +71,7 @@ pub(crate) fn report(request: &Request, data: &Data, verdict: Verdict, found: Fi
         summary: rest_text::admitted(&sentence, verdict, found.rest.as_ref()),
         effects: found.effects,
         unnamed: found.unnamed,
-        disagreement: found.disagreement,
+        disagreement: found.disagreement.iter().map(regime_text::disagreement).collect(),
         refuted: found.refused.iter().map(|r| refusal_text::refuted(r, roles)).collect(),
         remains: found.rest.as_ref().map(rest_text::remains),
         covariance: found.covariance,

@@ -1,4 +1,4 @@
-//! Writing results: a file is there whole, or the older one is still there.
+//! Atomic writes: a temporary file is renamed into its place, so that the new file is there whole or the older one still is.
 
 use crate::error::{Error, Result};
 use std::fs::{self, File, OpenOptions};

@@ -65,7 +65,7 @@ fn wheels_of_one_vehicle_have_different_radii_and_headings() {
             prop_assert!(known.equals(wheel.radius.as_ref().unwrap()), "{}", wheel);
         }
         let towards: BTreeSet<_> = headings.iter().map(cos_and_sin).collect();
-        let one = BigRational::from_integer(1.into());
+        let one = BigRational::from(1);
         prop_assert!(towards.iter().all(|[cos, sin]| cos * cos + sin * sin == one));
         met.note("two radii", radii.len() > 1);
         met.note("five radii", radii.len() > 4);

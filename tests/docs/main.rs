@@ -7,6 +7,7 @@ mod fences;
 mod groups;
 mod links;
 mod sandbox;
+mod sentences;
 
 use documents::{Document, all};
 

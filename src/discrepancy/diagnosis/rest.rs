@@ -1,36 +1,44 @@
 //! What remains above the noise floor, whatever is named.
 
-use super::verdict::disagrees;
+use super::verdict::{disagrees, random};
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::unexplained;
-use crate::discrepancy::localisation::constraint_residuals::ConstraintResiduals;
-use crate::discrepancy::localisation::driving_regimes::disagreements;
-use crate::discrepancy::localisation::whiteness::is_white;
-use crate::discrepancy::report::{Disagreement, Gap, judged, judged_alike};
+use crate::discrepancy::localisation::constraint_residuals::{CONSTRAINTS, ConstraintResiduals};
+use crate::discrepancy::localisation::driving_regimes::{DrivingRegime, Stretch, disagreements};
+use crate::discrepancy::report::{Gap, judged, judged_alike};
 
 /// A gap beyond so many floors is not the noise.
 const ABOVE: f64 = 1.5;
 
 /// What a model leaves above the noise floor.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Rest {
     /// The gap over its floor, at the horizon and in the quantity where that is largest.
     pub ratio: f64,
     /// Whether the gap is that of held-out runs.
     pub is_held_out: bool,
     /// The stretch with the largest share of what remains on the fitted runs.
-    pub most: Disagreement,
+    pub most: Stretch,
 }
 
 /// What a model leaves; `None` at the floor.
 pub(crate) fn rest(fit: &Fit, after: &[ConstraintResiduals], gaps: &[Gap]) -> Option<Rest> {
     let ratio = largest_ratio(gaps)?;
-    let exceeds = ratio > ABOVE && unexplained::remaining(fit).any(|c| !is_white(after, c));
+    let exceeds = ratio > ABOVE && unexplained::remains(fit) && random(fit, after).is_none();
     if !exceeds && !disagrees(fit, after) {
         return None;
     }
     let is_held_out = gaps.iter().any(|g| g.held_out.is_some());
-    Some(Rest { ratio, is_held_out, most: disagreements(after).into_iter().next()? })
+    let most = disagreements(after).into_iter().next().or_else(|| everywhere(fit, after))?;
+    Some(Rest { ratio, is_held_out, most })
+}
+
+/// The whole of a run and the constraint that needs the jumps most: what stands out of no window by itself.
+fn everywhere(fit: &Fit, after: &[ConstraintResiduals]) -> Option<Stretch> {
+    let most = unexplained::remaining(fit).max_by(|a, b| fit.unexplained[*a].total_cmp(&fit.unexplained[*b]))?;
+    let run = after.iter().find(|v| v.span().is_some())?;
+    let (place, regime) = (CONSTRAINTS[most].0, DrivingRegime::Whole);
+    Some(Stretch { run: run.run.clone(), place, span: run.span()?, regime, share: 1.0 })
 }
 
 /// The largest number of floors that a gap is.

@@ -169,7 +169,7 @@ fn fitted(choice: &Selected, after: &[ConstraintResiduals], clocks: &[Drift]) ->
 }
 
 /// What a model leaves where it stands out of the noise and all of it is random from window to window.
-fn random(fit: &Fit, after: &[ConstraintResiduals]) -> Option<Reason> {
+pub(crate) fn random(fit: &Fit, after: &[ConstraintResiduals]) -> Option<Reason> {
     let visible: Vec<usize> = unexplained::remaining(fit).filter(|c| is_visible(after, *c)).collect();
     let is_random = !visible.is_empty() && visible.iter().all(|c| is_white(after, *c));
     is_random.then(|| Reason::RandomRest(visible.into_iter().map(|c| CONSTRAINTS[c].0).collect()))

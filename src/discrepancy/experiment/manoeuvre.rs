@@ -160,9 +160,9 @@ impl Phase {
 #[cfg(test)]
 pub(crate) mod samples {
     use super::*;
+    use crate::discrepancy::record::input_noise::InputNoise;
     use crate::discrepancy::record::run_record::{Known, Record};
     use crate::model::Model;
-    use crate::discrepancy::record::input_noise::InputNoise;
     use crate::motion::{Signals, Timing};
 
     /// What a vehicle was driven at: ahead and turning for five seconds, then straight back.

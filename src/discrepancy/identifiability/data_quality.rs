@@ -5,13 +5,13 @@ use super::data_finding::{DataFinding, Side};
 use super::driving_statistics::{driving, quantile};
 use crate::discrepancy::estimation::autocorrelation::NOTICEABLE;
 use crate::discrepancy::estimation::fit::Fit;
-use crate::discrepancy::preprocessing::outliers::GROSS;
 use crate::discrepancy::preprocessing::quantisation::coarse_inputs;
 use crate::discrepancy::preprocessing::unit_errors::{SPARSE, turning_cause, way_cause};
 use crate::discrepancy::record::run_record::Record;
 use crate::error::Result;
 use crate::files::Run;
 use crate::model::Model;
+use crate::wording::GROSS;
 
 /// Share of rows left out that is worth a word.
 const MANY_DROPPED: f64 = 0.05;

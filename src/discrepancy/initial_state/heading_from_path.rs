@@ -61,13 +61,14 @@ pub fn heading_at(equations: &Equations, record: &Record, row: usize) -> PathHea
     heading_over(equations, record, row, 0.0)
 }
 
-/// As [`heading_at`], from a stretch that reaches a third of a span and more to either side: a heading that is to hold
-/// over the span has to be known as well as the span is long.
+/// The heading at a row that holds over a span of time: the model's motion over all of the span laid on the measured path,
+/// and no less of it than tells a heading. From a short stretch the error of the guess would grow with the span, and be
+/// taken for the model's.
 pub fn heading_over(equations: &Equations, record: &Record, row: usize, span: f64) -> PathHeading {
     let mut best = PathHeading { heading: record.smoothed(row)[2], ..PathHeading::default() };
-    let widest = HALF_WIDTHS[HALF_WIDTHS.len() - 1];
-    for half in HALF_WIDTHS.into_iter().filter(|half| *half >= (span / 3.0).min(widest)) {
-        let Some(course) = laid_on(equations, record, row, half, best.heading) else { continue };
+    for half in HALF_WIDTHS {
+        let rows = stretch(record, row, [half, half.max(span)]);
+        let Some(course) = laid_on(equations, record, row, rows, best.heading) else { continue };
         best = course;
         if best.is_told(record) {
             break;
@@ -77,8 +78,7 @@ pub fn heading_over(equations: &Equations, record: &Record, row: usize, span: f6
 }
 
 /// The heading from a stretch.
-fn laid_on(equations: &Equations, record: &Record, row: usize, half: f64, guess: f64) -> Option<PathHeading> {
-    let rows = stretch(record, row, half);
+fn laid_on(equations: &Equations, record: &Record, row: usize, rows: Range<usize>, guess: f64) -> Option<PathHeading> {
     if rows.len() < 3 {
         return None;
     }
@@ -96,13 +96,14 @@ fn laid_on(equations: &Equations, record: &Record, row: usize, half: f64, guess:
     course
 }
 
-/// Rows around a row without a gap, never beyond those that take part.
-fn stretch(record: &Record, row: usize, half: f64) -> Range<usize> {
+/// Rows from so long before a row until so long after it without a gap, never beyond those that take part.
+fn stretch(record: &Record, row: usize, [before, after]: [f64; 2]) -> Range<usize> {
     let time = &record.time;
     let gap = record.gap();
-    let near = |i: usize| (time[i] - time[row]).abs() <= half;
-    let first = (0..row).rev().take_while(|i| near(*i) && time[i + 1] - time[*i] <= gap).last().unwrap_or(row);
-    let last = (row + 1..record.rows.end).take_while(|i| near(*i) && time[*i] - time[i - 1] <= gap).last();
+    let early = |i: usize| time[row] - time[i] <= before;
+    let late = |i: usize| time[i] - time[row] <= after;
+    let first = (0..row).rev().take_while(|i| early(*i) && time[i + 1] - time[*i] <= gap).last().unwrap_or(row);
+    let last = (row + 1..record.rows.end).take_while(|i| late(*i) && time[*i] - time[i - 1] <= gap).last();
     first..last.unwrap_or(row) + 1
 }
 

@@ -158,6 +158,11 @@ impl ConstraintResiduals {
         ]
     }
 
+    /// Start of the first and end of the last window that is judged, s.
+    pub(crate) fn span(&self) -> Option<[f64; 2]> {
+        Some([self.windows.first()?.span[0], self.windows.last()?.span[1]])
+    }
+
     /// The violated rates of a constraint, window by window.
     pub(crate) fn rates(&self, c: usize) -> Vec<f64> {
         self.windows.iter().filter_map(|w| w.rates.get(c).copied()).collect()

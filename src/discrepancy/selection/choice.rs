@@ -41,6 +41,8 @@ pub enum Refusal {
         /// Its values elsewhere and there.
         values: [f64; 2],
     },
+    /// It explains little beside what remains.
+    Immaterial,
     /// The noise of the inputs makes as much of nothing.
     InputNoise,
     /// Held-out runs are predicted worse with it.

@@ -1,4 +1,4 @@
-//! Model files and how a finding is written into them.
+//! Model files (TOML): read and checked, and patched by the effects that were found.
 
 pub(crate) mod dynamics;
 pub(crate) mod effect_entry;

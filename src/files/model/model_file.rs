@@ -1,4 +1,4 @@
-//! The model file: what the user believes of the vehicle, and where the log shows it.
+//! The model file (TOML): vehicle, parameters, effects, and the columns of the log.
 
 use super::dynamics::DynamicsEntry;
 use super::effect_entry::{EffectEntry, read_effects};

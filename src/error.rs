@@ -13,6 +13,8 @@ pub enum Kind {
     Input,
     /// A run that failed although its input was good: exit code 1.
     Run,
+    /// An answer that was asked to end the command: exit code 3.
+    Verdict,
 }
 
 /// A message for a person, with the place it speaks of.
@@ -47,6 +49,11 @@ impl Error {
     /// A run that failed on good input.
     pub fn run(message: impl Into<String>) -> Self {
         Self::new(Kind::Run, message.into())
+    }
+
+    /// An answer that was asked to end the command.
+    pub fn verdict(message: impl Into<String>) -> Self {
+        Self::new(Kind::Verdict, message.into())
     }
 
     fn new(kind: Kind, message: String) -> Self {
@@ -93,11 +100,12 @@ impl Error {
         self.0.place
     }
 
-    /// The exit code the contract gives this error: 2 for input, 1 for a failed run.
+    /// The exit code the contract gives this error: 2 for input, 1 for a failed run, 3 for an answer asked to fail.
     pub fn exit_code(&self) -> u8 {
         match self.0.kind {
             Kind::Input => 2,
             Kind::Run => 1,
+            Kind::Verdict => 3,
         }
     }
 }

@@ -61,6 +61,35 @@ pub enum Verdict {
     NoMissingEffect,
 }
 
+impl Verdict {
+    /// All of them.
+    pub const ALL: [Self; 6] = [
+        Self::UnusableData,
+        Self::NotIdentifiable,
+        Self::Unexplained,
+        Self::UnnamedEffect,
+        Self::MissingEffect,
+        Self::NoMissingEffect,
+    ];
+
+    /// Its name in files.
+    ///
+    /// ```
+    /// use creepage::discrepancy::report::Verdict;
+    /// assert!(Verdict::ALL.iter().all(|v| serde_json::to_value(v).unwrap() == v.id()));
+    /// ```
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::UnusableData => "unusable-data",
+            Self::NotIdentifiable => "not-identifiable",
+            Self::Unexplained => "unexplained",
+            Self::UnnamedEffect => "unnamed-effect",
+            Self::MissingEffect => "missing-effect",
+            Self::NoMissingEffect => "no-missing-effect",
+        }
+    }
+}
+
 /// An effect that was found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Named {

@@ -35,7 +35,7 @@
 //!
 //! | module | what it is |
 //! |---|---|
-//! | [`error`], [`provenance`] | one message with its place and an exit code; which file something comes from |
+//! | [`error`], [`provenance`], [`progress`] | one message with its place and an exit code; which file something comes from; how far long work is |
 //! | `wording`, [`number_format`] | phrases and numbers for people |
 //! | [`formula`] | expressions as data: values, derivatives, proofs, units, vector lanes |
 //! | [`mechanism`] | rows and what follows from them |
@@ -51,7 +51,7 @@
 //! | [`claims`] | what the paper says, with evidence that runs |
 //! | [`discrepancy`] | where model and measurement disagree, which effect is missing, how much it mends |
 //! | [`figures`], [`theory`] | the paper's figures; the long form of the paper |
-//! | `front_door` | the jobs as calls of one line: [`discover()`], [`check()`], [`describe()`], [`simulate()`] |
+//! | `front_door` | the jobs as calls of one line: [`discover()`], [`check()`], [`describe()`], [`simulate()`], [`verify()`], [`sweep()`] |
 #![warn(missing_docs)]
 
 pub mod claims;
@@ -73,6 +73,7 @@ pub mod model;
 pub mod motion;
 pub mod number_format;
 pub mod picture;
+pub mod progress;
 pub mod provenance;
 pub mod scaffold;
 pub mod sweep;
@@ -81,9 +82,12 @@ pub mod vehicles;
 mod wording;
 
 pub use discrepancy::report::{Report, Verdict};
-pub use error::{Error, Result};
+pub use error::{Error, Kind as ErrorKind, Result};
 pub use files::Run;
-pub use front_door::{Discovery, Model, Options, Pose, check, describe, discover, discover_with, simulate};
+pub use front_door::{
+    Discovery, Model, Options, Pose, check, check_with, describe, discover, discover_with, simulate, sweep, verify,
+};
+pub use progress::{OnProgress, Progress, Stage};
 
 /// The examples of the README are compiled.
 #[cfg(doctest)]

@@ -12,6 +12,7 @@ mod own;
 mod progress;
 mod runs;
 mod simulate;
+mod stage_text;
 mod sweep;
 mod verify;
 

@@ -9,13 +9,14 @@ use crate::effects::Effect;
 use crate::error::Result;
 use crate::files::Run;
 use crate::model::Model;
+use crate::progress::OnProgress;
 
 /// As [`check`], the clocks of inputs and poses estimated first where they
 /// stand in files of their own.
 ///
 /// # Errors
 /// As [`discover_aligned`](crate::discrepancy::discover::discover_aligned).
-pub fn check_aligned(of: &Checked, near: Option<f64>, progress: &dyn Fn(&str)) -> Result<Check> {
+pub fn check_aligned(of: &Checked, near: Option<f64>, progress: &OnProgress) -> Result<Check> {
     if of.runs.iter().all(is_aligned) {
         return check(of, progress);
     }
@@ -24,9 +25,8 @@ pub fn check_aligned(of: &Checked, near: Option<f64>, progress: &dyn Fn(&str)) -
     let file = &file;
     let roles = common_roles(runs, &[])?;
     let model = Model::from_file(file, library, &roles)?;
-    progress("aligning the clocks");
     let request = Request { file, runs, held_out: &[], library, horizons: &[], seed: 0 };
-    let by_one = match aligned(runs, 1.0, &request, &model, near)? {
+    let by_one = match aligned(runs, 1.0, &request, &model, near, progress)? {
         Ok(by_one) => by_one,
         Err(obstacle) => return Ok(Check::cut_short(obstacle.outcome())),
     };

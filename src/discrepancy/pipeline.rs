@@ -24,6 +24,7 @@ use crate::discrepancy::selection::choice::SelectedEffect;
 use crate::error::Result;
 use crate::model::Model;
 use crate::model::effect_equation;
+use crate::progress::{OnProgress, Stage, begin};
 
 /// Finds where a model and measured runs disagree, names the missing effect and shows the gap shrink.
 ///
@@ -31,7 +32,7 @@ use crate::model::effect_equation;
 ///
 /// # Errors
 /// When runs log different inputs, or the model file's effects do not apply to its vehicle.
-pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery> {
+pub fn discover(request: &Request, progress: &OnProgress) -> Result<Discovery> {
     let roles = common_roles(request.runs, request.held_out)?;
     let model = Model::from_file(request.file, request.library, &roles)?;
     if let Some(why) = unit_errors::too_sparse(&model, request.runs.iter().chain(request.held_out))? {
@@ -49,7 +50,7 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
         let paths = data.fitted.iter().map(|r| figure_data::measured_path(r, false)).collect();
         return Ok(nothing_to_fit(request, &data, paths, verdict::undefined_motion()));
     };
-    progress("opening the held-out data");
+    begin(progress, Stage::HeldOut)?;
     let noise = choice.after.noise();
     let before = problem.violations(&model, &noise)?;
     let after = problem.violations(&choice.after.model, &noise)?;
@@ -59,6 +60,7 @@ pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery>
     let mut report = empty_report(request, &data);
     report.verdict = found.verdict;
     let relatives = relatives(&choice, request.library, equivalents::measured(&data.fitted[0]));
+    begin(progress, Stage::Experiment)?;
     report.next_experiment = design::next(&problem, &choice, &relatives, &found)?;
     if report.verdict != Verdict::UnusableData {
         let each = choice.chosen.iter().zip(&relatives);

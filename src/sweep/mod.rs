@@ -12,6 +12,6 @@ mod shard;
 mod table;
 
 pub use prepared_sweep::Sweep;
-pub use run::{Progress, Summary};
+pub use run::Summary;
 pub use shard::Shard;
 pub use table::Format;

@@ -6,7 +6,7 @@ use std::path::Path;
 /// The stages in their order, folders and files below `src`. Stages of one line are level: none of them imports another.
 const STAGES: [&[&str]; 46] = [
     &["error"],
-    &["provenance", "wording", "number_format"],
+    &["provenance", "wording", "number_format", "progress"],
     &["formula"],
     &["mechanism"],
     &["vehicles"],

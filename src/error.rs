@@ -4,6 +4,13 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 /// The result of anything that can fail for a reason a user should read.
+///
+/// ```
+/// fn radius(text: &str) -> creepage::Result<f64> {
+///     text.parse().map_err(|_| creepage::Error::input(format!("{text:?} is no number")))
+/// }
+/// assert!(radius("0.3").is_ok() && radius("wide").is_err());
+/// ```
 pub type Result<T> = std::result::Result<T, Error>;
 
 /// Whose fault an [`Error`] is; it decides the exit code of the command.

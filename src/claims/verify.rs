@@ -8,6 +8,11 @@ use sha2::{Digest, Sha256};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// How many cases, from which seed.
+///
+/// ```
+/// let brief = creepage::claims::Options { cases: 20, ..Default::default() };
+/// assert_eq!(brief.seed, 0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
     /// Cases of each sampled check; checks that cost much take a stated share of it.
@@ -23,6 +28,12 @@ impl Default for Options {
 }
 
 /// What the evidence of a claim did.
+///
+/// ```
+/// let ledger = creepage::verify(&["eq-21"], &creepage::Options::default())?;
+/// assert!(ledger.entries[0].shown.iter().all(|shown| shown.as_stated && shown.survivors.is_empty()));
+/// # Ok::<(), creepage::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Shown {
     /// What became of the statement.
@@ -36,6 +47,12 @@ pub struct Shown {
 }
 
 /// A claim and what it earned.
+///
+/// ```
+/// let ledger = creepage::verify(&["eq-21"], &creepage::Options::default())?;
+/// assert_eq!(ledger.entries[0].earned, ledger.entries[0].claim.stated);
+/// # Ok::<(), creepage::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Entry {
     /// The claim.
@@ -47,6 +64,13 @@ pub struct Entry {
 }
 
 /// Every claim with what it earned.
+///
+/// ```
+/// let ledger = creepage::verify(&["eq-21"], &creepage::Options::default())?;
+/// let (noticed, all) = ledger.kills();
+/// assert!(ledger.all_earned() && noticed == all);
+/// # Ok::<(), creepage::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Ledger {
     /// The claims in their order.
@@ -89,6 +113,14 @@ impl Ledger {
 /// Runs all evidence of all claims; progress counts its pieces.
 ///
 /// The result is the same for any number of threads: every check has its own seed, made from its claim's id.
+///
+/// ```
+/// use creepage::claims::{self, Claim, Options};
+/// let some: Vec<Claim> = claims::all().into_iter().filter(|claim| claim.id == "eq-21").collect();
+/// let ledger = claims::verify(&some, &Options { cases: 20, seed: 7 }, &|_| std::ops::ControlFlow::Continue(()))?;
+/// assert!(ledger.all_earned());
+/// # Ok::<(), creepage::Error>(())
+/// ```
 ///
 /// # Errors
 /// When the listener stops it.

@@ -14,4 +14,5 @@ mod table;
 pub use prepared_sweep::Sweep;
 pub use run::Summary;
 pub use shard::Shard;
+#[doc(hidden)]
 pub use table::Format;

@@ -22,6 +22,12 @@ const ROUND_BLOCKS: [usize; 2] = [4, 64];
 const QUICK_ROUND: Duration = Duration::from_millis(50);
 
 /// What a sweep has written.
+///
+/// ```
+/// use creepage::sweep::Summary;
+/// let all_well = |s: &Summary| s.undefined == 0 && s.not_converged == 0;
+/// assert!(all_well(&Summary { cases: 10, found: 4, undefined: 0, not_converged: 0 }));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Summary {
     /// Cases of the part.

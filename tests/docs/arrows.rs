@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// The stages in their order, folders and files below `src`. Stages of one line are level: none of them imports another.
-const STAGES: [&[&str]; 46] = [
+const STAGES: [&[&str]; 47] = [
     &["error"],
     &["provenance", "wording", "number_format", "progress"],
     &["formula"],
@@ -47,6 +47,7 @@ const STAGES: [&[&str]; 46] = [
     &["discrepancy"],
     &["figures"],
     &["theory"],
+    &["report"],
     &["front_door"],
     &["lib"],
     &["command"],

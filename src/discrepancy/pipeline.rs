@@ -25,6 +25,7 @@ use super::selection::select::choose;
 use crate::error::Result;
 use crate::model::Model;
 use crate::model::effect_equation;
+use crate::progress::{OnProgress, Stage, begin};
 
 /// Finds where a model and measured runs disagree, names the missing effect and shows the gap shrink.
 ///
@@ -32,12 +33,12 @@ use crate::model::effect_equation;
 ///
 /// # Errors
 /// When runs log different inputs, or the model file's effects do not apply to its vehicle.
-pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery> {
+pub fn discover(request: &Request, progress: &OnProgress) -> Result<Discovery> {
     discover_by_clocks(request, Clocks::default(), progress)
 }
 
 /// As [`discover`], of runs whose clocks were aligned before.
-pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &dyn Fn(&str)) -> Result<Discovery> {
+pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &OnProgress) -> Result<Discovery> {
     let roles = common_roles(request.runs, request.held_out)?;
     let model = Model::from_file(request.file, request.library, &roles)?;
     if let Some(slip) = unit_errors::too_sparse(&model, request.runs.iter().chain(request.held_out))? {
@@ -54,7 +55,7 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &d
         let paths = data.fitted.iter().map(|r| figure_data::measured_path(r, false)).collect();
         return Ok(early(request, &data, clocks, paths, verdict::undefined_motion()));
     };
-    progress("opening the held-out data");
+    begin(progress, Stage::HeldOut)?;
     let noise = selected.after.noise();
     let before = problem.violations(&model, &noise)?;
     let after = problem.violations(&selected.after.model, &noise)?;
@@ -77,6 +78,7 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &d
     }
     let steps = |run| if remains { coarse_inputs(&model, run) } else { vec![] };
     let coarse: Vec<CoarseInput> = request.runs.iter().flat_map(steps).collect();
+    begin(progress, Stage::Experiment)?;
     let next = next(&problem, &selected, &relatives, &outcome, coarse.first())?;
     warnings.extend(coarse.into_iter().map(Warning::CoarseInput));
     let found = Findings {

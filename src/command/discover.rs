@@ -1,7 +1,7 @@
 //! `creepage discover`
 
 use super::output::{Format, print};
-use super::progress::Progress;
+use super::progress::ProgressLine;
 use super::runs;
 use super::user_catalogues::UserCatalogues;
 use clap::Args;
@@ -82,7 +82,7 @@ fn horizon(text: &str) -> std::result::Result<f64, String> {
 
 /// Carries out the command.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
-    let progress = Progress::new(quiet);
+    let progress = ProgressLine::new(quiet);
     progress.say("reading the runs");
     let (file, library) = &arguments.own.read(&arguments.model)?;
     file.no_forces("discover")?;
@@ -108,7 +108,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
         horizons: &arguments.horizons,
         seed: arguments.seed,
     };
-    let found = discover_aligned(&request, arguments.clock_offset, &|what| progress.say(what))?;
+    let found = discover_aligned(&request, arguments.clock_offset, &|p| progress.hear(p))?;
     drop(progress);
     write(&found, file, &arguments.out)?;
     match arguments.format {

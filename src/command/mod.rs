@@ -12,6 +12,7 @@ mod output;
 mod progress;
 mod runs;
 mod simulate;
+mod stage_text;
 mod sweep;
 mod user_catalogues;
 mod verify;

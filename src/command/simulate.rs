@@ -1,7 +1,7 @@
 //! `creepage simulate`
 
 use super::output::print;
-use super::progress::Progress;
+use super::progress::ProgressLine;
 use super::runs::not_an_input;
 use super::user_catalogues::UserCatalogues;
 use clap::Args;
@@ -53,7 +53,7 @@ fn tolerance(text: &str) -> std::result::Result<f64, String> {
 /// Carries out the command.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     not_an_input(&arguments.out, &[&arguments.inputs, &arguments.model])?;
-    let progress = Progress::new(quiet);
+    let progress = ProgressLine::new(quiet);
     progress.say("integrating");
     let (file, library) = &arguments.own.read(&arguments.model)?;
     let integrator = Integrator::default().with_tolerance(arguments.rtol, arguments.atol);

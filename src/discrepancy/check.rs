@@ -14,6 +14,7 @@ use crate::effects::Effect;
 use crate::error::Result;
 use crate::files::Run;
 use crate::model::Model;
+use crate::progress::OnProgress;
 
 /// Says what runs can tell of a model.
 ///
@@ -24,13 +25,13 @@ use crate::model::Model;
 /// use creepage::{effects, model};
 /// let file = ModelFile::read("model.toml", &model::known(effects::all())).unwrap();
 /// let runs = [Run::read("run.csv", &file).unwrap()];
-/// let answer = check(&Checked { file: &file, runs: &runs, library: effects::all() }, &|_| ()).unwrap();
+/// let answer = check(&Checked { file: &file, runs: &runs, library: effects::all() }, &creepage::progress::unheard).unwrap();
 /// println!("{}", answer.summary);
 /// ```
 ///
 /// # Errors
 /// When runs log different inputs, or the model file's effects do not apply to its vehicle.
-pub fn check(of: &Checked, progress: &dyn Fn(&str)) -> Result<Check> {
+pub fn check(of: &Checked, progress: &OnProgress) -> Result<Check> {
     Ok(told(assess(of, progress)?, vec![]))
 }
 
@@ -39,7 +40,7 @@ pub fn check(of: &Checked, progress: &dyn Fn(&str)) -> Result<Check> {
 ///
 /// # Errors
 /// As [`discover_aligned`](crate::discrepancy::discover::discover_aligned).
-pub fn check_aligned(of: &Checked, near: Option<f64>, progress: &dyn Fn(&str)) -> Result<Check> {
+pub fn check_aligned(of: &Checked, near: Option<f64>, progress: &OnProgress) -> Result<Check> {
     if of.runs.iter().all(is_aligned) {
         return check(of, progress);
     }
@@ -48,9 +49,8 @@ pub fn check_aligned(of: &Checked, near: Option<f64>, progress: &dyn Fn(&str)) -
     let file = &file;
     let roles = common_roles(runs, &[])?;
     let model = Model::from_file(file, library, &roles)?;
-    progress("aligning the clocks");
     let request = Request { file, runs, held_out: &[], library, horizons: &[], seed: 0 };
-    let by_one = match aligned(runs, 1.0, &request, &model, near)? {
+    let by_one = match aligned(runs, 1.0, &request, &model, near, progress)? {
         Ok(by_one) => by_one,
         Err(outcome) => return Ok(told(Assessment::cut_short(outcome), vec![])),
     };

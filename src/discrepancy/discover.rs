@@ -15,6 +15,7 @@ use crate::effects::Effect;
 use crate::error::{Error, Result};
 use crate::files::Run;
 use crate::model::Model;
+use crate::progress::{OnProgress, Stage, tell};
 
 /// As [`discover`], the clocks of inputs and poses estimated first where they stand in files of their own.
 ///
@@ -23,7 +24,7 @@ use crate::model::Model;
 ///
 /// # Errors
 /// As [`discover`]; when some runs are in one file and others in two.
-pub fn discover_aligned(request: &Request, near: Option<f64>, progress: &dyn Fn(&str)) -> Result<Discovery> {
+pub fn discover_aligned(request: &Request, near: Option<f64>, progress: &OnProgress) -> Result<Discovery> {
     let all = || request.runs.iter().chain(request.held_out);
     if all().all(is_aligned) {
         return discover(request, progress);
@@ -37,20 +38,23 @@ pub fn discover_aligned(request: &Request, near: Option<f64>, progress: &dyn Fn(
     let request = &Request { file: &file, ..*request };
     let roles = common_roles(request.runs, request.held_out)?;
     let model = Model::from_file(request.file, request.library, &roles)?;
-    progress("aligning the clocks");
     let share = if request.held_out.is_empty() { FITTED_SHARE } else { 1.0 };
-    let first = match aligned(request.runs, share, request, &model, near)? {
+    let first = match aligned(request.runs, share, request, &model, near, progress)? {
         Ok(first) => first,
         Err(outcome) => return Ok(unfitted(request, Clocks::default(), outcome)),
     };
     let chosen = with_effects(request, &model, &first, progress)?;
-    let again = |a: &Aligned| beside(a, request, &chosen, progress);
+    let all = first.len();
+    let again = |(i, a): (usize, &Aligned)| {
+        tell(progress, Stage::ClockRefinement, i, all)?;
+        beside(a, request, &chosen)
+    };
     let fitted: Vec<Aligned> = match chosen.effects.len() == model.effects.len() {
         true => first,
-        false => first.iter().map(again).collect::<Result<_>>()?,
+        false => first.iter().enumerate().map(again).collect::<Result<_>>()?,
     };
     // The held-out runs are looked at with the effects as they are: nothing but their clocks is fitted.
-    let held_out = match aligned(request.held_out, 1.0, request, &chosen.fixed(), near)? {
+    let held_out = match aligned(request.held_out, 1.0, request, &chosen.fixed(), near, progress)? {
         Ok(held_out) => held_out,
         Err(outcome) => return Ok(unfitted(request, Clocks::default(), outcome)),
     };
@@ -66,7 +70,7 @@ pub fn discover_aligned(request: &Request, near: Option<f64>, progress: &dyn Fn(
 }
 
 /// The model with the effects that the aligned runs ask for, free; the delay they ask for goes into the clocks.
-fn with_effects(request: &Request, model: &Model, first: &[Aligned], progress: &dyn Fn(&str)) -> Result<Model> {
+fn with_effects(request: &Request, model: &Model, first: &[Aligned], progress: &OnProgress) -> Result<Model> {
     let runs: Vec<Run> = first.iter().map(|a| a.run.clone()).collect();
     let request = Request { runs: &runs, held_out: &[], ..*request };
     // Three quarters of the rows are enough to choose by.
@@ -82,8 +86,7 @@ fn with_effects(request: &Request, model: &Model, first: &[Aligned], progress: &
 }
 
 /// A run aligned again, beside effects.
-fn beside(a: &Aligned, request: &Request, model: &Model, progress: &dyn Fn(&str)) -> Result<Aligned> {
-    progress("aligning the clocks beside what was chosen");
+fn beside(a: &Aligned, request: &Request, model: &Model) -> Result<Aligned> {
     let original = request.runs.iter().find(|r| r.path == a.run.path).unwrap_or(&a.run);
     let fitted = refined(&original.until(a.until), model, request.file, a.fitted.clock)?;
     let Some(fitted) = fitted else { return Ok(a.clone()) };

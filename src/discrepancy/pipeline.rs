@@ -5,6 +5,7 @@ use super::diagnosis::before_after::{ModelComparison, grown, too_long};
 use super::diagnosis::equivalents::{EquivalentEffect, measured, relatives};
 use super::diagnosis::findings::{covariance, named, without_name};
 use super::diagnosis::held_out::{Judge, refuted};
+use super::diagnosis::reason::Reason;
 use super::diagnosis::rest::rest;
 use super::diagnosis::verdict::{self, Outcome};
 use super::diagnosis::warning::Warning;
@@ -28,6 +29,7 @@ use super::selection::select::choose;
 use crate::error::Result;
 use crate::model::Model;
 use crate::model::effect_equation;
+use crate::progress::{OnProgress, Stage, begin};
 
 /// Finds where a model and measured runs disagree, names the missing effect and shows the gap shrink.
 ///
@@ -35,12 +37,12 @@ use crate::model::effect_equation;
 ///
 /// # Errors
 /// When runs log different inputs, or the model file's effects do not apply to its vehicle.
-pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery> {
+pub fn discover(request: &Request, progress: &OnProgress) -> Result<Discovery> {
     discover_by_clocks(request, Clocks::default(), progress)
 }
 
 /// As [`discover`], of runs whose clocks were aligned before.
-pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &dyn Fn(&str)) -> Result<Discovery> {
+pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &OnProgress) -> Result<Discovery> {
     let roles = common_roles(request.runs, request.held_out)?;
     let model = Model::from_file(request.file, request.library, &roles)?;
     if let Some(slip) = unit_errors::too_sparse(&model, request.runs.iter().chain(request.held_out))? {
@@ -58,11 +60,11 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &d
         let paths = data.fitted.iter().map(|r| figure_data::measured_path(r, false)).collect();
         return Ok(early(request, &data, clocks, paths, verdict::undefined_motion()));
     };
-    progress("opening the held-out data");
+    begin(progress, Stage::HeldOut)?;
     let horizons = horizons(request);
     let judge =
         Judge { records: &data.held_out, horizons: &horizons, noise: selected.after.noise(), seed: request.seed };
-    let selected = refute(&problem, request.library, selected, &|with, without| judge.growth(with, without))?;
+    let selected = refute(&problem, request.library, selected, &judge, progress)?;
     let noise = selected.after.noise();
     let before = problem.violations(&model, &noise)?;
     let after = problem.violations(&selected.after.model, &noise)?;
@@ -88,15 +90,18 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &d
     }
     let steps = |run| if remains { coarse_inputs(&model, run) } else { vec![] };
     let coarse: Vec<CoarseInput> = request.runs.iter().flat_map(steps).collect();
+    begin(progress, Stage::Experiment)?;
     let next = next(&problem, &selected, &relatives, &outcome, coarse.first())?;
     warnings.extend(coarse.into_iter().map(Warning::CoarseInput));
+    // What is random and all that is left has been said.
+    let is_noise = matches!(outcome.reason, Some(Reason::RandomRest(_)));
     let found = Findings {
         reason: outcome.reason,
         next,
         effects,
         unnamed,
         disagreement: driving_regimes::disagreements(&before),
-        rest: rest(&selected.after, &after, &gap).filter(|_| usable),
+        rest: rest(&selected.after, &after, &gap).filter(|_| usable && !is_noise),
         covariance: covariance(&selected.after).filter(|_| usable),
         refused: selected.refused.iter().filter(|_| usable).cloned().collect(),
         remaining: Some(remaining(&selected.after, data.fitted[0].has_heading, &after)),

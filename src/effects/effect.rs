@@ -7,6 +7,12 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Something a vehicle really does that its model leaves out.
+///
+/// ```
+/// use creepage::effects::{self, Effect};
+/// let creep: &Effect = effects::named("rotation-creep").unwrap();
+/// assert!(creep.parameters.contains_key("e_rc") && creep.states.is_empty());
+/// ```
 #[derive(Clone, Debug, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Effect {
@@ -49,6 +55,12 @@ pub struct Effect {
 }
 
 /// A parameter of an effect.
+///
+/// ```
+/// use creepage::effects;
+/// let creep = &effects::named("rotation-creep").unwrap().parameters["e_rc"];
+/// assert!(creep.admits(creep.size) && !creep.admits(f64::INFINITY));
+/// ```
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Parameter {
@@ -70,6 +82,12 @@ pub struct Parameter {
 }
 
 /// A state that an effect adds.
+///
+/// ```
+/// use creepage::effects::{self, State};
+/// let states: Vec<&State> = effects::all().iter().flat_map(|effect| effect.states.values()).collect();
+/// assert!(states.iter().all(|state| !state.unit.is_empty()));
+/// ```
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct State {

@@ -47,6 +47,10 @@ pub fn with(own: &[Effect]) -> Vec<Effect> {
 }
 
 /// The effect of that id.
+///
+/// ```
+/// assert!(creepage::effects::named("rotation-creep").is_some_and(|e| e.basic));
+/// ```
 pub fn named(id: &str) -> Option<&'static Effect> {
     all().iter().find(|e| e.id == id)
 }

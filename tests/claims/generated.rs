@@ -7,7 +7,6 @@ use creepage::claims::generated::{
 use creepage::claims::written;
 use creepage::formula::{BigRational, Exact, Fun, Scalar, Symbol};
 use creepage::mechanism::{Constraint, Mechanism, Point};
-use num_traits::Zero;
 use proptest::prelude::*;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};

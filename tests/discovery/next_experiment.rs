@@ -14,6 +14,7 @@ use creepage::effects::{self, Applied};
 use creepage::files::{ModelFile, Run};
 use creepage::model::Model;
 use creepage::motion::{Integrator, Signals, Timing, simulate_model};
+use creepage::progress::unheard;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
@@ -94,7 +95,7 @@ impl Setting {
     fn report(&self, runs: &[Run]) -> Report {
         let request =
             Request { file: &self.file, runs, held_out: &[], library: effects::all(), horizons: &[1.0], seed: 1 };
-        discover(&request, &|_| ()).unwrap().report
+        discover(&request, &unheard).unwrap().report
     }
 
     /// The advised manoeuvre, driven by the true model.

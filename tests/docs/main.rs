@@ -6,6 +6,7 @@ mod documents;
 mod fences;
 mod groups;
 mod links;
+mod public_names;
 mod sandbox;
 mod sentences;
 

@@ -15,6 +15,7 @@ use crate::error::Result;
 use crate::files::Clock;
 use crate::files::{ModelFile, Run};
 use crate::model::Model;
+use crate::progress::{Counter, OnProgress, Stage};
 use rayon::prelude::*;
 
 /// Grid of the poses' motion, s.
@@ -76,8 +77,15 @@ pub(crate) fn aligned(
     request: &Request,
     model: &Model,
     near: Option<f64>,
+    progress: &OnProgress,
 ) -> Result<std::result::Result<Vec<Aligned>, Outcome>> {
-    runs.par_iter().map(|run| aligned_one(run, share, request, model, near)).collect()
+    let counter = Counter::begin(progress, Stage::ClockAlignment, runs.len())?;
+    let one = |run: &Run| {
+        let found = aligned_one(run, share, request, model, near)?;
+        counter.one().map(|()| found)
+    };
+    let all: Vec<std::result::Result<Aligned, Outcome>> = runs.par_iter().map(one).collect::<Result<_>>()?;
+    Ok(all.into_iter().collect())
 }
 
 fn aligned_one(

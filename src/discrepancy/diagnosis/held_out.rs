@@ -5,12 +5,12 @@ use super::warning::Warning;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::record::sensor_noise::Noise;
 use crate::discrepancy::selection::choice::{Growth, Refusal, Selected};
+use crate::discrepancy::selection::refute::HeldOut;
+use crate::discrepancy::shooting::rollout::PredictionError;
 use crate::error::Result;
 use crate::model::Model;
 
-/// A gap that is so many times as large with what was found, and as the noise floor, has grown.
-const GREW: f64 = 1.25;
-/// A growth over so few windows is chance.
+/// Windows of a horizon at least: what fewer show is chance.
 const FEWEST: usize = 2;
 
 /// What the report warns of first: the effects that held-out runs do not bear out.
@@ -27,25 +27,19 @@ pub(crate) struct Judge<'a> {
     pub seed: u64,
 }
 
-impl Judge<'_> {
-    /// The held-out gap that grows most with the first of two models in the place of the second: of the position or of
-    /// the heading, beyond the noise floor.
-    pub fn growth(&self, with: &Model, without: &Model) -> Result<Option<Growth>> {
+impl HeldOut for Judge<'_> {
+    fn gaps(&self, with: &Model, without: &Model) -> Result<Vec<Growth>> {
         let [with, without] = [Rollouts::new(with, self.records)?, Rollouts::new(without, self.records)?];
-        let mut worst: Option<Growth> = None;
+        let mut found = vec![];
         for &horizon_s in self.horizons.iter().filter(|h| with.windows(**h) >= FEWEST) {
-            let [after, before] = [with.errors(horizon_s), without.errors(horizon_s)];
             let floor = with.floors(&[horizon_s], &self.noise, self.seed)[0];
-            let position = [before.position_rms(), after.position_rms(), floor.position_rms()];
-            let heading = [&before, &after, &floor].map(|e| e.heading_rms().unwrap_or(0.0));
-            for (of_heading, [before, after, floor]) in [(false, position), (true, heading)] {
-                let growth = Growth { horizon_s, of_heading, gap: [before, after] };
-                let grew = after > GREW * before && after > GREW * floor;
-                if grew && worst.is_none_or(|w| growth.factor() > w.factor()) {
-                    worst = Some(growth);
-                }
+            let errors = [without.errors(horizon_s), with.errors(horizon_s), floor];
+            let [before, after, floor] = errors.each_ref().map(PredictionError::position_rms);
+            found.push(Growth { horizon_s, of_heading: false, gap: [before, after], floor });
+            if let [Some(before), Some(after), Some(floor)] = errors.each_ref().map(PredictionError::heading_rms) {
+                found.push(Growth { horizon_s, of_heading: true, gap: [before, after], floor });
             }
         }
-        Ok(worst)
+        Ok(found)
     }
 }

@@ -1,10 +1,10 @@
 //! What remains above the noise floor, whatever is named.
 
-use super::verdict::{disagrees, random};
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::unexplained;
 use crate::discrepancy::localisation::constraint_residuals::{CONSTRAINTS, ConstraintResiduals};
 use crate::discrepancy::localisation::driving_regimes::{DrivingRegime, Stretch, disagreements};
+use crate::discrepancy::localisation::unexplained_motion::disagrees;
 use crate::discrepancy::report::{Gap, judged, judged_alike};
 
 /// A gap beyond so many floors is not the noise.
@@ -24,7 +24,7 @@ pub struct Rest {
 /// What a model leaves; `None` at the floor.
 pub(crate) fn rest(fit: &Fit, after: &[ConstraintResiduals], gaps: &[Gap]) -> Option<Rest> {
     let ratio = largest_ratio(gaps)?;
-    let exceeds = ratio > ABOVE && unexplained::remains(fit) && random(fit, after).is_none();
+    let exceeds = ratio > ABOVE && unexplained::remains(fit);
     if !exceeds && !disagrees(fit, after) {
         return None;
     }

@@ -8,7 +8,7 @@ use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::estimation::unexplained;
 use crate::discrepancy::localisation::clock_drift::Drift;
 use crate::discrepancy::localisation::constraint_residuals::{CONSTRAINTS, ConstraintResiduals};
-use crate::discrepancy::localisation::whiteness::is_white;
+use crate::discrepancy::localisation::unexplained_motion::{disagrees, is_random, visible};
 use crate::discrepancy::preprocessing::unit_errors::{self, Slip};
 use crate::discrepancy::report::Verdict;
 use crate::discrepancy::selection::choice::Selected;
@@ -45,9 +45,6 @@ const OUT_OF_NOISE: f64 = 5.0;
 
 /// A vehicle that turns less says nothing of how its model turns, rad/s, root mean square.
 const TURNING: f64 = 0.1;
-
-/// A violation this many times as large as what noise makes of none is seen without statistics.
-const VISIBLE: f64 = 2.0;
 
 /// A slip angle beyond creep, rad.
 const SLIP_ANGLE: f64 = 0.35;
@@ -168,15 +165,9 @@ fn fitted(choice: &Selected, after: &[ConstraintResiduals], clocks: &[Drift]) ->
     }
 }
 
-/// What a model leaves where it stands out of the noise and all of it is random from window to window.
-pub(crate) fn random(fit: &Fit, after: &[ConstraintResiduals]) -> Option<Reason> {
-    let visible: Vec<usize> = unexplained::remaining(fit).filter(|c| is_visible(after, *c)).collect();
-    let is_random = !visible.is_empty() && visible.iter().all(|c| is_white(after, *c));
-    is_random.then(|| Reason::RandomRest(visible.into_iter().map(|c| CONSTRAINTS[c].0).collect()))
-}
-
-fn is_visible(after: &[ConstraintResiduals], c: usize) -> bool {
-    ConstraintResiduals::rms(after, c).is_some_and(|(rms, noise)| rms > VISIBLE * noise)
+/// The reason where what a model leaves is random.
+fn random(fit: &Fit, after: &[ConstraintResiduals]) -> Option<Reason> {
+    is_random(fit, after).then(|| Reason::RandomRest(visible(fit, after).map(|c| CONSTRAINTS[c].0).collect()))
 }
 
 /// What a model leaves beyond chance without standing out of the noise to the eye; `None` where it leaves nothing.
@@ -190,11 +181,6 @@ pub(crate) fn restated(choice: &Selected) -> Vec<Warning> {
     let asked = choice.chosen.iter().map(|c| &c.applied);
     let old = |new| find(&choice.before.model, new);
     asked.filter_map(|new| Some(Warning::Restated { old: old(new)?, new: new.clone() })).collect()
-}
-
-/// Whether what a fit leaves of a constraint is more than chance, stands out of the noise to the eye and is not random.
-pub(crate) fn disagrees(fit: &Fit, after: &[ConstraintResiduals]) -> bool {
-    unexplained::remaining(fit).any(|c| is_visible(after, c) && !is_white(after, c))
 }
 
 /// A model that misses most of the motion or of the turning, whatever is added to it, and the share that it misses.

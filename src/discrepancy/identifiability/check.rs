@@ -24,6 +24,7 @@ use crate::effects::Effect;
 use crate::error::Result;
 use crate::files::{ModelFile, Run};
 use crate::model::Model;
+use crate::progress::{Counter, OnProgress, Stage, begin};
 use rayon::prelude::*;
 
 /// What `check` works on.
@@ -61,10 +62,10 @@ pub(crate) enum Grounds {
 ///
 /// # Errors
 /// When runs log different inputs, or the model file's effects do not apply to its vehicle.
-pub(crate) fn assess(of: &Checked, progress: &dyn Fn(&str)) -> Result<Assessment> {
+pub(crate) fn assess(of: &Checked, progress: &OnProgress) -> Result<Assessment> {
     let roles = common_roles(of.runs, &[])?;
     let model = Model::from_file(of.file, of.library, &roles)?;
-    progress("looking at the rows");
+    begin(progress, Stage::Rows)?;
     let sparse = too_sparse(&model, of.runs)?;
     let record = |r: &Run| {
         let record = Record::of_run(r, of.file.input_timing, model.trailer_count());
@@ -80,14 +81,14 @@ pub(crate) fn assess(of: &Checked, progress: &dyn Fn(&str)) -> Result<Assessment
     if let Some(outcome) = verdict::before_fitting(&problem, &model)? {
         return Ok(without_fit(data, findings, outcome));
     }
-    progress("fitting the model as it is");
+    begin(progress, Stage::ModelFit)?;
     let starts = problem.starts(&model)?;
     let fit = problem.fit(&model, &starts, &problem.variances, Effort::FULL)?;
     let Some(fit) = fit else { return Ok(without_fit(data, findings, verdict::undefined_motion())) };
     let data = data.with_fit(&problem.variances.measurement, &fit, problem.records[0].has_heading);
     findings.extend(of_fit(&fit));
-    progress("weighing what each effect would leave in these runs");
     let all = candidates(&model, of.library);
+    let counter = Counter::begin(progress, Stage::Detection, all.len())?;
     let calm = (0..4).fold(fit.variances, |v, c| without_jump(v, c, 0.0));
     let variances = [calm, fit.variances];
     let variance_inflation = [fit.noise_correlation_time, fit.variance_inflation()];
@@ -99,7 +100,10 @@ pub(crate) fn assess(of: &Checked, progress: &dyn Fn(&str)) -> Result<Assessment
         Driven { records: problem.records.clone(), plan: problem.plan.clone(), starts: fit.window_states.clone() };
     let table = Table::of(&model, &driven, &all, &groups(&all), &variances, variance_inflation)?;
     let ground = Background { calm, free: problem.free, alike: fit.noise_correlation_time };
-    let shown = |c: &Candidate| ExpectedDetection::of(&model, &driven, c, &bar, &ground);
+    let shown = |c: &Candidate| {
+        let shown = ExpectedDetection::of(&model, &driven, c, &bar, &ground)?;
+        counter.one().map(|()| shown)
+    };
     let shown: Vec<ExpectedDetection> = all.par_iter().map(shown).collect::<Result<_>>()?;
     // Of an effect that is looked at in several directions the one that shows least.
     let weakest = |i: &usize| {
@@ -114,7 +118,7 @@ pub(crate) fn assess(of: &Checked, progress: &dyn Fn(&str)) -> Result<Assessment
     let seen = of_kind(&|s| s != Seen::No);
     let told = |a: usize, b: usize| told_apart(&model, &driven, &all, a, b, &ground);
     let pairs = unseparated(&model, &table, &all, &seen, measured(&problem.records[0]), &told)?;
-    progress("thinking manoeuvres through");
+    begin(progress, Stage::Experiment)?;
     let open = Open {
         missed: of_kind(&|s| s == Seen::No),
         pairs: pairs.iter().filter(|u| u.pair.why == "data").map(|u| (u.candidates, u.pair.misfit)).collect(),

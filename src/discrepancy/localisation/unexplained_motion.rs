@@ -1,7 +1,9 @@
 //! What the last model leaves: constraint by constraint, against the noise, and whether it is white.
 
 use super::constraint_residuals::{CONSTRAINTS, ConstraintResiduals};
+use super::whiteness::is_white;
 use crate::discrepancy::estimation::fit::Fit;
+use crate::discrepancy::estimation::unexplained;
 use crate::discrepancy::evidence::wald_test::tail;
 use crate::discrepancy::report::{Remaining, RemainingConstraint};
 
@@ -30,6 +32,25 @@ pub fn remaining(fit: &Fit, has_heading: bool, after: &[ConstraintResiduals]) ->
         windows_alike: fit.residual_correlation_time,
         constraints: constraints.collect(),
     }
+}
+
+/// A violation this many times as large as what noise makes of none is seen without statistics.
+const VISIBLE: f64 = 2.0;
+
+/// The constraints at which a fit leaves more than chance does, and as much as stands out of the noise to the eye.
+pub(crate) fn visible(fit: &Fit, after: &[ConstraintResiduals]) -> impl Iterator<Item = usize> {
+    let stands_out = |c: &usize| ConstraintResiduals::rms(after, *c).is_some_and(|(rms, noise)| rms > VISIBLE * noise);
+    unexplained::remaining(fit).filter(stands_out)
+}
+
+/// Whether what a fit leaves stands out of the noise, and is not random.
+pub(crate) fn disagrees(fit: &Fit, after: &[ConstraintResiduals]) -> bool {
+    visible(fit, after).any(|c| !is_white(after, c))
+}
+
+/// Whether what a fit leaves stands out of the noise, and all of it is random.
+pub(crate) fn is_random(fit: &Fit, after: &[ConstraintResiduals]) -> bool {
+    visible(fit, after).next().is_some() && !disagrees(fit, after)
 }
 
 #[cfg(test)]

@@ -33,7 +33,9 @@ pub fn says(refused: &Refused, roles: &[String]) -> String {
             let place = place(*regime, roles);
             format!("{label} is {there} {place} and {elsewhere} elsewhere, so that is not named")
         }
-        Refusal::Immaterial => format!("{label} explains little beside what remains, so that is not named"),
+        Refusal::NotShown => {
+            format!("beside what remains held-out runs are predicted no better with {label}, so that is not named")
+        }
         Refusal::InputNoise => {
             format!("the steps or the noise of the inputs alone make such a {label}, so that is not named")
         }
@@ -68,7 +70,7 @@ mod tests {
 
     #[test]
     fn every_reason_names_its_effect() {
-        let growth = Growth { horizon_s: 5.0, of_heading: true, gap: [0.01, 0.05] };
+        let growth = Growth { horizon_s: 5.0, of_heading: true, gap: [0.01, 0.05], floor: 0.01 };
         assert_eq!(
             said(Refusal::HeldOut(growth)),
             "held-out runs refute traverse-creep: their heading gap after 5 s grows with it from 0.0100 to 0.0500 rad"
@@ -78,7 +80,7 @@ mod tests {
             "traverse-creep is −0.020 at large wheel_rate and 0.10 elsewhere, so that is not named"
         );
         let reasons = [Refusal::Impossible, Refusal::NoDeviation, Refusal::BelowBar, Refusal::LeansOnLaw];
-        let others = [Refusal::InputNoise, Refusal::Immaterial, Refusal::Ridge(applied("lever-arm"))];
+        let others = [Refusal::InputNoise, Refusal::NotShown, Refusal::Ridge(applied("lever-arm"))];
         for why in reasons.into_iter().chain(others) {
             let line = said(why);
             assert!(line.contains("traverse-creep") && line.ends_with("is not named"), "{line}");

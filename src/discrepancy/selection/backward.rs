@@ -78,8 +78,12 @@ impl Search<'_> {
             return Ok(vec![]);
         };
         let lost = bare.deviance - fit.deviance;
-        let found =
-            self.screen(&Fit { variances: fit.variances, ..bare.clone() }, &smaller, bare.deviance, 0.3 * lost)?;
+        let found = self.screen(
+            &Fit { variances: fit.variances, ..bare.clone() },
+            &smaller,
+            [bare.deviance, 0.3 * lost],
+            None,
+        )?;
         let fitted = found.single.into_iter().filter_map(|(p, fit)| Some((p.applied, fit?)));
         let possible = |a: &Applied, f: &Fit| find(&f.model, a).is_some_and(|a| is_possible(&a));
         Ok(fitted.filter(|(a, f)| !a.same_as(effect) && possible(a, f)).collect())

@@ -41,15 +41,15 @@ pub enum Refusal {
         /// Its values elsewhere and there.
         values: [f64; 2],
     },
-    /// It explains little beside what remains.
-    Immaterial,
+    /// Motion remains, and no held-out gap is smaller for it.
+    NotShown,
     /// The noise of the inputs makes as much of nothing.
     InputNoise,
     /// Held-out runs are predicted worse with it.
     HeldOut(Growth),
 }
 
-/// A held-out gap that grows.
+/// How a held-out gap grows, or shrinks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Growth {
     /// After so many seconds.
@@ -58,12 +58,29 @@ pub struct Growth {
     pub of_heading: bool,
     /// Without and with what was found.
     pub gap: [f64; 2],
+    /// What noise alone makes of it.
+    pub floor: f64,
 }
+
+/// A gap that is so many times as large as another, and as the noise floor, has grown.
+const GREW: f64 = 1.25;
+/// A gap of so large a share of another one is as good as the same.
+const SAME: f64 = 0.9;
 
 impl Growth {
     /// By how much it grows.
     pub fn factor(&self) -> f64 {
         self.gap[1] / self.gap[0].max(f64::MIN_POSITIVE)
+    }
+
+    /// Whether it grows, beyond the noise floor.
+    pub fn is_real(&self) -> bool {
+        self.factor() > GREW && self.gap[1] > GREW * self.floor
+    }
+
+    /// Whether it shrinks.
+    pub fn shrinks(&self) -> bool {
+        self.factor() < SAME
     }
 }
 

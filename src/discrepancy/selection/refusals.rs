@@ -3,24 +3,20 @@
 use super::input_noise;
 use super::search::{Search, SearchState, find};
 use super::select::forget;
-use crate::discrepancy::diagnosis::verdict::disagrees;
 use crate::discrepancy::estimation::bounds::is_possible;
 use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::evidence::jackknife::Jackknife;
 use crate::discrepancy::evidence::wald_test::neutral_at_zero;
-use crate::discrepancy::localisation::constraint_residuals::{CONSTRAINTS, reduction};
 use crate::discrepancy::selection::choice::{Refusal, Refused, SelectedEffect};
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::effect_equation::is_term;
+use crate::progress::OnProgress;
 
 /// Two effects whose values are correlated by this much and more are one effect, or none.
 const RIDGE: f64 = 0.97;
 /// A value that moves by so large a share of itself when a law without a name is taken out leans on it.
 const LEANS: f64 = 0.5;
-
-/// Least share of what is violated, at any constraint, that a name must remove where a rest stands out of the noise.
-const MATERIAL: f64 = 0.1;
 
 /// What the selection ends with: the effects that stand, and those that do not.
 pub(crate) struct Standing {
@@ -37,10 +33,11 @@ impl Search<'_> {
         grown: &mut SearchState,
         mut scatter: Option<&Jackknife>,
         mut missed: Vec<f64>,
+        progress: &OnProgress,
     ) -> Result<Standing> {
         let mut refused: Vec<Refused> = vec![];
         loop {
-            let chosen = self.examined(&grown.fit, scatter, &missed)?;
+            let chosen = self.examined(&grown.fit, scatter, &missed, progress)?;
             let Some((applied, why)) = self.fallen(&grown.fit, &chosen)? else {
                 return Ok(Standing { chosen, refused });
             };
@@ -64,9 +61,6 @@ impl Search<'_> {
         }
         if let Some(fallen) = self.changing(fit)? {
             return Ok(Some(fallen));
-        }
-        if let Some(applied) = self.immaterial(fit, chosen)? {
-            return Ok(Some((applied, Refusal::Immaterial)));
         }
         Ok(input_noise::made_up(self, fit)?.map(|applied| (applied, Refusal::InputNoise)))
     }
@@ -100,29 +94,6 @@ impl Search<'_> {
         let real = names.flat_map(|(a, each)| each.into_iter().filter(|d| d.is_real()).map(move |d| (a.clone(), d)));
         let worst = real.max_by(|a, b| a.1.chi_squared.total_cmp(&b.1.chi_squared));
         Ok(worst.map(|(a, d)| (a, Refusal::Regime { regime: d.regime, values: d.values })))
-    }
-
-    /// The name that removes the least of what is violated, where much remains: too little beside what has no name.
-    fn immaterial(&self, fit: &Fit, chosen: &[SelectedEffect]) -> Result<Option<Applied>> {
-        let noise = fit.noise();
-        let left = self.problem.violations(&fit.model, &noise)?;
-        if !disagrees(fit, &left) {
-            return Ok(None);
-        }
-        let mut least: Option<(f64, &Applied)> = None;
-        for c in chosen.iter().filter(|c| !is_term(&c.applied)) {
-            let Some(smaller) = self.without(fit, &c.applied)? else { continue };
-            let more = self.problem.violations(&smaller.model, &noise)?;
-            let share = CONSTRAINTS.iter().map(|(place, _)| reduction(place, &more, &left)).fold(0.0, f64::max);
-            if std::env::var_os("NAMES_DEBUG").is_some() {
-                let all: Vec<f64> = CONSTRAINTS.iter().map(|(place, _)| reduction(place, &more, &left)).collect();
-                eprintln!("DBG share {} {all:.3?}", c.applied.label());
-            }
-            if share < MATERIAL && least.is_none_or(|(l, _)| share < l) {
-                least = Some((share, &c.applied));
-            }
-        }
-        Ok(least.map(|(_, a)| a.clone()))
     }
 
     /// The name that moves most when the laws without a name are taken out.

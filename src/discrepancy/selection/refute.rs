@@ -4,31 +4,40 @@ use super::search::{MOST, Search, SearchState};
 use super::transients;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
+use crate::discrepancy::localisation::unexplained_motion::visible;
 use crate::discrepancy::selection::choice::{Growth, Refusal, Refused, Selected, SelectedEffect};
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::Model;
+use crate::model::effect_equation::is_term;
+use crate::progress::OnProgress;
 
-/// By how much a held-out gap grows with the first of two models in the place of the second.
-type Grows<'g> = &'g dyn Fn(&Model, &Model) -> Result<Option<Growth>>;
+/// Held-out runs.
+pub(crate) trait HeldOut {
+    /// The gaps of position and heading with the first of two models in the place of the second.
+    fn gaps(&self, with: &Model, without: &Model) -> Result<Vec<Growth>>;
+}
 
-/// Takes out of a choice what held-out runs are predicted worse with: an effect beside all others, or what was found
-/// as a whole.
-///
-/// `grows` says by how much a held-out gap grows with the first of two models in the place of the second.
-pub(crate) fn refute(problem: &Problem, library: &[Effect], choice: Selected, grows: Grows) -> Result<Selected> {
+/// Takes out of a choice what held-out runs are predicted worse with, an effect beside all others or what was found as a
+/// whole; and, where motion remains that has no name, the names with which they are predicted no better.
+pub(crate) fn refute(
+    problem: &Problem,
+    library: &[Effect],
+    choice: Selected,
+    held_out: &dyn HeldOut,
+    progress: &OnProgress,
+) -> Result<Selected> {
     let Selected { before, after, mut chosen, steps, candidates, inconsistent, sampling_sensitive, mut refused } =
         choice;
     let quick = transients::without_transients(library);
     let size = before.model.applicable(&quick).len().max(1) as f64;
-    let selection =
-        Search { problem, before: &before, library: &quick, size, most: MOST, exchanges: true, drops: true };
+    let search = Search { problem, before: &before, library: &quick, size, most: MOST, exchanges: true, drops: true };
     let mut grown = SearchState { fit: after, steps, candidates, refused: vec![] };
-    while let Some((applied, growth, smaller)) = refuted(&selection, &grown.fit, &chosen, grows)? {
+    while let Some((applied, why, smaller)) = next(&search, &grown.fit, &chosen, held_out)? {
         grown.go_back_to(smaller);
-        refused.push(Refused::of(&chosen, applied, Refusal::HeldOut(growth)));
+        refused.push(Refused::of(&chosen, applied, why));
         // What is left of the others stands or falls anew.
-        let standing = selection.keep_standing(&mut grown, None, vec![])?;
+        let standing = search.keep_standing(&mut grown, None, vec![], progress)?;
         chosen = standing.chosen;
         refused.extend(standing.refused);
     }
@@ -36,26 +45,52 @@ pub(crate) fn refute(problem: &Problem, library: &[Effect], choice: Selected, gr
     Ok(Selected { before, after, chosen, steps, candidates, inconsistent, sampling_sensitive, refused })
 }
 
-/// The effect with which a held-out gap grows most, and the fit without it; where only all together make it grow, the one
-/// that is worth least.
-fn refuted(
-    selection: &Search,
+/// The next effect to be taken out, why, and the fit without it.
+fn next(
+    search: &Search,
     fit: &Fit,
     chosen: &[SelectedEffect],
-    grows: Grows,
-) -> Result<Option<(Applied, Growth, Fit)>> {
-    let mut worst: Option<(Applied, Growth, Fit)> = None;
+    held_out: &dyn HeldOut,
+) -> Result<Option<(Applied, Refusal, Fit)>> {
+    let mut worst: Option<(f64, Applied, Refusal, Fit)> = None;
+    let left = search.problem.violations(&fit.model, &fit.noise())?;
+    let rest = visible(fit, &left).next().is_some();
     for c in chosen {
-        let Some(smaller) = selection.without(fit, &c.applied)? else { continue };
-        let Some(growth) = grows(&fit.model, &smaller.model)? else { continue };
-        if worst.as_ref().is_none_or(|(_, w, _)| growth.factor() > w.factor()) {
-            worst = Some((c.applied.clone(), growth, smaller));
+        let Some(smaller) = search.without(fit, &c.applied)? else { continue };
+        let gaps = held_out.gaps(&fit.model, &smaller.model)?;
+        let unseen = rest && !is_term(&c.applied) && !gaps.is_empty() && !gaps.iter().any(Growth::shrinks);
+        let refusal = most_grown(&gaps).map(|g| (g.factor(), Refusal::HeldOut(g)));
+        let Some((factor, why)) = refusal.or(unseen.then_some((1.0, Refusal::NotShown))) else { continue };
+        if worst.as_ref().is_none_or(|(f, ..)| factor > *f) {
+            worst = Some((factor, c.applied.clone(), why, smaller));
         }
     }
-    let least = chosen.iter().min_by(|a, b| a.delta_bic.total_cmp(&b.delta_bic));
-    if let (None, Some(least), Some(growth)) = (&worst, least, grows(&fit.model, &selection.before.model)?) {
-        let smaller = selection.without(fit, &least.applied)?;
-        worst = smaller.map(|smaller| (least.applied.clone(), growth, smaller));
+    if let Some((_, applied, why, smaller)) = worst {
+        return Ok(Some((applied, why, smaller)));
     }
-    Ok(worst)
+    // Where only all together make it grow, the one that is worth least goes.
+    let least = chosen.iter().min_by(|a, b| a.delta_bic.total_cmp(&b.delta_bic));
+    let Some(least) = least else { return Ok(None) };
+    let Some(growth) = most_grown(&held_out.gaps(&fit.model, &search.before.model)?) else { return Ok(None) };
+    let smaller = search.without(fit, &least.applied)?;
+    Ok(smaller.map(|smaller| (least.applied.clone(), Refusal::HeldOut(growth), smaller)))
+}
+
+/// The gap that grows most, of those that do.
+fn most_grown(gaps: &[Growth]) -> Option<Growth> {
+    gaps.iter().filter(|g| g.is_real()).max_by(|a, b| a.factor().total_cmp(&b.factor())).copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_gap_grows_beyond_its_floor_and_the_largest_counts() {
+        let gap = |gap: [f64; 2], floor: f64| Growth { horizon_s: 1.0, of_heading: false, gap, floor };
+        assert_eq!(most_grown(&[gap([0.1, 0.12], 0.01), gap([0.01, 0.02], 0.02)]), None);
+        let most = most_grown(&[gap([0.1, 0.2], 0.01), gap([0.1, 0.3], 0.01), gap([0.1, 0.05], 0.01)]).unwrap();
+        assert!((most.factor() - 3.0).abs() < 1e-12);
+        assert!(gap([0.1, 0.08], 0.01).shrinks() && !gap([0.1, 0.095], 0.01).shrinks());
+    }
 }

@@ -1,9 +1,9 @@
 //! The stages of the crate in their order, and the stage of a file.
 
 /// The stages in their order, folders and files below `src`. Stages of one line are level: none of them imports another.
-const STAGES: [&[&str]; 46] = [
+const STAGES: [&[&str]; 47] = [
     &["error"],
-    &["provenance", "wording", "number_format"],
+    &["provenance", "wording", "number_format", "progress"],
     &["formula"],
     &["mechanism"],
     &["vehicles"],
@@ -44,6 +44,7 @@ const STAGES: [&[&str]; 46] = [
     &["discrepancy"],
     &["figures"],
     &["theory"],
+    &["report"],
     &["front_door"],
     &["lib"],
     &["command"],

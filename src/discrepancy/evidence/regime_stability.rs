@@ -174,7 +174,7 @@ fn widened(window: &LinearisedWindow, p: usize, own: Range<usize>, inside: bool)
 mod tests {
     use super::*;
     use crate::discrepancy::estimation::fit::Effort;
-    use crate::discrepancy::fixtures::{applied, equations, logged, unicycle};
+    use crate::discrepancy::fixtures::{equations, logged, unicycle};
 
     #[test]
     fn windows_are_told_by_their_inputs() {
@@ -197,13 +197,13 @@ mod tests {
             let mut off = [0.0; 2];
             for i in 1..record.time.len() {
                 let (v, heading) = (0.5 * speed(record.time[i]), record.columns[2][i]);
-                let across = 0.05 * law * (v - 1.0) * v;
+                let across = 0.05 * 0.05 * law * (v - 1.0) * v;
                 off = [off[0] - across * heading.sin(), off[1] + across * heading.cos()];
                 record.columns[0][i] += off[0];
                 record.columns[1][i] += off[1];
             }
             let problem = Problem::new(vec![record], None, None);
-            let model = unicycle(&[]).with_effect(applied("traverse-creep").freed());
+            let model = unicycle(&[("traverse-creep", &[0.01])]);
             let starts = problem.starts(&model).unwrap();
             let fit = problem.fit(&model, &starts, &problem.variances, Effort::FULL).unwrap().unwrap();
             let (_, each) = problem.differences(&fit).unwrap().remove(0);

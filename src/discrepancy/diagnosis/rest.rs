@@ -86,9 +86,7 @@ mod tests {
             let fit = Fit { unexplained: [0.0, unexplained, 0.0, 0.0], ..fit_of(unicycle(&[])) };
             rest(&fit, std::slice::from_ref(&missed), &[gap(5.0, [after, 0.01], true)])
         };
-        assert_eq!(
-            (found(0.0, 0.5), found(90.0, 0.5).map(|r| r.most.place)),
-            (None, Some("traverse constraint".into()))
-        );
+        let place = |unexplained| found(unexplained, 0.5).map(|r| r.most.place);
+        assert_eq!((place(0.0), place(90.0)), (None, Some("traverse constraint")));
     }
 }

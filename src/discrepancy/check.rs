@@ -57,7 +57,7 @@ pub fn check_aligned(of: &Checked, near: Option<f64>, progress: &OnProgress) -> 
     let library: Vec<Effect> = library.iter().filter(|e| e.id != DELAY).cloned().collect();
     let runs: Vec<Run> = by_one.iter().map(|a| a.run.clone()).collect();
     let mut found = assess(&Checked { file, runs: &runs, library: &library }, progress)?;
-    found.findings.extend(by_one.iter().filter_map(Aligned::doubt).chain(delay).map(DataFinding::Clock));
+    found.findings.extend(by_one.iter().filter_map(Aligned::doubt).chain(delay).map(Box::new).map(DataFinding::Clock));
     Ok(told(found, by_one.iter().map(|a| a.clock(false)).collect()))
 }
 

@@ -18,12 +18,14 @@
 
 mod bodies;
 mod carried;
+mod compilation;
 mod contact;
 mod derive;
 mod description;
 mod file;
 mod forces;
 mod law;
+mod linear_solution;
 mod masses;
 mod observed;
 mod run;

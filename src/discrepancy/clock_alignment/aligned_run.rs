@@ -82,7 +82,8 @@ pub(crate) fn aligned(
     let counter = Counter::begin(progress, Stage::ClockAlignment, runs.len())?;
     let one = |run: &Run| {
         let found = aligned_one(run, share, request, model, near)?;
-        counter.one().map(|()| found)
+        counter.one()?;
+        Ok(found)
     };
     let all: Vec<std::result::Result<Aligned, Outcome>> = runs.par_iter().map(one).collect::<Result<_>>()?;
     Ok(all.into_iter().collect())

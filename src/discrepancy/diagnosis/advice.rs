@@ -29,7 +29,7 @@ pub enum Motive {
     /// A disagreement has no name.
     Nameless,
     /// An effect of plausible size would have been missed.
-    Missed(Applied),
+    Missed(Box<Applied>),
 }
 
 /// What mends runs whose parts contradict each other: no manoeuvre can be thought through with a model that is wrong,

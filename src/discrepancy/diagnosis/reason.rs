@@ -28,7 +28,7 @@ pub enum Reason {
         /// Share that is missed.
         share: f64,
         /// A slip that does so.
-        slip: Option<Slip>,
+        slip: Option<Box<Slip>>,
     },
     /// The vehicle slides beyond creep.
     Slides {
@@ -55,7 +55,7 @@ pub enum Reason {
     /// Model and data disagree, and neither an effect nor a law explains it.
     Unexplained,
     /// An effect of plausible size would have been missed.
-    Missed(Applied),
+    Missed(Box<Applied>),
     /// The model leaves less than the noise, more than chance, at these places.
     Trace(Vec<&'static str>),
     /// The model leaves motion at these places that is random from second to second.

@@ -125,7 +125,7 @@ pub fn after_fitting(
 ) -> Result<Outcome> {
     if let Some((motion, share)) = hopeless(after) {
         let slip = unit_errors::suspected(&choice.before.model, &problem.records)?;
-        let reason = Reason::MissesMotion { motion, share, slip };
+        let reason = Reason::MissesMotion { motion, share, slip: slip.map(Box::new) };
         return Ok(Outcome::new(Verdict::UnusableData, reason, None));
     }
     Ok(fitted(choice, after, clocks))
@@ -154,7 +154,7 @@ fn fitted(choice: &Selected, after: &[ConstraintResiduals], clocks: &[Drift]) ->
     }
     match missed(&choice.candidates, choice.before.variance_inflation()) {
         Some(candidate) => {
-            let missed = || candidate.applied.clone();
+            let missed = || Box::new(candidate.applied.clone());
             let next = Advice::VariedDriving(Motive::Missed(missed()));
             Outcome::new(Verdict::NotIdentifiable, Reason::Missed(missed()), Some(next))
         }

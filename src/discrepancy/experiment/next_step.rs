@@ -54,7 +54,7 @@ pub enum NextStep {
 #[derive(Clone, Debug)]
 pub enum Mended {
     /// An effect shows.
-    Shown(Applied),
+    Shown(Box<Applied>),
     /// Two effects are told apart.
-    Separated([Applied; 2]),
+    Separated(Box<[Applied; 2]>),
 }

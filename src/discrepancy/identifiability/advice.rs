@@ -91,8 +91,9 @@ impl Open<'_> {
     /// What a manoeuvre mends by itself.
     fn mended(&self, best: &Tried) -> Vec<Mended> {
         let effect = |c: usize| self.all[c].applied.clone();
-        let shown = self.missed.iter().take(MOST).map(|c| Mended::Shown(effect(*c)));
-        let told = self.pairs.iter().take(MOST).map(|([a, b], _)| Mended::Separated([effect(*a), effect(*b)]));
+        let shown = self.missed.iter().take(MOST).map(|c| Mended::Shown(Box::new(effect(*c))));
+        let told =
+            self.pairs.iter().take(MOST).map(|([a, b], _)| Mended::Separated(Box::new([effect(*a), effect(*b)])));
         let mended = shown.chain(told).zip(&best.shares).filter(|(_, share)| **share >= 1.0);
         mended.map(|(what, _)| what).collect()
     }

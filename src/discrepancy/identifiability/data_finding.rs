@@ -82,7 +82,7 @@ pub enum DataFinding {
     /// The runs hold motion that the model does not explain, most of it of this component.
     UnexplainedMotion(usize),
     /// What a run's clocks leave to know.
-    Clock(Warning),
+    Clock(Box<Warning>),
 }
 
 /// A side of the vehicle.

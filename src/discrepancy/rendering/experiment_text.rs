@@ -95,7 +95,7 @@ fn separating(
 fn mending(mends: &[Mended], manoeuvre: &PlannedManoeuvre) -> NextExperiment {
     let words = |m: &Mended| match m {
         Mended::Shown(effect) => format!("show {}", effect.label()),
-        Mended::Separated([a, b]) => format!("tell {} from {}", a.label(), b.label()),
+        Mended::Separated(pair) => format!("tell {} from {}", pair[0].label(), pair[1].label()),
     };
     let mut names: Vec<String> = mends.iter().map(words).collect();
     names.dedup();

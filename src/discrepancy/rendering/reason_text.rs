@@ -26,7 +26,7 @@ pub fn sentence(reason: &Reason) -> String {
                                     cannot be fitted."
                 .into()
         }
-        Reason::MissesMotion { motion, share, slip } => misses(*motion, *share, slip.as_ref()),
+        Reason::MissesMotion { motion, share, slip } => misses(*motion, *share, slip.as_deref()),
         Reason::Slides { run, span: [from, to], angle } => format!(
             "The vehicle slides: in {run} from {from:.1} to {to:.1} s it moves more than {:.0}° beside where its model \
              points, and creep does not describe that; leave this stretch out.",

@@ -16,7 +16,7 @@ const FEWEST: usize = 2;
 /// What the report warns of first: the effects that held-out runs do not bear out.
 pub(crate) fn refuted(selected: &Selected) -> impl Iterator<Item = Warning> {
     let of = selected.refused.iter().filter(|r| matches!(r.why, Refusal::HeldOut(_)));
-    of.cloned().map(Warning::Refuted)
+    of.cloned().map(|r| Warning::Refuted(Box::new(r)))
 }
 
 /// Held-out runs that judge models.

@@ -45,7 +45,7 @@ pub enum Warning {
         slip: Option<Slip>,
     },
     /// Held-out runs do not bear out an effect.
-    Refuted(Refused),
+    Refuted(Box<Refused>),
     /// The held-out gap grew.
     HeldOutGapGrew {
         /// s

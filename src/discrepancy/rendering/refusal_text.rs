@@ -80,7 +80,7 @@ mod tests {
             "traverse-creep is −0.020 at large wheel_rate and 0.10 elsewhere, so that is not named"
         );
         let reasons = [Refusal::Impossible, Refusal::NoDeviation, Refusal::BelowBar, Refusal::LeansOnLaw];
-        let others = [Refusal::InputNoise, Refusal::NotShown, Refusal::Ridge(applied("lever-arm"))];
+        let others = [Refusal::InputNoise, Refusal::NotShown, Refusal::Ridge(applied("lever-arm").into())];
         for why in reasons.into_iter().chain(others) {
             let line = said(why);
             assert!(line.contains("traverse-creep") && line.ends_with("is not named"), "{line}");

@@ -31,7 +31,7 @@ pub enum Refusal {
     /// It is worth less than it costs.
     BelowBar,
     /// It only pays along a ridge with another.
-    Ridge(Applied),
+    Ridge(Box<Applied>),
     /// It only stands beside a law without a name.
     LeansOnLaw,
     /// Its value is another in a regime of driving.

@@ -77,7 +77,7 @@ impl Search<'_> {
             .map(|a| (a, Refusal::Impossible))
             .or_else(|| worst(&is_open).map(|a| (a, Refusal::NoDeviation)))
             .or_else(|| worst(&is_cheap).map(|a| (a, Refusal::BelowBar)))
-            .or_else(|| ridge(fit, chosen).map(|(a, other)| (a, Refusal::Ridge(other))))
+            .or_else(|| ridge(fit, chosen).map(|(a, other)| (a, Refusal::Ridge(Box::new(other)))))
     }
 
     /// Whether an effect's values stand out of their own deviations by less than what a parameter costs.

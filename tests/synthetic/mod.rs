@@ -216,6 +216,7 @@ fn data() -> DataSummary {
         why_dropped: BTreeMap::from([("blank cell".to_string(), 9), ("infinite".to_string(), 3)]),
         warnings: vec!["eight-fast.csv: rows were out of order and were sorted".into()],
         clocks: vec![],
+        findings: vec![],
     }
 }
 

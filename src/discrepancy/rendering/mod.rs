@@ -8,6 +8,7 @@ pub(crate) mod finding_text;
 pub mod html;
 pub mod manoeuvre_text;
 pub(crate) mod reason_text;
+pub(crate) mod repair_text;
 pub(crate) mod slip_text;
 pub mod summary;
 pub(crate) mod warning_text;

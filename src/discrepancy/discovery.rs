@@ -1,6 +1,8 @@
 //! The outcome of a discovery: its report, put together once, its pictures and the patched model.
 
-use super::rendering::{experiment_text, reason_text, refusal_text, regime_text, rest_text, summary, warning_text};
+use super::rendering::{
+    experiment_text, finding_text, reason_text, refusal_text, regime_text, rest_text, summary, warning_text,
+};
 use super::report::*;
 use crate::discrepancy::diagnosis::reason::Reason;
 use crate::discrepancy::diagnosis::rest::Rest;
@@ -86,6 +88,10 @@ pub(crate) fn report(request: &Request, data: &Data, verdict: Verdict, found: Fi
             why_dropped: why_dropped(request, data),
             warnings: warnings.map(|w| warning_text::line(&w)).collect(),
             clocks: clocks.clocks,
+            findings: match &found.reason {
+                Some(Reason::Slip(slip)) => vec![finding_text::slip(slip)],
+                _ => vec![],
+            },
         },
         provenance: provenance(request),
     }

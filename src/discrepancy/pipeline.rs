@@ -19,7 +19,7 @@ use super::localisation::driving_regimes;
 use super::localisation::unexplained_motion::remaining;
 use super::preprocessing::dataset::Data;
 use super::preprocessing::quantisation::{CoarseInput, coarse_inputs};
-use super::preprocessing::unit_errors;
+use super::preprocessing::{slips, unit_errors};
 use super::rendering::figure_data;
 use super::report::{Named, PathPicture, Pictures, Unnamed, Verdict};
 use super::request::{Request, common_roles, horizons};
@@ -45,6 +45,9 @@ pub fn discover(request: &Request, progress: &OnProgress) -> Result<Discovery> {
 pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &OnProgress) -> Result<Discovery> {
     let roles = common_roles(request.runs, request.held_out)?;
     let model = Model::from_file(request.file, request.library, &roles)?;
+    if let Some(slip) = slips::any(request.file, &model, request.runs.iter().chain(request.held_out))? {
+        return Ok(unfitted(request, clocks, verdict::unusable(slip)));
+    }
     if let Some(slip) = unit_errors::too_sparse(&model, request.runs.iter().chain(request.held_out))? {
         return Ok(unfitted(request, clocks, verdict::unusable(slip)));
     }
@@ -147,7 +150,7 @@ fn next(
 
 /// The answer for runs that are not even put to the model.
 pub(crate) fn unfitted(request: &Request, clocks: Clocks, outcome: Outcome) -> Discovery {
-    let none = Data { fitted: vec![], held_out: vec![], gross: 0 };
+    let none = Data { fitted: vec![], held_out: vec![], gross: 0, jumps: vec![], clocks: vec![] };
     early(request, &none, clocks, vec![], outcome)
 }
 

@@ -1,5 +1,6 @@
 //! What `discover` says, as data: the contract's `report.json` and the pictures of `report.html`.
 
+use crate::discrepancy::identifiability::check_report::Finding;
 use crate::error::{Error, Result};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -433,6 +434,9 @@ pub struct DataSummary {
     /// The clocks of runs whose inputs and poses stand in files of their own.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub clocks: Vec<RunClock>,
+    /// What is wrong with the data, and how it is mended.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub findings: Vec<Finding>,
 }
 
 /// The clock of a run whose inputs and poses were logged apart: time of the poses = time of the inputs + offset +

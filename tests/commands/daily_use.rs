@@ -298,13 +298,13 @@ fn slips_of_units_and_sides_are_noticed() {
     assert_eq!(findings(run.clone()), Vec::<String>::new());
     let scaled = |column: &[f64], by: f64| column.iter().map(|v| v * by).collect::<Vec<f64>>();
     let millimetres = Run { x: scaled(&run.x, 1e3), y: scaled(&run.y, 1e3), ..run.clone() };
-    assert!(findings(millimetres).iter().any(|s| s.contains("millimetres?")));
+    assert!(findings(millimetres).iter().any(|s| s.contains("millimetres")));
     let heading = run.heading.as_ref().map(|h| scaled(h, 180.0 / std::f64::consts::PI));
-    assert!(findings(Run { heading, ..run.clone() }).iter().any(|s| s.contains("degrees?")));
+    assert!(findings(Run { heading, ..run.clone() }).iter().any(|s| s.contains("degrees")));
     let yaw = run.roles.iter().position(|r| r == "yaw_rate").unwrap();
     let mut swapped = run.clone();
     swapped.inputs[yaw] = scaled(&run.inputs[yaw], -1.0);
-    assert!(findings(swapped).iter().any(|s| s.contains("swapped")));
+    assert!(findings(swapped).iter().any(|s| s.contains("wrong sign")));
     let mut gap = run.clone();
     let keep = |column: &mut Vec<f64>| drop(column.drain(200..300));
     keep(&mut gap.time);

@@ -15,7 +15,10 @@ use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::estimation::variance_components::without_jump;
 use crate::discrepancy::experiment::next_step::NextStep;
+use crate::discrepancy::preprocessing::clock_jumps::{ClockJump, clock_jump};
 use crate::discrepancy::preprocessing::outliers::without_gross_errors;
+use crate::discrepancy::preprocessing::reference_jumps::{self, Jumps};
+use crate::discrepancy::preprocessing::slips;
 use crate::discrepancy::preprocessing::unit_errors::too_sparse;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::report::Verdict;
@@ -66,15 +69,29 @@ pub(crate) fn assess(of: &Checked, progress: &OnProgress) -> Result<Assessment> 
     let roles = common_roles(of.runs, &[])?;
     let model = Model::from_file(of.file, of.library, &roles)?;
     begin(progress, Stage::Rows)?;
-    let sparse = too_sparse(&model, of.runs)?;
-    let record = |r: &Run| {
-        let record = Record::of_run(r, of.file.input_timing, model.trailer_count());
+    let slip = slips::any(of.file, &model, of.runs)?;
+    let is_slip = slip.is_some();
+    let sparse = if is_slip { slip } else { too_sparse(&model, of.runs)? };
+    let timing = of.file.input_timing;
+    let jumps_of = |r: &Run| if sparse.is_some() { Ok(vec![]) } else { reference_jumps::jumps(&model, timing, r) };
+    let jumps: Vec<Vec<Jumps>> = of.runs.par_iter().map(jumps_of).collect::<Result<_>>()?;
+    let clock_of = |r: &Run| if sparse.is_some() { Ok(None) } else { clock_jump(&model, timing, r) };
+    let clocks: Vec<Option<ClockJump>> = of.runs.par_iter().map(clock_of).collect::<Result<_>>()?;
+    let record = |(r, jumps): (&Run, &Vec<Jumps>)| {
+        let record = reference_jumps::without(&Record::of_run(r, timing, model.trailer_count()), jumps);
         if sparse.is_some() { Ok((record, 0)) } else { without_gross_errors(&record, &model) }
     };
-    let clean: Vec<(Record, usize)> = of.runs.par_iter().map(record).collect::<Result<_>>()?;
+    let clean: Vec<(Record, usize)> = of.runs.par_iter().zip(&jumps).map(record).collect::<Result<_>>()?;
     let (records, gross): (Vec<Record>, Vec<usize>) = clean.into_iter().unzip();
     let (data, mut findings) = health(&model, of.runs, &records, &gross)?;
+    findings.extend(clocks.into_iter().flatten().map(DataFinding::ClockJump));
+    findings.extend(jumps.into_iter().flatten().map(DataFinding::Jumps));
     if let Some(slip) = sparse {
+        // What follows from the slip is no finding of its own.
+        if is_slip {
+            findings.retain(|f| !f.is_of_motion());
+            findings.push(DataFinding::Slip(slip.clone()));
+        }
         return Ok(without_fit(data, findings, verdict::unusable(slip)));
     }
     let problem = Problem::new(records, of.file.noise.position, of.file.noise.heading);

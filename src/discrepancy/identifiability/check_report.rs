@@ -169,6 +169,9 @@ pub struct Finding {
     pub id: String,
     /// In words.
     pub says: String,
+    /// The lines of the model file that mend it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mend: Option<String>,
 }
 
 /// The state of one run.

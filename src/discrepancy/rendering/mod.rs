@@ -10,6 +10,7 @@ pub mod manoeuvre_text;
 pub(crate) mod reason_text;
 pub(crate) mod refusal_text;
 pub(crate) mod regime_text;
+pub(crate) mod repair_text;
 pub(crate) mod rest_text;
 pub(crate) mod slip_text;
 pub mod summary;

@@ -2,7 +2,6 @@
 
 use super::clock_alignment::aligned_run::{Aligned, aligned};
 use super::identifiability::{Check, Checked, Finding, check};
-use super::localisation::clock_drift::DELAY;
 use crate::discrepancy::clock_alignment::aligned_run::{is_aligned, without_delay};
 use crate::discrepancy::request::{Request, common_roles};
 use crate::effects::Effect;
@@ -30,7 +29,7 @@ pub fn check_aligned(of: &Checked, near: Option<f64>, progress: &dyn Fn(&str)) -
         Ok(by_one) => by_one,
         Err(obstacle) => return Ok(Check::cut_short(obstacle.outcome())),
     };
-    let library: Vec<Effect> = library.iter().filter(|e| e.id != DELAY).cloned().collect();
+    let library: Vec<Effect> = library.iter().filter(|e| !e.is_of_clock()).cloned().collect();
     let runs: Vec<Run> = by_one.iter().map(|a| a.run.clone()).collect();
     let mut found = check(&Checked { file, runs: &runs, library: &library }, progress)?;
     found.data.clocks = by_one.iter().map(|a| a.clock(false)).collect();

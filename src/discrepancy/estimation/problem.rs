@@ -1,15 +1,14 @@
 //! Runs cut into windows, and what is known of their noise.
 
-use crate::discrepancy::estimation::noise_model::Estimated;
-use crate::discrepancy::estimation::noise_model::NoiseModel;
+use crate::discrepancy::estimation::noise_model::{NoiseModel, Start};
 use crate::discrepancy::initial_state::heading_from_path;
 use crate::discrepancy::record::local_polynomial;
-use crate::discrepancy::record::run_record::{Channel, Record};
+use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::shooting::windows;
 use crate::discrepancy::shooting::windows::has_windows;
 use crate::discrepancy::shooting::windows::{Segment, WindowStates};
 use crate::error::Result;
-use crate::model::Model;
+use crate::model::{Model, observation};
 
 /// Runs cut into windows, with what is known of their noise.
 #[derive(Clone, Debug)]
@@ -18,9 +17,7 @@ pub struct Problem {
     pub records: Vec<Record>,
     /// Their windows.
     pub plan: Vec<Segment>,
-    /// Which variances are free.
-    pub free: Estimated,
-    /// Where the variances start.
+    /// Where the variances start, and which of them are estimated.
     pub variances: NoiseModel,
 }
 
@@ -36,16 +33,17 @@ impl Problem {
             false => records,
         };
         let plan = windows::plan(&records);
-        let channels = [Channel::Position, Channel::Heading, Channel::Trailer];
-        let known = [position, heading, heading];
-        let present = channels.map(|c| records.iter().any(|r| r.channels().contains(&c)));
-        let noise = [0, 1, 2].map(|k| known[k].unwrap_or_else(|| noise_of(&records, channels[k])).powi(2));
-        let jump = [noise[0], noise[0], noise[1], noise[2]];
-        let free = Estimated {
-            measurement: [0, 1, 2].map(|k| present[k] && known[k].is_none()),
-            process: [true, true, true, present[2]],
-        };
-        Self { records, plan, free, variances: NoiseModel { measurement: noise, process: jump } }
+        let trailers = records.first().map_or(0, |r| r.trailers);
+        let starts = observation::sensor_noise(trailers).iter().enumerate().map(|(k, noise)| {
+            let known = if noise.unit == "m" { position } else { heading };
+            Start {
+                variance: known.unwrap_or_else(|| noise_of(&records, k)).powi(2),
+                is_measured: records.iter().any(|r| r.channels().iter().any(|c| c.noise == k)),
+                is_known: known.is_some(),
+            }
+        });
+        let variances = NoiseModel::starting(trailers, starts);
+        Self { records, plan, variances }
     }
 
     /// How many windows there are.
@@ -57,7 +55,7 @@ impl Problem {
     pub fn noise_determinant(&self, v: &NoiseModel) -> f64 {
         let of_segment = |s: &Segment| {
             let rows: usize = s.windows.iter().map(std::ops::Range::len).sum();
-            let each = self.records[s.record].channels().into_iter().map(|c| v.measurement[c as usize].ln());
+            let each = self.records[s.record].channels().into_iter().map(|c| v.measurement()[c.noise].variance.ln());
             rows as f64 * each.sum::<f64>()
         };
         self.plan.iter().map(of_segment).sum()
@@ -76,11 +74,11 @@ pub(crate) fn starts(model: &Model, records: &[Record], plan: &[Segment]) -> Res
     Ok(plan.iter().map(|s| heading_from_path::starts(&equations, &records[s.record], &s.windows)).collect())
 }
 
-/// The median noise of a channel over the runs.
-fn noise_of(records: &[Record], channel: Channel) -> f64 {
+/// The median over the runs of the noise of the columns that share a component.
+fn noise_of(records: &[Record], component: usize) -> f64 {
     let mut found: Vec<f64> = Vec::new();
     for r in records {
-        let columns = r.channels().into_iter().zip(&r.columns).filter(|(c, _)| *c == channel);
+        let columns = r.channels().into_iter().zip(&r.columns).filter(|(c, _)| c.noise == component);
         found.extend(columns.filter_map(|(_, y)| local_polynomial::noise(&r.time[r.rows.clone()], &y[r.rows.clone()])));
     }
     found.sort_by(f64::total_cmp);

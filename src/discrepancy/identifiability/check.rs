@@ -10,8 +10,8 @@ use super::fisher_information::Driven;
 use crate::discrepancy::diagnosis::equivalents::measured;
 use crate::discrepancy::diagnosis::verdict;
 use crate::discrepancy::estimation::fit::Effort;
+use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::estimation::problem::Problem;
-use crate::discrepancy::estimation::variance_components::without_jump;
 use crate::discrepancy::preprocessing::outliers::without_gross_errors;
 use crate::discrepancy::preprocessing::unit_errors::too_sparse;
 use crate::discrepancy::record::run_record::Record;
@@ -74,11 +74,11 @@ pub fn check(of: &Checked, progress: &dyn Fn(&str)) -> Result<Check> {
     let starts = problem.starts(&model)?;
     let fit = problem.fit(&model, &starts, &problem.variances, Effort::FULL)?;
     let Some(fit) = fit else { return Ok(without_fit(data, verdict::undefined_motion())) };
-    let data = data.with_fit(&problem.variances.measurement, &fit, problem.records[0].has_heading);
+    let data = data.with_fit(problem.variances.measurement(), &fit, problem.records[0].has_heading);
     progress("weighing what each effect would leave in these runs");
     let all = candidates(&model, of.library);
-    let calm = (0..4).fold(fit.variances, without_jump);
-    let variances = [calm, fit.variances];
+    let calm = (0..fit.variances.process().len()).fold(fit.variances.clone(), NoiseModel::without_jump);
+    let variances = [calm.clone(), fit.variances.clone()];
     let variance_inflation = [fit.noise_correlation_time, fit.variance_inflation()];
     let bar = DetectionThreshold {
         sample_size: fit.sample_size,
@@ -87,7 +87,7 @@ pub fn check(of: &Checked, progress: &dyn Fn(&str)) -> Result<Check> {
     let driven =
         Driven { records: problem.records.clone(), plan: problem.plan.clone(), starts: fit.window_states.clone() };
     let table = Table::of(&model, &driven, &all, &groups(&all), &variances, variance_inflation)?;
-    let ground = Background { calm, free: problem.free, alike: fit.noise_correlation_time };
+    let ground = Background { calm, alike: fit.noise_correlation_time };
     let shown = |c: &Candidate| ExpectedDetection::of(&model, &driven, c, &bar, &ground);
     let shown: Vec<ExpectedDetection> = all.par_iter().map(shown).collect::<Result<_>>()?;
     // Of an effect that is looked at in several directions the one that shows least.

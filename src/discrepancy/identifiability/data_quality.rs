@@ -4,6 +4,7 @@ use super::check_report::{Finding, Health, RunHealth};
 use super::driving_statistics::{driving, quantile};
 use crate::discrepancy::estimation::autocorrelation::NOTICEABLE;
 use crate::discrepancy::estimation::fit::Fit;
+use crate::discrepancy::estimation::noise_model::Component;
 use crate::discrepancy::preprocessing::outliers::GROSS;
 use crate::discrepancy::preprocessing::quantisation;
 use crate::discrepancy::preprocessing::unit_errors::{SPARSE, wrong_turn, wrong_way};
@@ -11,6 +12,7 @@ use crate::discrepancy::record::run_record::Record;
 use crate::error::Result;
 use crate::files::Run;
 use crate::model::Model;
+use crate::model::observation::{HEADING, POSITION};
 use crate::number_format::significant;
 
 /// Share of rows left out that is worth a word.
@@ -45,9 +47,9 @@ pub(crate) fn health(model: &Model, runs: &[Run], records: &[Record], gross: &[u
 
 impl Health {
     /// What a fit of the model as given adds to it; the noise is that of neighbouring rows, as it was before the fit.
-    pub(crate) fn with_fit(mut self, noise: &[f64; 3], fit: &Fit, has_heading: bool) -> Self {
-        self.position_noise = Some(noise[0].sqrt());
-        self.heading_noise = has_heading.then(|| noise[1].sqrt());
+    pub(crate) fn with_fit(mut self, noise: &[Component], fit: &Fit, has_heading: bool) -> Self {
+        self.position_noise = Some(noise[POSITION].variance.sqrt());
+        self.heading_noise = has_heading.then(|| noise[HEADING].variance.sqrt());
         self.rows_alike = Some(fit.noise_correlation_time);
         // What the model misses within a window looks like a slow noise.
         if fit.noise_correlation_time > COLOURED && fit.unexplained.iter().all(|d| *d < NOTICEABLE) {
@@ -55,7 +57,8 @@ impl Health {
             self.say("coloured-noise", format!("the pose's noise is alike over {n} rows: a filtered or smoothed pose"));
         }
         let places = ["along the vehicle", "across the vehicle", "in yaw", "of trailers"];
-        let most = (0..4).max_by(|a, b| fit.unexplained[*a].total_cmp(&fit.unexplained[*b])).unwrap_or(0);
+        let most =
+            (0..fit.unexplained.len()).max_by(|a, b| fit.unexplained[*a].total_cmp(&fit.unexplained[*b])).unwrap_or(0);
         if fit.unexplained[most] > NOTICEABLE {
             self.say(
                 "unexplained-motion",

@@ -1,7 +1,8 @@
 //! Where a model disagrees with the measurements, and in which regime of driving most.
 
-use super::constraint_residuals::{CONSTRAINTS, ConstraintResiduals, Window};
+use super::constraint_residuals::{ConstraintResiduals, Window};
 use crate::discrepancy::report::Disagreement;
+use crate::model::state::JUMPS;
 
 /// Which windows belong to a regime.
 type Regime = fn(&Window, &Window, &Typical) -> bool;
@@ -69,7 +70,7 @@ pub fn disagreements(violations: &[ConstraintResiduals]) -> Vec<Disagreement> {
     let total: f64 = violations.iter().map(|v| (0..v.constraints()).map(|c| v.chi_squared(c)).sum::<f64>()).sum();
     let mut found = Vec::new();
     for v in violations {
-        for (c, (place, _)) in CONSTRAINTS.iter().enumerate().take(v.constraints()) {
+        for (c, jump) in JUMPS.iter().enumerate().take(v.constraints()) {
             let energy = v.chi_squared(c);
             let out: Vec<&Window> = v.windows.iter().filter(|w| w.rates[c].abs() > 3.0 * v.noise[c]).collect();
             // Noise alone gives one window in 370; a disagreement fills more.
@@ -78,7 +79,7 @@ pub fn disagreements(violations: &[ConstraintResiduals]) -> Vec<Disagreement> {
             }
             found.push(Disagreement {
                 run: v.run.clone(),
-                place: (*place).into(),
+                place: jump.place.into(),
                 from: out[0].span[0],
                 to: out[out.len() - 1].span[1],
                 regime: regime(v, c).into(),

@@ -78,8 +78,12 @@ impl Search<'_> {
             return Ok(vec![]);
         };
         let lost = bare.deviance - fit.deviance;
-        let found =
-            self.screen(&Fit { variances: fit.variances, ..bare.clone() }, &smaller, bare.deviance, 0.3 * lost)?;
+        let found = self.screen(
+            &Fit { variances: fit.variances.clone(), ..bare.clone() },
+            &smaller,
+            bare.deviance,
+            0.3 * lost,
+        )?;
         let fitted = found.single.into_iter().filter_map(|(p, fit)| Some((p.applied, fit?)));
         Ok(fitted.filter(|(a, _)| !a.same_as(effect)).collect())
     }

@@ -4,15 +4,30 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 /// The result of anything that can fail for a reason a user should read.
+///
+/// ```
+/// fn radius(text: &str) -> creepage::Result<f64> {
+///     text.parse().map_err(|_| creepage::Error::input(format!("{text:?} is no number")))
+/// }
+/// assert!(radius("0.3").is_ok() && radius("wide").is_err());
+/// ```
 pub type Result<T> = std::result::Result<T, Error>;
 
 /// Whose fault an [`Error`] is; it decides the exit code of the command.
+///
+/// ```
+/// use creepage::{Error, ErrorKind};
+/// assert_eq!(Error::run("the motion is undefined").kind(), ErrorKind::Run);
+/// assert_eq!(creepage::Model::parse("vehicle = 7").unwrap_err().kind(), ErrorKind::Input);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Wrong usage or unusable input: exit code 2.
     Input,
     /// A run that failed although its input was good: exit code 1.
     Run,
+    /// Work that its listener stopped: exit code 1.
+    Stopped,
 }
 
 /// A message for a person, with the place it speaks of.
@@ -47,6 +62,11 @@ impl Error {
     /// A run that failed on good input.
     pub fn run(message: impl Into<String>) -> Self {
         Self::new(Kind::Run, message.into())
+    }
+
+    /// Work that its listener stopped.
+    pub(crate) fn stopped() -> Self {
+        Self::new(Kind::Stopped, "the work was stopped before its end".into())
     }
 
     fn new(kind: Kind, message: String) -> Self {
@@ -93,11 +113,16 @@ impl Error {
         self.0.place
     }
 
+    /// Whose fault it is.
+    pub fn kind(&self) -> Kind {
+        self.0.kind
+    }
+
     /// The exit code the contract gives this error: 2 for input, 1 for a failed run.
     pub fn exit_code(&self) -> u8 {
         match self.0.kind {
             Kind::Input => 2,
-            Kind::Run => 1,
+            Kind::Run | Kind::Stopped => 1,
         }
     }
 }

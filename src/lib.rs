@@ -31,59 +31,84 @@
 //! | z, u, p | SI | pose and hidden states, logged inputs, parameters |
 //! | w, v | SI | what no effect of the model explains, over windows of W seconds; noise of the sensor |
 //!
-//! Modules in their order; each imports only those above it:
+//! The jobs are calls of one line:
+//!
+//! | call | what it does |
+//! |---|---|
+//! | [`discover()`], [`discover_with()`] | finds where model and runs disagree, names the missing effect, adds it to the model |
+//! | [`check()`], [`check_with()`] | says before any fit what runs can tell of a model |
+//! | [`describe()`] | the constraints of a model with their equations, Jacobians and growth vector |
+//! | [`simulate()`], [`sweep()`] | the motion of a model; a table of the motions of many cases |
+//! | [`verify()`] | runs the claims of the paper, each with its evidence |
+//!
+//! They take a [`Model`] and [`Run`]s, from files or from arrays, and [`Options`]; they tell their [`Progress`], and stop
+//! where they are asked to. Behind them stand
 //!
 //! | module | what it is |
 //! |---|---|
-//! | [`error`], [`provenance`] | one message with its place and an exit code; which file something comes from |
-//! | `wording`, [`number_format`] | phrases and numbers for people |
-//! | [`formula`] | expressions as data: values, derivatives, proofs, units, vector lanes |
-//! | [`mechanism`] | rows and what follows from them |
+//! | [`report`] | what `discover` and `check` say, part by part |
 //! | [`vehicles`], [`effects`] | the catalogues, as data |
-//! | [`files`] | model files, logs, results that are whole or absent |
-//! | [`model`], [`motion`] | a vehicle with parameters and effects; its trajectories and their sensitivities |
-//! | [`energy_rule`] | the paper's rule for the energy of a creeping wheel, Fig. 7 |
-//! | [`equivalence`] | effects that are proved to give the same motions |
-//! | [`mod@describe`], [`extensions`] | a model in formulas; a user's own effects and vehicles, held against every vehicle |
-//! | [`connection`], [`dynamics`] | shapes that turn a body; motion by forces |
-//! | [`scaffold`], [`sweep`] | what `init` and `sweep` do |
-//! | [`picture`] | drawings as pure functions |
+//! | [`formula`] | expressions as data: values, derivatives, proofs, units, vector lanes |
+//! | [`mechanism`] | constraints, their rows, and what follows from them |
+//! | [`mod@describe`] | a model in formulas, as text, LaTeX or JSON |
+//! | [`motion`], [`mod@sweep`] | trajectories along inputs, one or many |
+//! | [`dynamics`], [`connection`] | motion by forces; shapes that turn a body |
 //! | [`claims`] | what the paper says, with evidence that runs |
-//! | [`discrepancy`] | where model and measurement disagree, which effect is missing, how much it mends |
-//! | [`figures`], [`theory`] | the paper's figures; the long form of the paper |
-//! | `front_door` | the jobs as calls of one line: [`discover()`], [`check()`], [`describe()`], [`simulate()`] |
+//! | [`theory`] | the long form of the paper, and how to extend the program |
+//!
+//! Other modules can be reached, for the program's own tests and benches, but are hidden and carry no promise: they change
+//! without notice, and so does what a visible module hides.
 #![warn(missing_docs)]
 
 pub mod claims;
 pub mod connection;
 pub mod describe;
+#[doc(hidden)]
 pub mod discrepancy;
 pub mod dynamics;
 pub mod effects;
+#[doc(hidden)]
 pub mod energy_rule;
+#[doc(hidden)]
 pub mod equivalence;
+#[doc(hidden)]
 pub mod error;
+#[doc(hidden)]
 pub mod extensions;
+#[doc(hidden)]
 pub mod figures;
+#[doc(hidden)]
 pub mod files;
 pub mod formula;
 mod front_door;
 pub mod mechanism;
+#[doc(hidden)]
 pub mod model;
 pub mod motion;
+#[doc(hidden)]
 pub mod number_format;
+#[doc(hidden)]
 pub mod picture;
+#[doc(hidden)]
+pub mod progress;
+#[doc(hidden)]
 pub mod provenance;
+pub mod report;
+#[doc(hidden)]
 pub mod scaffold;
 pub mod sweep;
 pub mod theory;
 pub mod vehicles;
 mod wording;
 
+pub use discrepancy::identifiability::Check;
 pub use discrepancy::report::{Report, Verdict};
-pub use error::{Error, Result};
+pub use error::{Error, Kind as ErrorKind, Result};
 pub use files::Run;
-pub use front_door::{Discovery, Model, Options, Pose, check, describe, discover, discover_with, simulate};
+pub use front_door::{
+    Discovery, Model, Options, Pose, check, check_with, describe, discover, discover_with, simulate, sweep, verify,
+};
+pub use progress::{OnProgress, Progress, Stage};
 
 /// The examples of the README are compiled.
 #[cfg(doctest)]

@@ -1,6 +1,9 @@
-//! English phrases that several rooms need: lists of names.
+//! English phrases that several rooms need: lists of names, the reason of rows left out.
 
 use std::borrow::Borrow;
+
+/// Why rows are left out whose measured pose is grossly wrong.
+pub(crate) const GROSS: &str = "gross error of the measured pose";
 
 /// Names as a phrase: "a", "a and b", "a, b and c".
 pub(crate) fn listed<S: Borrow<str>>(names: impl IntoIterator<Item = S>) -> String {

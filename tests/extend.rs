@@ -19,6 +19,7 @@ use creepage::effects::{self, Applied, Effect};
 use creepage::files::{ModelFile, Run};
 use creepage::model::{Model, known_on};
 use creepage::motion::{Integrator, Signals, Table, Timing, simulate_model};
+use creepage::progress::unheard;
 use creepage::vehicles::{self, Vehicle};
 use rand::SeedableRng;
 use rand_distr::Distribution;
@@ -74,7 +75,7 @@ fn found(model: &Model, inputs: [fn(f64) -> f64; 2], text: &str, vehicles: &[Veh
     let file = ModelFile::parse(text, "model.toml", &known_on(vehicles, library)).unwrap();
     let run = Run::parse("run.csv", &csv, &file).unwrap();
     let request = Request { file: &file, runs: &[run], held_out: &[], library, horizons: &[], seed: 0 };
-    discover(&request, &|_| ()).unwrap().report
+    discover(&request, &unheard).unwrap().report
 }
 
 /// Demands that one effect is named, with one of its values near the truth.
@@ -128,7 +129,7 @@ fn a_new_effect_is_described_simulated_verified_discovered_and_listed() {
         &[("v_t", "e_tc*v_l - yaw_slip.q*phi'*abs(phi')")],
         move |s, cases| claims::at_points(&machine, s, &free, cases),
     );
-    let made = verify(&[slides], &Options::default(), &|_| ());
+    let made = verify(&[slides], &Options::default(), &unheard).unwrap();
     assert!(made.all_earned(), "{}", ledger::text(&made));
     let inputs: [fn(f64) -> f64; 2] =
         [|t| 10.0 + 4.0 * (0.9 * t).sin(), |t| 0.9 * (0.5 * t).cos() + 0.4 * (0.23 * t).sin()];
@@ -144,7 +145,7 @@ fn a_new_effect_is_described_simulated_verified_discovered_and_listed() {
 fn a_new_claim_is_verified_and_listed() {
     let all = [claims::all(), vec![claim::push(&vehicle::bus())]].concat();
     let own = all.last().unwrap();
-    let made = verify(std::slice::from_ref(own), &Options::default(), &|_| ());
+    let made = verify(std::slice::from_ref(own), &Options::default(), &unheard).unwrap();
     let (noticed, sabotages) = made.kills();
     assert!(made.all_earned() && noticed == sabotages && sabotages > 10, "{}", ledger::text(&made));
     assert!(ledger::text(&made).starts_with("proved     bus-push\n"));
@@ -153,7 +154,7 @@ fn a_new_claim_is_verified_and_listed() {
     // What is false of it is not earned.
     let mut slip = own.clone();
     slip.evidence[0].equations[0].1 = "r*theta'/2".into();
-    assert!(!verify(&[slip], &Options::default(), &|_| ()).all_earned());
+    assert!(!verify(&[slip], &Options::default(), &unheard).unwrap().all_earned());
 }
 
 #[test]

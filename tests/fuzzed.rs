@@ -27,10 +27,10 @@ static MEMORY: PeakAlloc = PeakAlloc;
 /// Memory is measured of the whole process, so one target runs at a time.
 static ALONE: Mutex<()> = Mutex::new(());
 
-/// What a small file may cost in memory, and in time of the processor: of the clock, a machine busy with other things
-/// takes any time.
-const MOST_MEMORY: usize = 256 << 20;
-const MOST_TIME: Duration = Duration::from_secs(60);
+/// The most memory that a small file may take, in bytes.
+const MAX_MEMORY: usize = 256 << 20;
+/// The most time of the processor that it may take: by the clock, a machine busy with other things takes any time.
+const MAX_PROCESSOR_TIME: Duration = Duration::from_secs(60);
 
 /// Cases of one target when no time is given.
 fn cases(name: &str) -> u32 {
@@ -99,12 +99,12 @@ fn watched<T>(input: &[u8], run: impl FnOnce() -> T) -> T {
     let begin = spent();
     std::thread::spawn(move || {
         while over.recv_timeout(Duration::from_secs(1)) == Err(mpsc::RecvTimeoutError::Timeout) {
-            if spent() < begin + MOST_TIME {
+            if spent() < begin + MAX_PROCESSOR_TIME {
                 continue;
             }
             let kept = std::env::temp_dir().join("creepage-slow-input");
             drop(std::fs::write(&kept, &copy));
-            eprintln!("an input takes more than {MOST_TIME:?}; it is in {}", kept.display());
+            eprintln!("an input takes more than {MAX_PROCESSOR_TIME:?}; it is in {}", kept.display());
             std::process::exit(101);
         }
     });
@@ -136,7 +136,7 @@ fn fuzz(name: &str) {
             MEMORY.reset_peak_usage();
             let met = watched(&bytes, || target.meets(&bytes));
             let memory = MEMORY.peak_usage().saturating_sub(before);
-            prop_assert!(memory <= MOST_MEMORY, "{memory} bytes of memory for {} bytes of input", bytes.len());
+            prop_assert!(memory <= MAX_MEMORY, "{memory} bytes of memory for {} bytes of input", bytes.len());
             executions.fetch_add(1, Ordering::Relaxed);
             good.fetch_add(u64::from(met.is_ok()), Ordering::Relaxed);
             let (mut slow, mut large) = (slow.lock().unwrap(), large.lock().unwrap());

@@ -32,6 +32,16 @@ pub fn prove(derived: &DerivedFormulas, statement: &Statement) -> Outcome {
 }
 
 /// The check that [`prove`]s statements about derived formulas.
+///
+/// ```
+/// use creepage::claims::{Claim, DerivedFormulas, Status, proving};
+/// let square = Claim::new("square", Status::Proved, "a square is a product").proof(
+///     "by the normal form",
+///     &[("x^2", "x*x")],
+///     proving(DerivedFormulas::of("unicycle")),
+/// );
+/// assert_eq!(square.evidence.len(), 1);
+/// ```
 pub fn proving(derived: DerivedFormulas) -> impl Fn(&Statement, &Sampling) -> Outcome + Send + Sync + 'static {
     move |statement, _| prove(&derived, statement)
 }

@@ -42,6 +42,12 @@ pub struct Claim {
 }
 
 /// What a piece of evidence gives when it holds.
+///
+/// ```
+/// use creepage::claims::{self, Gives};
+/// let proofs = claims::all().iter().flat_map(|claim| &claim.evidence).filter(|e| e.gives == Gives::Proof).count();
+/// assert!(proofs > 50);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gives {
     /// True for all values, in exact arithmetic.
@@ -68,6 +74,12 @@ pub enum Relation {
 pub type Check = Arc<dyn Fn(&Statement, &Sampling) -> Outcome + Send + Sync>;
 
 /// A statement and the check it is put to.
+///
+/// ```
+/// use creepage::claims::{self, Evidence};
+/// let all: Vec<Evidence> = claims::all().into_iter().flat_map(|claim| claim.evidence).collect();
+/// assert!(all.len() > 100);
+/// ```
 #[derive(Clone)]
 pub struct Evidence {
     /// What it shows.

@@ -3,7 +3,7 @@
 //! A [`Claim`] states a status; [`verify`] runs its evidence and says which status it *earned*. Evidence is a
 //! [`Statement`], equations given as data, and a check that puts them to the test: by the normal form
 //! ([`prove`]), exactly at generated points ([`at_points`]), or against simulated motion. Because the statement is
-//! data, sabotage is mechanical: every statement one slip away ([`mutants`]) must be noticed by the same check, or
+//! data, sabotage is mechanical: every statement one slip away (`mutants`) must be noticed by the same check, or
 //! the evidence counts for nothing.
 //!
 //! | status | earned when |
@@ -19,8 +19,10 @@ mod checks;
 mod claim;
 pub(crate) mod derived_formulas;
 pub(crate) mod exact_point;
+#[doc(hidden)]
 pub mod generated;
 pub(crate) mod generated_forced;
+#[doc(hidden)]
 pub mod ledger;
 mod mutants;
 mod outcome;
@@ -33,15 +35,26 @@ mod user;
 mod verify;
 pub(crate) mod with_forces;
 
-pub use checks::{at_points, counterexample, near, prove, proving, value_said};
-pub use claim::{Check, Claim, Evidence, Gives, Relation};
+#[doc(hidden)]
+pub use checks::{at_points, counterexample, near, value_said};
+pub use checks::{prove, proving};
+#[doc(hidden)]
+pub use claim::{Check, Relation};
+pub use claim::{Claim, Evidence, Gives};
 pub use derived_formulas::DerivedFormulas;
+#[doc(hidden)]
 pub use exact_point::{Domain, Point, domains, points, simplest, value, written};
+#[doc(hidden)]
 pub use mutants::{Mutant, mutants};
-pub use outcome::{Counterexample, Outcome};
+#[doc(hidden)]
+pub use outcome::Counterexample;
+pub use outcome::Outcome;
 pub use paper::all;
+#[doc(hidden)]
 pub use sampling::{Fault, Sampling, Verdict};
-pub use statement::{Equation, Statement};
+#[doc(hidden)]
+pub use statement::Equation;
+pub use statement::Statement;
 pub use status::Status;
 pub use user::read;
 pub use verify::{Entry, Ledger, Options, Shown, verify};

@@ -3,6 +3,11 @@
 use std::fmt;
 
 /// What a check found. `Undefined` is never `Holds`.
+///
+/// ```
+/// use creepage::claims::Outcome;
+/// assert!(Outcome::PROVED.holds() && Outcome::failure("at x = 0").fails());
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
     /// True in every case tried; a proof is one case.

@@ -3,6 +3,11 @@
 use std::fmt;
 
 /// What is known of a claim; *stated* by its author, *earned* by running its evidence.
+///
+/// ```
+/// use creepage::claims::Status;
+/// assert_eq!(Status::ALL.map(Status::name)[0], "proved");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Deserialize, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {

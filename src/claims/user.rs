@@ -18,6 +18,12 @@ use std::path::Path;
 /// printed = []                         # false forms; with them the status is corrected or refuted
 /// ```
 ///
+/// ```
+/// use creepage::{claims, vehicles};
+/// let own = claims::read("examples/bus/claims.toml".as_ref(), vehicles::all());
+/// assert!(own.is_ok_and(|claims| !claims.is_empty()));
+/// ```
+///
 /// # Errors
 /// With file, line and column when the file is not of this form.
 pub fn read(path: &Path, vehicles: &[Vehicle]) -> Result<Vec<Claim>> {

@@ -1,10 +1,18 @@
 //! Verification: the evidence of claims is run, and each earns its status.
 
 use super::{Claim, Evidence, Gives, Mutant, Outcome, Sampling, Statement, Status, mutants};
+use crate::error::Result;
+use crate::progress::{OnProgress, Stage, tell};
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// How many cases, from which seed.
+///
+/// ```
+/// let brief = creepage::claims::Options { cases: 20, ..Default::default() };
+/// assert_eq!(brief.seed, 0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
     /// Cases of each sampled check; checks that cost much take a stated share of it.
@@ -20,6 +28,12 @@ impl Default for Options {
 }
 
 /// What the evidence of a claim did.
+///
+/// ```
+/// let ledger = creepage::verify(&["eq-21"], &creepage::Options::default())?;
+/// assert!(ledger.entries[0].shown.iter().all(|shown| shown.as_stated && shown.survivors.is_empty()));
+/// # Ok::<(), creepage::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Shown {
     /// What became of the statement.
@@ -33,6 +47,12 @@ pub struct Shown {
 }
 
 /// A claim and what it earned.
+///
+/// ```
+/// let ledger = creepage::verify(&["eq-21"], &creepage::Options::default())?;
+/// assert_eq!(ledger.entries[0].earned, ledger.entries[0].claim.stated);
+/// # Ok::<(), creepage::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Entry {
     /// The claim.
@@ -44,6 +64,13 @@ pub struct Entry {
 }
 
 /// Every claim with what it earned.
+///
+/// ```
+/// let ledger = creepage::verify(&["eq-21"], &creepage::Options::default())?;
+/// let (noticed, all) = ledger.kills();
+/// assert!(ledger.all_earned() && noticed == all);
+/// # Ok::<(), creepage::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Ledger {
     /// The claims in their order.
@@ -83,27 +110,36 @@ impl Ledger {
     }
 }
 
-/// Runs all evidence of all claims; `done` is told the id of a claim whenever a piece of its evidence is through.
+/// Runs all evidence of all claims; progress counts its pieces.
 ///
 /// The result is the same for any number of threads: every check has its own seed, made from its claim's id.
-pub fn verify(claims: &[Claim], options: &Options, done: &(dyn Fn(&str) + Sync)) -> Ledger {
+///
+/// ```
+/// use creepage::claims::{self, Claim, Options};
+/// let some: Vec<Claim> = claims::all().into_iter().filter(|claim| claim.id == "eq-21").collect();
+/// let ledger = claims::verify(&some, &Options { cases: 20, seed: 7 }, &|_| std::ops::ControlFlow::Continue(()))?;
+/// assert!(ledger.all_earned());
+/// # Ok::<(), creepage::Error>(())
+/// ```
+///
+/// # Errors
+/// When the listener stops it.
+pub fn verify(claims: &[Claim], options: &Options, progress: &OnProgress) -> Result<Ledger> {
     let tasks: Vec<(&Claim, usize)> = claims.iter().flat_map(|c| (0..c.evidence.len()).map(move |i| (c, i))).collect();
-    let shown: Vec<Shown> = tasks
-        .par_iter()
-        .with_max_len(1)
-        .map(|(claim, i)| {
-            let shown = run(&claim.evidence[*i], &sampling(claim, *i, options));
-            done(&claim.id);
-            shown
-        })
-        .collect();
+    let done = AtomicUsize::new(0);
+    let one = |(claim, i): &(&Claim, usize)| {
+        let shown = run(&claim.evidence[*i], &sampling(claim, *i, options));
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        tell(progress, Stage::Claims { id: claim.id.clone() }, done, tasks.len()).map(|()| shown)
+    };
+    let shown: Vec<Shown> = tasks.par_iter().with_max_len(1).map(one).collect::<Result<_>>()?;
     let mut shown = shown.into_iter();
     let entry = |claim: &Claim| {
         let shown: Vec<Shown> = shown.by_ref().take(claim.evidence.len()).collect();
         let earned = earned(claim, &shown);
         Entry { claim: claim.clone(), shown, earned }
     };
-    Ledger { entries: claims.iter().map(entry).collect(), options: *options }
+    Ok(Ledger { entries: claims.iter().map(entry).collect(), options: *options })
 }
 
 /// The cases of one piece of evidence: its seed follows from the claim and its place alone.
@@ -159,7 +195,7 @@ fn sabotage(evidence: &Evidence, statement: &Statement, sampling: &Sampling) -> 
     (all.len(), survivors)
 }
 
-fn by_hand(equations: &[(String, String)]) -> crate::Result<Mutant> {
+fn by_hand(equations: &[(String, String)]) -> Result<Mutant> {
     let statement = Statement::parse(equations)?;
     Ok(Mutant { slip: statement.to_string(), statement })
 }

@@ -1,10 +1,9 @@
 //! `creepage check`
 
-use super::lists::Format;
-use super::own::Own;
-use super::print;
-use super::progress::Progress;
+use super::output::{Format, print};
+use super::progress::ProgressLine;
 use super::runs;
+use super::user_catalogues::UserCatalogues;
 use clap::Args;
 use creepage::discrepancy::check::check_aligned;
 use creepage::discrepancy::identifiability::Checked;
@@ -40,12 +39,12 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
     #[command(flatten)]
-    own: Own,
+    own: UserCatalogues,
 }
 
 /// Carries out the command.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
-    let progress = Progress::new(quiet);
+    let progress = ProgressLine::new(quiet);
     progress.say("reading the runs");
     let (file, library) = &arguments.own.read(&arguments.model)?;
     file.no_forces("check")?;
@@ -53,7 +52,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let runs = runs::read(&arguments.runs, &arguments.truth, "--truth", file)?;
     runs::distinct(&arguments.runs, &[])?;
     let of = Checked { file, runs: &runs, library };
-    let answer = check_aligned(&of, arguments.clock_offset, &|what| progress.say(what))?;
+    let answer = check_aligned(&of, arguments.clock_offset, &|p| progress.hear(p))?;
     drop(progress);
     let json = || serde_json::to_string_pretty(&answer).map_err(|e| Error::run(format!("no JSON: {e}")));
     match arguments.format {

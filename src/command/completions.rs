@@ -1,7 +1,7 @@
 //! `creepage completions`
 
-use super::{Cli, print};
-use clap::{Args, CommandFactory};
+use super::output::print;
+use clap::{Args, Command};
 use clap_complete::{Shell, generate};
 use creepage::Result;
 
@@ -19,9 +19,9 @@ pub struct Arguments {
 }
 
 /// Carries out the command.
-pub fn run(arguments: &Arguments) -> Result<()> {
+pub fn run(arguments: &Arguments, mut all: Command) -> Result<()> {
     let mut script = Vec::new();
-    generate(arguments.shell, &mut Cli::command(), "creepage", &mut script);
+    generate(arguments.shell, &mut all, "creepage", &mut script);
     print(&String::from_utf8_lossy(&script))?;
     Ok(())
 }

@@ -1,8 +1,7 @@
 //! `creepage describe`
 
-use super::lists::pretty;
-use super::own::Own;
-use super::print;
+use super::output::{pretty, print};
+use super::user_catalogues::UserCatalogues;
 use clap::{Args, ValueEnum};
 use creepage::Result;
 use creepage::describe::{CreepLimits, json, latex, text};
@@ -34,7 +33,7 @@ pub struct Arguments {
     #[arg(long, value_name = "E2,E1", allow_hyphen_values = true, value_parser = limits)]
     traverse_limits: Option<Limits>,
     #[command(flatten)]
-    own: Own,
+    own: UserCatalogues,
 }
 
 fn limits(text: &str) -> std::result::Result<Limits, String> {

@@ -1,10 +1,9 @@
 //! `creepage discover`
 
-use super::lists::Format;
-use super::own::Own;
-use super::print;
-use super::progress::Progress;
+use super::output::{Format, print};
+use super::progress::ProgressLine;
 use super::runs;
+use super::user_catalogues::UserCatalogues;
 use clap::Args;
 use creepage::discrepancy::discover::discover_aligned;
 use creepage::discrepancy::discovery::Discovery;
@@ -61,7 +60,7 @@ pub struct Arguments {
     #[arg(long, allow_negative_numbers = true, default_value_t = 0)]
     seed: u64,
     #[command(flatten)]
-    own: Own,
+    own: UserCatalogues,
 }
 
 fn horizon(text: &str) -> std::result::Result<f64, String> {
@@ -73,7 +72,7 @@ fn horizon(text: &str) -> std::result::Result<f64, String> {
 
 /// Carries out the command.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
-    let progress = Progress::new(quiet);
+    let progress = ProgressLine::new(quiet);
     progress.say("reading the runs");
     let (file, library) = &arguments.own.read(&arguments.model)?;
     file.no_forces("discover")?;
@@ -99,7 +98,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
         horizons: &arguments.horizons,
         seed: arguments.seed,
     };
-    let found = discover_aligned(&request, arguments.clock_offset, &|what| progress.say(what))?;
+    let found = discover_aligned(&request, arguments.clock_offset, &|p| progress.hear(p))?;
     drop(progress);
     write(&found, file, &arguments.out)?;
     match arguments.format {

@@ -1,7 +1,7 @@
 //! `creepage figures`
 
-use super::print;
-use super::progress::Progress;
+use super::output::print;
+use super::progress::ProgressLine;
 use clap::Args;
 use creepage::Result;
 use creepage::figures::{self, Options};
@@ -42,8 +42,8 @@ fn after_help() -> String {
 /// Carries out the command.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let options = Options::new(arguments.e_rc, arguments.e_tc, &arguments.reading)?;
-    let progress = Progress::new(quiet);
-    let drawn = figures::draw(&arguments.names, &options, &|name| progress.say(&format!("drawing {name}")))?;
+    let progress = ProgressLine::new(quiet);
+    let drawn = figures::draw(&arguments.names, &options, &|p| progress.hear(p))?;
     drop(progress);
     let files: Vec<(String, String)> = drawn.iter().flat_map(|(figure, drawing)| drawing.files(figure.name)).collect();
     let bytes: Vec<(&str, &[u8])> = files.iter().map(|(name, text)| (name.as_str(), text.as_bytes())).collect();

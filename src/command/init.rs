@@ -1,7 +1,7 @@
 //! `creepage init`
 
-use super::own::OwnVehicles;
-use super::print;
+use super::output::print;
+use super::user_catalogues::UserVehicles;
 use clap::Args;
 use creepage::files::{ModelFile, read_header, write_whole};
 use creepage::scaffold::{Starter, Wanted};
@@ -43,7 +43,7 @@ pub struct Arguments {
     #[arg(long)]
     force: bool,
     #[command(flatten)]
-    own: OwnVehicles,
+    own: UserVehicles,
 }
 
 /// Carries out the command.

@@ -1,7 +1,7 @@
 //! `creepage vehicles` and `creepage effects`
 
-use super::own::{Own, OwnVehicles};
-use super::print;
+use super::output::{Format, pretty, print};
+use super::user_catalogues::{UserCatalogues, UserVehicles};
 use clap::{Args, ValueEnum};
 use creepage::Result;
 use creepage::describe::{
@@ -19,7 +19,7 @@ pub struct Vehicles {
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
     #[command(flatten)]
-    own: OwnVehicles,
+    own: UserVehicles,
 }
 
 /// List the effects that can be named, with their equations
@@ -39,7 +39,7 @@ pub struct Effects {
     #[arg(long, value_enum, default_value_t = EffectsFormat::Text)]
     format: EffectsFormat,
     #[command(flatten)]
-    own: Own,
+    own: UserCatalogues,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -48,17 +48,6 @@ enum EffectsFormat {
     Json,
     /// A Markdown page: tables of the equations that every effect rewrites on every vehicle
     Page,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-pub(super) enum Format {
-    Text,
-    Json,
-}
-
-/// JSON for people.
-pub fn pretty(value: &serde_json::Value) -> String {
-    format!("{value:#}\n")
 }
 
 /// Carries out `creepage vehicles`.

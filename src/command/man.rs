@@ -1,7 +1,7 @@
 //! `creepage man`
 
-use super::{Cli, print};
-use clap::{Args, CommandFactory};
+use super::output::print;
+use clap::{Args, Command};
 use clap_mangen::Man;
 use creepage::files::write_all_or_nothing;
 use creepage::{Error, Result};
@@ -20,8 +20,7 @@ pub struct Arguments {
 }
 
 /// Carries out the command.
-pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
-    let mut all = Cli::command();
+pub fn run(arguments: &Arguments, mut all: Command, quiet: bool) -> Result<()> {
     all.build();
     let Some(out) = &arguments.out else {
         print(&page(all)?)?;

@@ -8,14 +8,16 @@ mod figures;
 mod init;
 mod lists;
 mod man;
-mod own;
+mod output;
 mod progress;
 mod runs;
 mod simulate;
+mod stage_text;
 mod sweep;
+mod user_catalogues;
 mod verify;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand};
 use creepage::{Error, Result};
 
 /// Creep kinematics of nonholonomic vehicles: constraints derived, models corrected by measured runs.
@@ -80,20 +82,8 @@ impl Cli {
             Command::Effects(arguments) => lists::effects(&arguments),
             Command::Verify(arguments) => verify::run(&arguments, self.common.quiet),
             Command::Claims(arguments) => verify::list(&arguments),
-            Command::Completions(arguments) => completions::run(&arguments),
-            Command::Man(arguments) => man::run(&arguments, self.common.quiet),
+            Command::Completions(arguments) => completions::run(&arguments, Self::command()),
+            Command::Man(arguments) => man::run(&arguments, Self::command(), self.common.quiet),
         }
-    }
-}
-
-/// Writes text to standard output; a reader that has gone away is no error, a full disk behind it is one.
-fn print(text: &str) -> Result<()> {
-    use std::io::{ErrorKind, Write};
-    let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(e) if e.kind() != ErrorKind::BrokenPipe => {
-            Err(Error::run(format!("standard output cannot be written: {e}")).help("free space and try again"))
-        }
-        _ => Ok(()),
     }
 }

@@ -1,9 +1,9 @@
 //! `creepage simulate`
 
-use super::own::Own;
-use super::print;
-use super::progress::Progress;
+use super::output::print;
+use super::progress::ProgressLine;
 use super::runs::not_an_input;
+use super::user_catalogues::UserCatalogues;
 use clap::Args;
 use creepage::dynamics::simulate_file;
 use creepage::files::{Initial, Inputs, ModelFile, write_whole_by};
@@ -40,7 +40,7 @@ pub struct Arguments {
     #[arg(long, default_value_t = 1e-12, value_parser = tolerance)]
     atol: f64,
     #[command(flatten)]
-    own: Own,
+    own: UserCatalogues,
 }
 
 fn tolerance(text: &str) -> std::result::Result<f64, String> {
@@ -53,7 +53,7 @@ fn tolerance(text: &str) -> std::result::Result<f64, String> {
 /// Carries out the command.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     not_an_input(&arguments.out, &[&arguments.inputs, &arguments.model])?;
-    let progress = Progress::new(quiet);
+    let progress = ProgressLine::new(quiet);
     progress.say("integrating");
     let (file, library) = &arguments.own.read(&arguments.model)?;
     let integrator = Integrator::default().with_tolerance(arguments.rtol, arguments.atol);

@@ -1,7 +1,7 @@
 //! `creepage sweep`
 
-use super::print;
-use super::progress::Progress;
+use super::output::print;
+use super::progress::ProgressLine;
 use super::runs::not_an_input;
 use clap::Args;
 use creepage::Result;
@@ -37,7 +37,7 @@ pub struct Arguments {
 
 /// Carries out the command.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
-    let progress = Progress::bar(quiet);
+    let progress = ProgressLine::new(quiet);
     let sweep = Sweep::read(&arguments.spec)?;
     let read = sweep.inputs();
     not_an_input(&arguments.out, &[&read[..], &[arguments.spec.as_path()]].concat())?;
@@ -46,8 +46,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     }
     let out = &arguments.out;
     let text = if arguments.join.is_empty() {
-        let tell = |p: creepage::sweep::Progress| progress.at(p.done, p.all, p.found);
-        let summary = sweep.write(arguments.shard.unwrap_or(Shard::WHOLE), out, &tell)?;
+        let summary = sweep.write(arguments.shard.unwrap_or(Shard::WHOLE), out, &|p| progress.hear(p))?;
         told(&summary)
     } else {
         sweep.join(&arguments.join, out)?;

@@ -1,14 +1,12 @@
 //! `creepage verify` and `creepage claims`
 
-use super::lists::pretty;
-use super::own::OwnVehicles;
-use super::print;
-use super::progress::Progress;
+use super::output::{pretty, print};
+use super::progress::ProgressLine;
+use super::user_catalogues::UserVehicles;
 use clap::{Args, ValueEnum};
 use creepage::claims::{self, Claim, Options, ledger};
 use creepage::{Error, Result};
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Run the claims of the paper and say which status each of them earns
 #[derive(Args)]
@@ -34,7 +32,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.toml")]
     claims: Option<PathBuf>,
     #[command(flatten)]
-    own: OwnVehicles,
+    own: UserVehicles,
     /// How to print the ledger
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -56,7 +54,7 @@ pub struct List {
     #[arg(long, value_name = "FILE.toml")]
     claims: Option<PathBuf>,
     #[command(flatten)]
-    own: OwnVehicles,
+    own: UserVehicles,
     /// How to print them
     #[arg(long, value_enum, default_value_t = ListFormat::Text)]
     format: ListFormat,
@@ -70,7 +68,7 @@ enum ListFormat {
     Contents,
 }
 
-fn known(own: Option<&PathBuf>, vehicles: &OwnVehicles) -> Result<Vec<Claim>> {
+fn known(own: Option<&PathBuf>, vehicles: &UserVehicles) -> Result<Vec<Claim>> {
     // A file of vehicles is read even where no claim may speak of them: a slip in it is worth knowing.
     let vehicles = vehicles.all()?;
     let mut all = claims::all();
@@ -93,13 +91,9 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     }
     let wanted: Vec<Claim> =
         all.into_iter().filter(|c| arguments.only.is_empty() || arguments.only.contains(&c.id)).collect();
-    let progress = Progress::new(quiet);
-    let (done, total) = (AtomicUsize::new(0), wanted.iter().map(|c| c.evidence.len()).sum::<usize>());
+    let progress = ProgressLine::new(quiet);
     let options = Options { cases: arguments.cases, seed: arguments.seed };
-    let made = claims::verify(&wanted, &options, &|id| {
-        let n = done.fetch_add(1, Ordering::Relaxed) + 1;
-        progress.say(&format!("{n} of {total} pieces of evidence; {id}"));
-    });
+    let made = claims::verify(&wanted, &options, &|p| progress.hear(p))?;
     drop(progress);
     match arguments.format {
         Format::Text if quiet => {}

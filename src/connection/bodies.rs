@@ -4,6 +4,13 @@ use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
 
 /// A rigid body of a system, seen from the system's own frame: place and angle are formulas of the shape.
+///
+/// ```
+/// use creepage::connection::PlanarBody;
+/// let arm = PlanarBody::new("2", "0.1", ["cos(alpha)", "sin(alpha)"], "alpha")?;
+/// assert_eq!(arm.angle.to_string(), "alpha");
+/// # Ok::<(), creepage::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct PlanarBody {
     /// Mass, kg.

@@ -34,8 +34,13 @@ mod rotation;
 mod space;
 
 pub use abelian::Connection;
-pub use bodies::{PlanarBody, floating_energy};
+pub use bodies::PlanarBody;
+#[doc(hidden)]
+pub use bodies::floating_energy;
 pub use drag::Drag;
 pub use path::Path;
-pub use rotation::{Rotation, RotationConnection};
+#[doc(hidden)]
+pub use rotation::Rotation;
+pub use rotation::RotationConnection;
+#[doc(hidden)]
 pub use space::{Axis, Matrix, turned};

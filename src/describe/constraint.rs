@@ -7,6 +7,14 @@ use crate::formula::{Expr, Node, Symbol};
 use crate::mechanism::{Constraint, ConstraintType, Printed, Row};
 
 /// A constraint, its generic form, its row as derived, ideal and in the model, and its derivatives.
+///
+/// ```
+/// let wheel = creepage::Model::new("unicycle", &[("wheel_radius", 0.5)])?;
+/// let description = creepage::describe(&wheel)?;
+/// let rolling: &creepage::describe::ConstraintEntry = &description.constraints[0];
+/// assert_eq!(rolling.creep.as_str(), "e_rc");
+/// # Ok::<(), creepage::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct ConstraintEntry {
     /// What it constrains, such as "rear axle, direction".

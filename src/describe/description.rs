@@ -43,6 +43,13 @@ pub struct Description {
 }
 
 /// name = formula; for a state, its rate.
+///
+/// ```
+/// let wheel = creepage::Model::new("unicycle", &[("wheel_radius", 0.5)])?;
+/// let description = creepage::describe(&wheel)?;
+/// assert!(description.states.iter().all(|equation| !equation.formula.to_string().is_empty()));
+/// # Ok::<(), creepage::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Equation {
     /// What is defined.

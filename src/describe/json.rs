@@ -9,6 +9,12 @@ use crate::mechanism::Row;
 use serde_json::{Map, Value, json as object};
 
 /// The description as JSON.
+///
+/// ```
+/// let wheel = creepage::Model::new("unicycle", &[("wheel_radius", 0.5)])?;
+/// assert_eq!(creepage::describe::json(&creepage::describe(&wheel)?)["schema"], 1);
+/// # Ok::<(), creepage::Error>(())
+/// ```
 pub fn json(d: &Description) -> Value {
     let s = &d.symbols;
     object!({

@@ -17,6 +17,12 @@ const HEAD: &str = r"\documentclass[a4paper,10pt]{article}
 ";
 
 /// The description as a LaTeX document that needs only `amsmath` and `longtable`.
+///
+/// ```
+/// let wheel = creepage::Model::new("unicycle", &[("wheel_radius", 0.5)])?;
+/// assert!(creepage::describe::latex(&creepage::describe(&wheel)?).contains("\\dot"));
+/// # Ok::<(), creepage::Error>(())
+/// ```
 pub fn latex(d: &Description) -> String {
     let mut out = String::from(HEAD);
     overview(&mut out, d);

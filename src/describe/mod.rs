@@ -34,21 +34,35 @@ mod terms;
 mod text;
 mod vehicles;
 
-pub use constraint::{ConstraintEntry, Part};
-pub use description::{Description, EffectInModel, Equation, MAX_TRAILERS};
+pub use constraint::ConstraintEntry;
+#[doc(hidden)]
+pub use constraint::Part;
+pub use description::{Description, Equation};
+#[doc(hidden)]
+pub use description::{EffectInModel, MAX_TRAILERS};
+#[doc(hidden)]
 pub use effects::{effects_json, effects_text};
+#[doc(hidden)]
 pub use found::Found;
 pub use holonomy::Holonomy;
+#[doc(hidden)]
 pub use jacobian::Jacobian;
 pub use json::json;
+#[doc(hidden)]
 pub use kinship::{every_effect_page, vehicle_effects_json, vehicle_effects_text};
 pub use latex::latex;
+#[doc(hidden)]
 pub use meaning::universal;
+#[doc(hidden)]
 pub use realised::Realised;
+#[doc(hidden)]
 pub use regime::{Coefficient, CreepLimits};
 pub use signature::Signature;
 pub use structure::Structure;
+#[doc(hidden)]
 pub use symbol_entry::{Kind, SymbolEntry};
+#[doc(hidden)]
 pub use symbols::Symbols;
 pub use text::text;
+#[doc(hidden)]
 pub use vehicles::{vehicles_json, vehicles_text};

@@ -6,6 +6,12 @@ use super::{ConstraintEntry, Description, Equation, Signature};
 use crate::formula::Symbol;
 
 /// The description as text that is Markdown too; every formula in it reads back with `Expr::parse`.
+///
+/// ```
+/// let wheel = creepage::Model::new("unicycle", &[("wheel_radius", 0.5)])?;
+/// assert!(creepage::describe::text(&creepage::describe(&wheel)?).contains("cos(phi)*x' + sin(phi)*y'"));
+/// # Ok::<(), creepage::Error>(())
+/// ```
 pub fn text(d: &Description) -> String {
     let mut page = Page::default();
     overview(&mut page, d);

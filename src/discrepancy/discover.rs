@@ -3,17 +3,18 @@
 use super::clock_alignment::aligned_run::{Aligned, aligned};
 use super::clock_alignment::refinement::refined;
 use super::estimation::problem::Problem;
-use super::pipeline::discover;
+use super::pipeline::{discover, discover_by_clocks, unfitted};
 use super::preprocessing::dataset::{Data, FITTED_SHARE};
 use super::selection::select::choose;
 use crate::discrepancy::clock_alignment::aligned_run::{is_aligned, without_delay};
 use crate::discrepancy::diagnosis::verdict;
-use crate::discrepancy::discovery::{Discovery, cut_short};
+use crate::discrepancy::discovery::{Clocks, Discovery};
 use crate::discrepancy::request::{Request, common_roles};
 use crate::effects::Effect;
 use crate::error::{Error, Result};
 use crate::files::Run;
 use crate::model::Model;
+use crate::progress::{OnProgress, Stage, tell};
 
 /// As [`discover`], the clocks of inputs and poses estimated first where they stand in files of their own.
 ///
@@ -22,7 +23,7 @@ use crate::model::Model;
 ///
 /// # Errors
 /// As [`discover`]; when some runs are in one file and others in two.
-pub fn discover_aligned(request: &Request, near: Option<f64>, progress: &dyn Fn(&str)) -> Result<Discovery> {
+pub fn discover_aligned(request: &Request, near: Option<f64>, progress: &OnProgress) -> Result<Discovery> {
     let all = || request.runs.iter().chain(request.held_out);
     if all().all(is_aligned) {
         return discover(request, progress);
@@ -36,36 +37,39 @@ pub fn discover_aligned(request: &Request, near: Option<f64>, progress: &dyn Fn(
     let request = &Request { file: &file, ..*request };
     let roles = common_roles(request.runs, request.held_out)?;
     let model = Model::from_file(request.file, request.library, &roles)?;
-    progress("aligning the clocks");
     let share = if request.held_out.is_empty() { FITTED_SHARE } else { 1.0 };
-    let first = match aligned(request.runs, share, request, &model, near)? {
+    let first = match aligned(request.runs, share, request, &model, near, progress)? {
         Ok(first) => first,
-        Err(obstacle) => return cut_short(request, obstacle.outcome()),
+        Err(outcome) => return Ok(unfitted(request, Clocks::default(), outcome)),
     };
     let chosen = with_effects(request, &model, &first, progress)?;
-    let again = |a: &Aligned| beside(a, request, &chosen, progress);
+    let all = first.len();
+    let again = |(i, a): (usize, &Aligned)| {
+        tell(progress, Stage::ClockRefinement, i, all)?;
+        beside(a, request, &chosen)
+    };
     let fitted: Vec<Aligned> = match chosen.effects.len() == model.effects.len() {
         true => first,
-        false => first.iter().map(again).collect::<Result<_>>()?,
+        false => first.iter().enumerate().map(again).collect::<Result<_>>()?,
     };
     // The held-out runs are looked at with the effects as they are: nothing but their clocks is fitted.
-    let held_out = match aligned(request.held_out, 1.0, request, &chosen.fixed(), near)? {
+    let held_out = match aligned(request.held_out, 1.0, request, &chosen.fixed(), near, progress)? {
         Ok(held_out) => held_out,
-        Err(obstacle) => return cut_short(request, obstacle.outcome()),
+        Err(outcome) => return Ok(unfitted(request, Clocks::default(), outcome)),
     };
     let library: Vec<Effect> = request.library.iter().filter(|e| !e.is_of_clock()).cloned().collect();
     let runs = |all: &[Aligned]| all.iter().map(|a| a.run.clone()).collect::<Vec<Run>>();
     let (by_one, judged) = (runs(&fitted), runs(&held_out));
     let request = Request { runs: &by_one, held_out: &judged, library: &library, ..*request };
-    let mut found = discover(&request, progress)?;
-    let data = &mut found.report.data;
-    data.clocks = fitted.iter().map(|a| a.clock(false)).chain(held_out.iter().map(|a| a.clock(true))).collect();
-    data.warnings.extend(fitted.iter().chain(&held_out).filter_map(Aligned::doubt).chain(delay));
-    Ok(found)
+    let clocks = Clocks {
+        clocks: fitted.iter().map(|a| a.clock(false)).chain(held_out.iter().map(|a| a.clock(true))).collect(),
+        warnings: fitted.iter().chain(&held_out).filter_map(Aligned::doubt).chain(delay).collect(),
+    };
+    discover_by_clocks(&request, clocks, progress)
 }
 
 /// The model with the effects that the aligned runs ask for, free; the delay they ask for goes into the clocks.
-fn with_effects(request: &Request, model: &Model, first: &[Aligned], progress: &dyn Fn(&str)) -> Result<Model> {
+fn with_effects(request: &Request, model: &Model, first: &[Aligned], progress: &OnProgress) -> Result<Model> {
     let runs: Vec<Run> = first.iter().map(|a| a.run.clone()).collect();
     let request = Request { runs: &runs, held_out: &[], ..*request };
     // Three quarters of the rows are enough to choose by.
@@ -81,8 +85,7 @@ fn with_effects(request: &Request, model: &Model, first: &[Aligned], progress: &
 }
 
 /// A run aligned again, beside effects.
-fn beside(a: &Aligned, request: &Request, model: &Model, progress: &dyn Fn(&str)) -> Result<Aligned> {
-    progress("aligning the clocks beside what was chosen");
+fn beside(a: &Aligned, request: &Request, model: &Model) -> Result<Aligned> {
     let original = request.runs.iter().find(|r| r.path == a.run.path).unwrap_or(&a.run);
     let fitted = refined(&original.until(a.until), model, request.file, a.fitted.clock)?;
     let Some(fitted) = fitted else { return Ok(a.clone()) };

@@ -1,29 +1,31 @@
 //! The main job in one line: runs → choice → gap → report.
 
-use super::diagnosis::before_after::ModelComparison;
-use super::diagnosis::equivalents;
-use super::diagnosis::equivalents::relatives;
+use super::diagnosis::advice::Advice;
+use super::diagnosis::before_after::{ModelComparison, grown, too_long};
+use super::diagnosis::equivalents::{EquivalentEffect, measured, relatives};
 use super::diagnosis::findings::{named, without_name};
-use super::diagnosis::{contradictions, plausibility, verdict};
+use super::diagnosis::verdict::{self, Outcome};
+use super::diagnosis::warning::Warning;
+use super::diagnosis::{contradictions, plausibility};
+use super::discovery::{Clocks, Discovery, Findings, report};
 use super::estimation::problem::Problem;
+use super::estimation::unexplained;
 use super::experiment::design;
+use super::experiment::next_step::NextStep;
 use super::localisation::driving_regimes;
 use super::localisation::unexplained_motion::remaining;
 use super::preprocessing::dataset::Data;
-use super::preprocessing::quantisation;
+use super::preprocessing::quantisation::{CoarseInput, coarse_inputs};
 use super::preprocessing::unit_errors;
-use super::rendering::{figure_data, summary};
-use super::report::*;
+use super::rendering::figure_data;
+use super::report::{Named, PathPicture, Pictures, Unnamed, Verdict};
+use super::request::{Request, common_roles, horizons};
+use super::selection::choice::{Selected, SelectedEffect};
 use super::selection::select::choose;
-use crate::discrepancy::discovery::{
-    Discovery, cut_short, empty_report, nothing_to_fit, told_of_steps, too_long, worse,
-};
-use crate::discrepancy::estimation::unexplained;
-use crate::discrepancy::request::{Request, common_roles, horizons};
-use crate::discrepancy::selection::choice::SelectedEffect;
 use crate::error::Result;
 use crate::model::Model;
 use crate::model::effect_equation;
+use crate::progress::{OnProgress, Stage, begin};
 
 /// Finds where a model and measured runs disagree, names the missing effect and shows the gap shrink.
 ///
@@ -31,66 +33,110 @@ use crate::model::effect_equation;
 ///
 /// # Errors
 /// When runs log different inputs, or the model file's effects do not apply to its vehicle.
-pub fn discover(request: &Request, progress: &dyn Fn(&str)) -> Result<Discovery> {
+pub fn discover(request: &Request, progress: &OnProgress) -> Result<Discovery> {
+    discover_by_clocks(request, Clocks::default(), progress)
+}
+
+/// As [`discover`], of runs whose clocks were aligned before.
+pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &OnProgress) -> Result<Discovery> {
     let roles = common_roles(request.runs, request.held_out)?;
     let model = Model::from_file(request.file, request.library, &roles)?;
-    if let Some(why) = unit_errors::too_sparse(&model, request.runs.iter().chain(request.held_out))? {
-        return cut_short(request, verdict::unusable(why));
+    if let Some(slip) = unit_errors::too_sparse(&model, request.runs.iter().chain(request.held_out))? {
+        return Ok(unfitted(request, clocks, verdict::unusable(slip)));
     }
     let data = Data::of(request, &model)?;
-    let known = request.file.noise;
-    let problem = Problem::new(data.fitted.clone(), known.position, known.heading);
-    if let Some(verdict) = verdict::before_fitting(&problem, &model)? {
+    let problem = Problem::new(data.fitted.clone(), request.file.noise.position, request.file.noise.heading);
+    if let Some(outcome) = verdict::before_fitting(&problem, &model)? {
         let given = |r| figure_data::path_as_given(r, &model);
         let paths = data.fitted.iter().map(given).collect::<Result<_>>()?;
-        return Ok(nothing_to_fit(request, &data, paths, verdict));
+        return Ok(early(request, &data, clocks, paths, outcome));
     }
-    let Some(choice) = choose(&problem, &model, request.library, progress)? else {
+    let Some(selected) = choose(&problem, &model, request.library, progress)? else {
         let paths = data.fitted.iter().map(|r| figure_data::measured_path(r, false)).collect();
-        return Ok(nothing_to_fit(request, &data, paths, verdict::undefined_motion()));
+        return Ok(early(request, &data, clocks, paths, verdict::undefined_motion()));
     };
-    progress("opening the held-out data");
-    let noise = choice.after.noise();
+    begin(progress, Stage::HeldOut)?;
+    let noise = selected.after.noise();
     let before = problem.violations(&model, &noise)?;
-    let after = problem.violations(&choice.after.model, &noise)?;
+    let after = problem.violations(&selected.after.model, &noise)?;
+    let remains = unexplained::remains(&selected.after);
     // What is explained to its noise needs no other clock.
-    let clocks = if unexplained::remains(&choice.after) { problem.drifts(&choice.after)? } else { vec![] };
-    let found = verdict::after_fitting(&problem, &choice, &after, &clocks)?;
-    let mut report = empty_report(request, &data);
-    report.verdict = found.verdict;
-    let relatives = relatives(&choice, request.library, equivalents::measured(&data.fitted[0]));
-    report.next_experiment = design::next(&problem, &choice, &relatives, &found)?;
-    if report.verdict != Verdict::UnusableData {
-        let each = choice.chosen.iter().zip(&relatives);
-        let (terms, effects): (Vec<_>, Vec<_>) = each.partition(|(c, _)| effect_equation::is_term(&c.applied));
-        report.effects = effects.into_iter().map(|(c, relatives)| named(c, relatives, &model)).collect();
-        let terms: Vec<&SelectedEffect> = terms.into_iter().map(|(c, _)| c).collect();
-        report.unnamed = without_name(&terms, &data, &choice.after, &model)?;
+    let drifts = if remains { problem.drifts(&selected.after)? } else { vec![] };
+    let outcome = verdict::after_fitting(&problem, &selected, &after, &drifts)?;
+    let relatives = relatives(&selected, request.library, measured(&data.fitted[0]));
+    let usable = outcome.verdict != Verdict::UnusableData;
+    let (effects, unnamed) = if usable { chosen(&selected, &relatives, &data, &model)? } else { (vec![], vec![]) };
+    let comparison = ModelComparison::of(&data, &model, &selected, request.seed)?;
+    let horizons = horizons(request);
+    let gap = comparison.gaps(&horizons);
+    let mut warnings = too_long(&horizons, &gap);
+    if usable {
+        warnings.extend(contradictions::warnings(&selected));
+        warnings.extend(verdict::restated(&selected));
+        warnings.extend(plausibility::warnings(&selected, &problem.records)?);
+        warnings.extend(grown(&gap));
     }
-    report.disagreement = driving_regimes::disagreements(&before);
-    report.remaining = Some(remaining(&choice.after, data.fitted[0].has_heading, &after));
-    let judged = ModelComparison::of(&data, &model, &choice, request.seed)?;
-    report.gap = judged.gaps(&horizons(request));
-    report.data.warnings.extend(too_long(request, &report));
-    if report.verdict != Verdict::UnusableData {
-        report.data.warnings.extend(contradictions::warnings(&choice));
-        report.data.warnings.extend(verdict::restated(&choice));
-        report.data.warnings.extend(plausibility::warnings(&choice, &problem.records)?);
-        report.data.warnings.extend(worse(&report.gap));
-    }
-    if unexplained::remains(&choice.after) {
-        let steps = request.runs.iter().flat_map(|run| quantisation::says(&model, run)).collect();
-        told_of_steps(&mut report, steps, contradictions::is_contested(&choice));
-    }
-    report.steps = judged.steps(&choice, &report.gap)?;
-    report.summary = found.sentence.unwrap_or_else(|| summary::verdict_sentence(&report));
-    let added = match report.verdict {
-        Verdict::UnusableData => vec![],
-        _ => choice.chosen.iter().map(|c| c.applied.entry()).collect(),
+    let steps = |run| if remains { coarse_inputs(&model, run) } else { vec![] };
+    let coarse: Vec<CoarseInput> = request.runs.iter().flat_map(steps).collect();
+    begin(progress, Stage::Experiment)?;
+    let next = next(&problem, &selected, &relatives, &outcome, coarse.first())?;
+    warnings.extend(coarse.into_iter().map(Warning::CoarseInput));
+    let found = Findings {
+        reason: outcome.reason,
+        next,
+        effects,
+        unnamed,
+        disagreement: driving_regimes::disagreements(&before),
+        remaining: Some(remaining(&selected.after, data.fitted[0].has_heading, &after)),
+        steps: comparison.steps(&selected, &gap)?,
+        gap,
+        warnings,
     };
-    let mut pictures = figure_data::pictures(&data, &choice, &report, &judged);
-    for (b, a) in before.iter().zip(&after) {
-        pictures.residuals.extend(b.pictures(a));
-    }
+    let report = report(request, &data, outcome.verdict, found, clocks);
+    let added = selected.chosen.iter().filter(|_| usable).map(|c| c.applied.entry()).collect();
+    let pictures = figure_data::pictures(&data, &selected, &report, &comparison, [&before, &after]);
     Ok(Discovery { report, pictures, added })
+}
+
+/// The chosen effects and the laws without a name, as the report lists them.
+fn chosen(
+    selected: &Selected,
+    relatives: &[Vec<EquivalentEffect>],
+    data: &Data,
+    model: &Model,
+) -> Result<(Vec<Named>, Vec<Unnamed>)> {
+    let each = selected.chosen.iter().zip(relatives);
+    let (terms, effects): (Vec<_>, Vec<_>) = each.partition(|(c, _)| effect_equation::is_term(&c.applied));
+    let effects = effects.into_iter().map(|(c, relatives)| named(c, relatives, model)).collect();
+    let terms: Vec<&SelectedEffect> = terms.into_iter().map(|(c, _)| c).collect();
+    Ok((effects, without_name(&terms, data, &selected.after, model)?))
+}
+
+/// What to drive or log next; inputs in finer steps where these may be all that is left unexplained.
+fn next(
+    problem: &Problem,
+    selected: &Selected,
+    relatives: &[Vec<EquivalentEffect>],
+    outcome: &Outcome,
+    coarse: Option<&CoarseInput>,
+) -> Result<Option<NextStep>> {
+    let open = outcome.verdict == Verdict::NotIdentifiable && !contradictions::is_contested(selected);
+    match coarse.filter(|_| open) {
+        Some(input) => Ok(Some(NextStep::Advice(Advice::FinerInputs(input.clone())))),
+        None => design::next(problem, selected, relatives, outcome),
+    }
+}
+
+/// The answer for runs that are not even put to the model.
+pub(crate) fn unfitted(request: &Request, clocks: Clocks, outcome: Outcome) -> Discovery {
+    let none = Data { fitted: vec![], held_out: vec![], gross: 0 };
+    early(request, &none, clocks, vec![], outcome)
+}
+
+/// The answer for runs that are not fitted.
+fn early(request: &Request, data: &Data, clocks: Clocks, paths: Vec<PathPicture>, outcome: Outcome) -> Discovery {
+    let next = outcome.next.map(NextStep::Advice);
+    let found = Findings { reason: outcome.reason, next, ..Findings::default() };
+    let report = report(request, data, outcome.verdict, found, clocks);
+    Discovery { report, pictures: Pictures { paths, ..Pictures::default() }, added: vec![] }
 }

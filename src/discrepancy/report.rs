@@ -5,6 +5,16 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// The whole answer; its JSON form is fixed by the contract.
+///
+/// ```
+/// use creepage::{Model, Report, Run, Verdict};
+/// let model = Model::read("examples/runs/cornering/model.toml")?;
+/// let eights = Run::read("examples/runs/cornering/eights.csv", &model)?;
+/// let report: Report = creepage::discover(&model, &[eights])?.report;
+/// assert_eq!((report.verdict, report.effects.len()), (Verdict::MissingEffect, 1));
+/// assert!(report.json()?.contains("missing-effect"));
+/// # Ok::<(), creepage::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Report {
     /// Version of this layout.
@@ -35,6 +45,11 @@ pub struct Report {
 }
 
 /// The five verdicts of the contract.
+///
+/// ```
+/// use creepage::Verdict;
+/// assert_eq!(serde_json::to_string(&Verdict::MissingEffect).unwrap(), "\"missing-effect\"");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
@@ -51,6 +66,18 @@ pub enum Verdict {
 }
 
 /// An effect that was found.
+///
+/// ```
+/// # use creepage::{Model, Run};
+/// # let model = Model::read("examples/runs/cornering/model.toml")?;
+/// # let eights = Run::read("examples/runs/cornering/eights.csv", &model)?;
+/// use creepage::report::Named;
+/// let report = creepage::discover(&model, &[eights])?.report;
+/// let creep: &Named = &report.effects[0];
+/// assert_eq!(creep.id, "cornering-creep");
+/// assert!((creep.parameters["mass_over_bT"].value - 0.11).abs() < 0.01);
+/// # Ok::<(), creepage::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Named {
     /// Its id in the library.
@@ -72,6 +99,12 @@ pub struct Named {
 }
 
 /// A fitted number.
+///
+/// ```
+/// use creepage::report::Estimate;
+/// let creep = Estimate { value: 0.05, std: Some(0.01), unit: "1".into() };
+/// assert!(creep.std.is_some_and(|std| creep.value.abs() > 3.0 * std));
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// The estimate.
@@ -83,6 +116,12 @@ pub struct Estimate {
 }
 
 /// Evidence for an effect on the fitting data.
+///
+/// ```
+/// use creepage::report::Evidence;
+/// let evidence = Evidence { delta_bic: 120.0, p_value: 1e-9 };
+/// assert!(evidence.delta_bic > 10.0 && evidence.p_value < 1e-3);
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Evidence {
     /// BIC without minus BIC with the effect.
@@ -92,6 +131,13 @@ pub struct Evidence {
 }
 
 /// An effect that is not told from a named one.
+///
+/// ```
+/// use creepage::report::{Named, Rival};
+/// fn rivals(effect: &Named) -> Vec<&str> {
+///     effect.indistinguishable_from.iter().map(|rival: &Rival| rival.id.as_str()).collect()
+/// }
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rival {
     /// Its id.
@@ -101,6 +147,13 @@ pub struct Rival {
 }
 
 /// A disagreement with an equation but no name.
+///
+/// ```
+/// use creepage::report::Unnamed;
+/// fn is_worth_a_look(term: &Unnamed) -> bool {
+///     term.held_out_reduction > 0.3
+/// }
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Unnamed {
     /// The constraint it violates.
@@ -116,6 +169,14 @@ pub struct Unnamed {
 }
 
 /// A stretch of a run in which a constraint is violated.
+///
+/// ```
+/// use creepage::report::Disagreement;
+/// fn worst(all: &[Disagreement]) -> Option<&Disagreement> {
+///     all.iter().max_by(|a, b| a.share_of_gap.total_cmp(&b.share_of_gap))
+/// }
+/// assert_eq!(worst(&[]), None);
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Disagreement {
     /// File name of the run.
@@ -134,6 +195,13 @@ pub struct Disagreement {
 }
 
 /// What the last model leaves, on the fitted data.
+///
+/// ```
+/// use creepage::report::Remaining;
+/// fn is_white(remaining: &Remaining) -> bool {
+///     remaining.rows_alike < 1.5
+/// }
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Remaining {
     /// Standard deviation of a measured coordinate, m.
@@ -149,6 +217,13 @@ pub struct Remaining {
 }
 
 /// What remains of one constraint.
+///
+/// ```
+/// use creepage::report::RemainingConstraint;
+/// fn is_noise(left: &RemainingConstraint) -> bool {
+///     left.p_value > 0.01 || left.rms <= left.noise
+/// }
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RemainingConstraint {
     /// The constraint.
@@ -165,6 +240,16 @@ pub struct RemainingConstraint {
 }
 
 /// RMS error of prediction over one horizon.
+///
+/// ```
+/// # use creepage::{Model, Run};
+/// # let model = Model::read("examples/runs/cornering/model.toml")?;
+/// # let eights = Run::read("examples/runs/cornering/eights.csv", &model)?;
+/// use creepage::report::Gap;
+/// let gaps: Vec<Gap> = creepage::discover(&model, &[eights])?.report.gap;
+/// assert_eq!(gaps.iter().map(|g| g.horizon_s).collect::<Vec<_>>(), [1.0, 5.0, 30.0]);
+/// # Ok::<(), creepage::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Gap {
     /// Horizon, s.
@@ -178,6 +263,17 @@ pub struct Gap {
 }
 
 /// Position in metres, heading in radians; heading is null when none was measured.
+///
+/// ```
+/// use creepage::report::BeforeAfter;
+/// let gap = BeforeAfter {
+///     position_rms_before: 0.20,
+///     position_rms_after: 0.01,
+///     heading_rms_before: None,
+///     heading_rms_after: None,
+/// };
+/// assert!(gap.position_rms_after < 0.1 * gap.position_rms_before);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BeforeAfter {
     /// Position error of the model as given.
@@ -191,6 +287,12 @@ pub struct BeforeAfter {
 }
 
 /// The gap that measurement noise alone makes.
+///
+/// ```
+/// use creepage::report::Floor;
+/// let floor = Floor { position_rms: 0.002, heading_rms: None };
+/// assert!(0.0021 < 1.5 * floor.position_rms);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Floor {
     /// Position, m.
@@ -200,6 +302,13 @@ pub struct Floor {
 }
 
 /// A manoeuvre that would tell what these data cannot.
+///
+/// ```
+/// use creepage::report::NextExperiment;
+/// fn order(next: &NextExperiment) -> String {
+///     format!("drive: {}", next.manoeuvre)
+/// }
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NextExperiment {
     /// What it would tell.
@@ -209,6 +318,12 @@ pub struct NextExperiment {
 }
 
 /// One step of the selection.
+///
+/// ```
+/// use creepage::report::Step;
+/// let step = Step { added: "cornering-creep".into(), gap_after: 0.01 };
+/// assert!(step.gap_after < 0.05);
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Step {
     /// The effect added.
@@ -218,6 +333,13 @@ pub struct Step {
 }
 
 /// What was read.
+///
+/// ```
+/// use creepage::report::DataSummary;
+/// fn dropped(data: &DataSummary) -> f64 {
+///     data.rows_dropped as f64 / (data.rows + data.rows_dropped).max(1) as f64
+/// }
+/// ```
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct DataSummary {
     /// Number of runs.
@@ -237,6 +359,13 @@ pub struct DataSummary {
 
 /// The clock of a run whose inputs and poses were logged apart: time of the poses = time of the inputs + offset +
 /// drift·(time of the inputs − at).
+///
+/// ```
+/// use creepage::report::RunClock;
+/// fn is_unique(clock: &RunClock) -> bool {
+///     clock.other_offset_s.is_none()
+/// }
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunClock {
     /// File name of the inputs.
@@ -258,6 +387,13 @@ pub struct RunClock {
 }
 
 /// Where an answer comes from.
+///
+/// ```
+/// use creepage::report::Provenance;
+/// fn is_ours(of: &Provenance, sha256: &str) -> bool {
+///     of.inputs_sha256.values().any(|digest| digest == sha256)
+/// }
+/// ```
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct Provenance {
     /// Version of the program.

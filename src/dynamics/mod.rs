@@ -18,24 +18,35 @@
 
 mod bodies;
 mod carried;
+mod compilation;
 mod contact;
 mod derive;
 mod description;
 mod file;
 mod forces;
 mod law;
+mod linear_solution;
 mod masses;
 mod observed;
 mod run;
 mod start;
 mod system;
 
+#[doc(hidden)]
 pub use contact::Contact;
+#[doc(hidden)]
 pub use derive::Formulas;
 pub use description::Dynamics;
+#[doc(hidden)]
 pub use file::{known, known_on, simulate_file};
-pub use law::{Law, LawParameter, laws};
+#[doc(hidden)]
+pub use law::LawParameter;
+pub use law::{Law, laws};
+#[doc(hidden)]
 pub use masses::{Masses, TrailerMass};
+#[doc(hidden)]
 pub use run::simulate_dynamics;
+#[doc(hidden)]
 pub use start::Start;
+#[doc(hidden)]
 pub use system::System;

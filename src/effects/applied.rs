@@ -5,7 +5,13 @@ use crate::formula::{Expr, Symbol};
 use std::collections::BTreeMap;
 
 /// An effect with its values, and the trailer it belongs to where it belongs to one.
-#[derive(Clone, Debug)]
+///
+/// ```
+/// use creepage::effects::{self, Applied};
+/// let creep = Applied::new(effects::named("rotation-creep").unwrap(), None, vec![0.05]);
+/// assert_eq!((creep.label().as_str(), creep.is_in_range()), ("rotation-creep", true));
+/// ```
+#[derive(Clone, Debug, PartialEq)]
 pub struct Applied {
     /// The effect.
     pub effect: Effect,

@@ -7,7 +7,13 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Something a vehicle really does that its model leaves out.
-#[derive(Clone, Debug, Default, Deserialize)]
+///
+/// ```
+/// use creepage::effects::{self, Effect};
+/// let creep: &Effect = effects::named("rotation-creep").unwrap();
+/// assert!(creep.parameters.contains_key("e_rc") && creep.states.is_empty());
+/// ```
+#[derive(Clone, Debug, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Effect {
     /// Its name in files and reports.
@@ -49,7 +55,13 @@ pub struct Effect {
 }
 
 /// A parameter of an effect.
-#[derive(Clone, Debug, Deserialize)]
+///
+/// ```
+/// use creepage::effects;
+/// let creep = &effects::named("rotation-creep").unwrap().parameters["e_rc"];
+/// assert!(creep.admits(creep.size) && !creep.admits(f64::INFINITY));
+/// ```
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Parameter {
     /// SI unit.
@@ -70,7 +82,13 @@ pub struct Parameter {
 }
 
 /// A state that an effect adds.
-#[derive(Clone, Debug, Deserialize)]
+///
+/// ```
+/// use creepage::effects::{self, State};
+/// let states: Vec<&State> = effects::all().iter().flat_map(|effect| effect.states.values()).collect();
+/// assert!(states.iter().all(|state| !state.unit.is_empty()));
+/// ```
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct State {
     /// SI unit.

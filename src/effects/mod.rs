@@ -56,6 +56,10 @@ pub fn of_clock() -> Option<&'static Effect> {
 }
 
 /// The effect of that id.
+///
+/// ```
+/// assert!(creepage::effects::named("rotation-creep").is_some_and(|e| e.basic));
+/// ```
 pub fn named(id: &str) -> Option<&'static Effect> {
     all().iter().find(|e| e.id == id)
 }

@@ -48,12 +48,12 @@ pub fn exact_points(model: &Model) -> Vec<Point> {
     let inputs: Vec<(Symbol, bool)> =
         model.inputs.iter().map(|role| (Symbol::new(role), is_angle(model, role))).collect();
     let point = |(k, numbers): (usize, &[(i64, i64); 6])| {
-        let mut next = numbers.iter().cycle().map(|(p, q)| BigRational::new((*p).into(), (*q).into()));
+        let mut next = numbers.iter().cycle().map(|(p, q)| BigRational::from_parts_signed((*p).into(), (*q).into()));
         let mut angle = || next.next().map_or_else(|| int(0), |u| Normal::call(Fun::Atan, &Normal::number(&u)));
         let mut given = Values::from([("x".into(), int(0)), ("y".into(), int(0)), ("phi".into(), angle())]);
         given.extend((1..=model.trailer_count()).map(|i| (trailer_heading(i), angle())));
         for (i, (role, is_angle)) in inputs.iter().enumerate() {
-            let speed = BigRational::new((2 + (3 * k + 5 * i * (k + 1)) as i64 % 11).into(), 2.into());
+            let speed = BigRational::from_parts_signed((2 + (3 * k + 5 * i * (k + 1)) as i64 % 11).into(), 2.into());
             given.insert(role.clone(), if *is_angle { angle() } else { Normal::number(&speed) });
         }
         Point { given, set: 0 }

@@ -8,7 +8,7 @@ pub type Values<S = Normal> = BTreeMap<Symbol, S>;
 
 /// A whole number.
 pub fn int<S: Scalar>(n: i64) -> S {
-    S::number(&BigRational::from_integer(n.into()))
+    S::number(&BigRational::from(n))
 }
 
 /// A normal form as a formula.

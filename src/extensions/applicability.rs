@@ -3,7 +3,7 @@
 use super::test_vehicle::{TestVehicle, reached, visible};
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
-use crate::files::OwnEffect;
+use crate::files::UserEffect;
 use crate::formula::{Expr, Symbol};
 use std::collections::BTreeMap;
 
@@ -25,7 +25,7 @@ pub(crate) struct Target {
 }
 
 /// Where an effect applies; an error with reasons where that is nowhere.
-pub(crate) fn places<'m>(own: &OwnEffect, test_vehicles: &'m [TestVehicle]) -> Result<Vec<Place<'m>>> {
+pub(crate) fn places<'m>(own: &UserEffect, test_vehicles: &'m [TestVehicle]) -> Result<Vec<Place<'m>>> {
     let (mut found, mut reasons) = (Vec::new(), BTreeMap::<String, Vec<&str>>::new());
     for test_vehicle in test_vehicles {
         let trailers = own.effect.trailers(test_vehicle.model.trailer_count());

@@ -3,7 +3,7 @@
 use super::test_vehicle::TestVehicle;
 use crate::effects::Effect;
 use crate::error::Result;
-use crate::files::OwnEffect;
+use crate::files::UserEffect;
 use crate::formula::{Size, Symbol};
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 const MAX_SIZE: Size = Size { nodes: 5000, depth: 300, degree: 1000 };
 
 /// That the definitions stay small with all effects of a library, the last of which is the user's.
-pub(crate) fn check(own: &OwnEffect, library: &[Effect], test_vehicles: &[TestVehicle]) -> Result<()> {
+pub(crate) fn check(own: &UserEffect, library: &[Effect], test_vehicles: &[TestVehicle]) -> Result<()> {
     if let Some((name, on)) = outgrown_of(library, test_vehicles) {
         let touches =
             |key: &str| key.trim_end_matches('*').starts_with(name.as_str()) || name.as_str().starts_with(key);

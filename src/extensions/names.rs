@@ -4,12 +4,12 @@ use super::applicability::Place;
 use super::test_vehicle::TestVehicle;
 use crate::effects::Effect;
 use crate::error::Result;
-use crate::files::{FormulaText, OwnEffect, advice};
+use crate::files::{FormulaText, UserEffect, advice};
 use crate::formula::{Expr, Symbol};
 use std::collections::BTreeMap;
 
 /// That some vehicle knows every name.
-pub(crate) fn check(own: &OwnEffect, test_vehicles: &[TestVehicle]) -> Result<()> {
+pub(crate) fn check(own: &UserEffect, test_vehicles: &[TestVehicle]) -> Result<()> {
     check_needs(own, test_vehicles)?;
     let defined = common(test_vehicles.iter().flat_map(TestVehicle::defined));
     for (key, (spot, _)) in &own.changes {
@@ -28,7 +28,7 @@ pub(crate) fn check(own: &OwnEffect, test_vehicles: &[TestVehicle]) -> Result<()
     own.rates.values().try_for_each(|rate| check_formula(own, rate, &known, false))
 }
 
-fn check_needs(own: &OwnEffect, test_vehicles: &[TestVehicle]) -> Result<()> {
+fn check_needs(own: &UserEffect, test_vehicles: &[TestVehicle]) -> Result<()> {
     let inputs = common(test_vehicles.iter().flat_map(|m| m.model.vehicle.inputs.keys().map(|i| Symbol::new(i))));
     let inputs: Vec<&str> = inputs.iter().map(Symbol::as_str).collect();
     for (role, spot) in own.effect.needs.iter().zip(&own.needs) {
@@ -49,7 +49,7 @@ fn common(names: impl Iterator<Item = Symbol>) -> Vec<Symbol> {
     found.into_iter().map(|(n, _)| n).collect()
 }
 
-fn check_formula(own: &OwnEffect, formula: &FormulaText, known: &[Symbol], is_change: bool) -> Result<()> {
+fn check_formula(own: &UserEffect, formula: &FormulaText, known: &[Symbol], is_change: bool) -> Result<()> {
     for s in formula.formula.symbols() {
         let name = s.as_str();
         if name == "it" && !is_change {
@@ -68,7 +68,7 @@ fn check_formula(own: &OwnEffect, formula: &FormulaText, known: &[Symbol], is_ch
 }
 
 /// That no parameter or state hides a name of a vehicle.
-pub(crate) fn check_clash(own: &OwnEffect, place: &Place) -> Result<()> {
+pub(crate) fn check_clash(own: &UserEffect, place: &Place) -> Result<()> {
     for (name, spot) in &own.names {
         if place.vehicle.units.contains_key(&Symbol::new(name)) {
             let error = spot.error(format!("{name} is also a name of the vehicle {}", place.vehicle.label));

@@ -1,7 +1,7 @@
 //! The check that an effect changes nothing where its parameters are neutral: the fit begins there.
 
 use crate::error::Result;
-use crate::files::{FormulaText, OwnEffect};
+use crate::files::{FormulaText, UserEffect};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Definitions, Sample};
 
@@ -13,7 +13,7 @@ const RELATIVE_ROUNDING: f64 = 1e-9;
 
 /// The values of names at a point; parameters and states as a reading gives them.
 struct Situation<'a> {
-    own: &'a OwnEffect,
+    own: &'a UserEffect,
     point: u32,
     states_at_rest: bool,
 }
@@ -21,7 +21,7 @@ struct Situation<'a> {
 /// That the effect vanishes: its changes give `it`, with its states anywhere, or at rest at zero where they stay.
 ///
 /// An effect whose parameters are all positive or angles has no neutral value; it must only be defined.
-pub(crate) fn check(own: &OwnEffect) -> Result<()> {
+pub(crate) fn check(own: &UserEffect) -> Result<()> {
     let has_neutral = own.effect.parameters.values().any(|p| !p.positive && !p.periodic);
     let rests = |rate: &FormulaText| all(own, true, |s| s.value(&rate.formula).is_none_or(|v| close(v, 0.0)));
     let restless = own.rates.iter().find(|(_, rate)| !rests(rate));
@@ -47,7 +47,7 @@ pub(crate) fn check(own: &OwnEffect) -> Result<()> {
     Ok(())
 }
 
-fn undefined(own: &OwnEffect, formula: &FormulaText, has_neutral: bool) -> crate::Error {
+fn undefined(own: &UserEffect, formula: &FormulaText, has_neutral: bool) -> crate::Error {
     let place = if has_neutral { neutral(own) } else { "at their start".into() };
     formula
         .error(format!("the formula has no value where the parameters are {place} and speeds are of either sign"))
@@ -55,12 +55,12 @@ fn undefined(own: &OwnEffect, formula: &FormulaText, has_neutral: bool) -> crate
 }
 
 /// The neutral values in words.
-fn neutral(own: &OwnEffect) -> String {
+fn neutral(own: &UserEffect) -> String {
     let signed = own.effect.parameters.iter().filter(|(_, p)| !p.positive && !p.periodic);
     signed.map(|(name, _)| format!("{name} = 0")).collect::<Vec<_>>().join(", ")
 }
 
-fn all(own: &OwnEffect, states_at_rest: bool, holds: impl Fn(&Situation) -> bool) -> bool {
+fn all(own: &UserEffect, states_at_rest: bool, holds: impl Fn(&Situation) -> bool) -> bool {
     (0..ALL_POINTS).all(|point| holds(&Situation { own, point, states_at_rest }))
 }
 
@@ -99,7 +99,7 @@ mod tests {
     use crate::files::EffectsFile;
     use std::path::Path;
 
-    fn warm_creep() -> OwnEffect {
+    fn warm_creep() -> UserEffect {
         let examples = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/effects/my_effects.toml");
         let all = EffectsFile::read(Path::new(examples)).unwrap().effects;
         all.into_iter().find(|own| own.effect.id == "warm-creep").unwrap()

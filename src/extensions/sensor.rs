@@ -3,12 +3,12 @@
 use super::applicability::Place;
 use super::test_vehicle::reached;
 use crate::error::Result;
-use crate::files::OwnEffect;
+use crate::files::UserEffect;
 use crate::formula::Symbol;
 use std::collections::BTreeSet;
 
 /// That the sensor sees no more than the pose, and that the delay is constant: they are evaluated without inputs.
-pub(crate) fn check(own: &OwnEffect, place: &Place) -> Result<()> {
+pub(crate) fn check(own: &UserEffect, place: &Place) -> Result<()> {
     let model = place.vehicle.model.clone().with_effect(place.applied.clone());
     let definitions = model.row_definitions()?;
     let mut moving: BTreeSet<Symbol> = model.inputs.iter().map(|i| Symbol::new(i)).collect();

@@ -2,11 +2,11 @@
 
 use super::applicability::Place;
 use crate::error::{Error, Result};
-use crate::files::{FormulaText, OwnEffect, shown};
+use crate::files::{FormulaText, UserEffect, shown};
 use crate::formula::{Expr, Scalar, Symbol, Unit};
 
 /// That each formula has the unit of what it stands for.
-pub(crate) fn check(own: &OwnEffect, place: &Place) -> Result<()> {
+pub(crate) fn check(own: &UserEffect, place: &Place) -> Result<()> {
     for target in &place.targets {
         let Some((_, formula)) = own.changes.get(&target.key) else { continue };
         let wanted = unit_of(own, place, &target.name, &target.name);
@@ -27,7 +27,7 @@ fn unit(text: &str) -> Unit {
 }
 
 /// The unit of a name in a formula for `target`.
-fn unit_of(own: &OwnEffect, place: &Place, s: &Symbol, target: &Symbol) -> Unit {
+fn unit_of(own: &UserEffect, place: &Place, s: &Symbol, target: &Symbol) -> Unit {
     let name = s.as_str();
     if let Some(p) = own.effect.parameters.get(name) {
         return unit(&p.unit);

@@ -5,7 +5,7 @@ use super::{applicability, formula_growth, names, neutral_value, sensor, units};
 use crate::effects;
 use crate::effects::Effect;
 use crate::error::Result;
-use crate::files::{EffectsFile, OwnEffect, advice, shown};
+use crate::files::{EffectsFile, UserEffect, advice, shown};
 use crate::vehicles;
 use crate::vehicles::Vehicle;
 use std::path::Path;
@@ -57,7 +57,7 @@ pub fn with_own_on(path: impl AsRef<Path>, vehicles: &[Vehicle]) -> Result<Vec<E
 }
 
 /// That what an effect becomes where its states follow at once is an effect with as many parameters.
-fn check_limit(own: &OwnEffect, library: &[Effect]) -> Result<()> {
+fn check_limit(own: &UserEffect, library: &[Effect]) -> Result<()> {
     let (Some(id), Some(spot)) = (&own.effect.limit, &own.limit) else { return Ok(()) };
     let Some(limit) = library.iter().find(|e| e.id == *id) else {
         let ids: Vec<&str> = library.iter().map(|e| e.id.as_str()).collect();
@@ -77,7 +77,7 @@ fn check_limit(own: &OwnEffect, library: &[Effect]) -> Result<()> {
 }
 
 /// That the name of an effect, and the symbols made from it, are no other's.
-fn distinct(own: &OwnEffect, library: &[Effect]) -> Result<()> {
+fn distinct(own: &UserEffect, library: &[Effect]) -> Result<()> {
     let id = &own.effect.id;
     let is_taken = library.iter().any(|e| e.id == *id && e.origin.is_none()) || crate::model::is_term(id);
     if is_taken {
@@ -97,7 +97,7 @@ fn distinct(own: &OwnEffect, library: &[Effect]) -> Result<()> {
     }
 }
 
-fn check(own: &OwnEffect, test_vehicles: &[TestVehicle]) -> Result<()> {
+fn check(own: &UserEffect, test_vehicles: &[TestVehicle]) -> Result<()> {
     names::check(own, test_vehicles)?;
     let places = applicability::places(own, test_vehicles)?;
     for place in &places {

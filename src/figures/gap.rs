@@ -12,6 +12,7 @@ use crate::model::known;
 use crate::number_format::with_error;
 use crate::picture::maths::maths;
 use crate::picture::plot::Size;
+use crate::progress::unheard;
 
 /// The figure.
 pub const FIGURE: Figure = Figure {
@@ -37,7 +38,7 @@ fn discovered() -> Result<Discovery> {
     let held_out = [run("bay_held_out.csv", BAY)?];
     let request =
         Request { file: &file, runs: &runs, held_out: &held_out, library: effects::all(), horizons: &[], seed: 0 };
-    discover(&request, &|_| {})
+    discover(&request, &unheard)
 }
 
 fn draw(_: &Options) -> Result<Drawing> {

@@ -39,7 +39,9 @@ pub use options::Options;
 pub use rig::{Rig, RigWheel};
 
 use crate::error::{Error, Result};
+use crate::progress::{OnProgress, Stage, tell};
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Every figure, in the order of the paper.
 pub const FIGURES: &[Figure] = &[
@@ -85,23 +87,21 @@ pub fn named(name: &str) -> Result<&'static Figure> {
 ///
 /// ```
 /// use creepage::figures::{Options, draw};
-/// let drawn = draw(&["fig2".into()], &Options::default(), &|_| {}).unwrap();
+/// let drawn = draw(&["fig2".into()], &Options::default(), &creepage::progress::unheard).unwrap();
 /// assert_eq!(drawn[0].0.name, "fig2");
 /// assert!(drawn[0].1.svg.contains("</svg>") && drawn[0].1.tables[0].csv().starts_with("quantity,value,unit\n"));
 /// ```
 ///
 /// # Errors
 /// As [`named`], and when a model cannot be integrated with the coefficients given.
-pub fn draw(
-    names: &[String],
-    options: &Options,
-    progress: &(dyn Fn(&str) + Sync),
-) -> Result<Vec<(&'static Figure, Drawing)>> {
+pub fn draw(names: &[String], options: &Options, progress: &OnProgress) -> Result<Vec<(&'static Figure, Drawing)>> {
     names.iter().try_for_each(|name| named(name).map(|_| ()))?;
     let wanted = |f: &&Figure| names.is_empty() || names.iter().any(|n| n == f.name);
     let wanted: Vec<&Figure> = FIGURES.iter().filter(wanted).collect();
+    let begun = AtomicUsize::new(0);
     let one = |f: &&'static Figure| {
-        progress(f.name);
+        let before = begun.fetch_add(1, Ordering::Relaxed);
+        tell(progress, Stage::Figures { name: f.name }, before, wanted.len())?;
         Ok((*f, (f.draw)(options)?))
     };
     wanted.par_iter().map(one).collect()

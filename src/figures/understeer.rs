@@ -25,7 +25,8 @@ const CAR: [(&str, f64); 2] = [("wheel_radius", 0.3), ("wheelbase", 2.6)];
 const STEERING: f64 = 0.25;
 const RATE: f64 = 8.0;
 const TIME: f64 = 14.0;
-const LARGEST_STEERING: f64 = 0.4;
+/// The end of the axis of steering, rad: tyres of road cars turn no further.
+const MAX_STEERING: f64 = 0.4;
 
 /// Class, marker, name, and how much of the creep the front and the rear axle have.
 const CASES: [(&str, Marker, &str, f64, f64); 4] = [
@@ -77,7 +78,7 @@ fn car(front: f64, rear: f64) -> Result<Model> {
 /// Yaw rate over speed against the steering angle.
 fn curvatures(model: &Model) -> Result<Vec<[f64; 2]>> {
     let at = |i: i32| {
-        let delta = LARGEST_STEERING * f64::from(i) / 20.0;
+        let delta = MAX_STEERING * f64::from(i) / 20.0;
         let rig = Rig::of(model, &[0.0; 3], &[("wheel_rate", RATE), ("steering_angle", delta)])?;
         Ok([delta, rig.value("phi'")? / rig.value("v_l")?])
     };
@@ -97,7 +98,7 @@ fn above(paths: &[Vec<Vec<f64>>]) -> Element {
 
 fn curvature(curves: &[Vec<[f64; 2]>]) -> Element {
     let range = plane::ranges(curves.iter().flatten(), 0.03);
-    let x = Axis::linear("", "", [0.0, LARGEST_STEERING]);
+    let x = Axis::linear("", "", [0.0, MAX_STEERING]);
     let mut panel = plane::graph(CURVES, x, Axis::linear("", "", range[1]));
     for ((class, ..), curve) in CASES.iter().zip(curves) {
         panel.series(class, curve);

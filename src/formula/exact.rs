@@ -2,6 +2,7 @@
 
 use super::rational::{BigInt, BigRational, nearest_f64};
 use super::{Fun, Scalar};
+use dashu_base::Inverse;
 use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::f64::consts::TAU;
@@ -43,7 +44,7 @@ impl Exact {
     pub fn ratio(p: i64, q: i64) -> Self {
         match q {
             0 => Self::undefined(),
-            _ => Self::rational(BigRational::new(p.into(), q.into())),
+            _ => Self::rational(BigRational::from_parts_signed(p.into(), q.into())),
         }
     }
 
@@ -98,9 +99,9 @@ impl Exact {
             Value::Number(v) => nearest_f64(v),
             Value::Angle(x, y, turns) => {
                 // A quotient of the two is exact enough and cannot overflow.
-                let size = BigRational::from_integer(x.abs().max(y.abs()));
-                let part = |v: &BigInt| nearest_f64(&(BigRational::from_integer(v.clone()) / &size));
-                part(y).atan2(part(x)) + TAU * nearest_f64(&BigRational::from_integer(turns.clone()))
+                let size = BigRational::from(x.abs().max(y.abs()));
+                let part = |v: &BigInt| nearest_f64(&(BigRational::from(v.clone()) / &size));
+                part(y).atan2(part(x)) + TAU * nearest_f64(&BigRational::from(turns.clone()))
             }
             Value::Undefined => f64::NAN,
         }
@@ -124,24 +125,24 @@ pub(super) fn root(v: &BigRational) -> Option<BigRational> {
     if v.is_negative() {
         return None;
     }
-    Some(BigRational::new(whole(v.numer())?, whole(v.denom())?))
+    Some(BigRational::from_parts_signed(whole(v.numerator())?, whole(v.denominator().as_ibig())?))
 }
 
 fn quotient(a: &BigInt, b: &BigInt) -> Option<BigRational> {
-    (!b.is_zero()).then(|| BigRational::new(a.clone(), b.clone()))
+    (!b.is_zero()).then(|| BigRational::from_parts_signed(a.clone(), b.clone()))
 }
 
 /// cos and sin of a direction where they are rational.
 fn unit_vector(x: &BigInt, y: &BigInt) -> Option<(BigRational, BigRational)> {
-    let size = root(&BigRational::from_integer(x * x + y * y))?;
-    let part = |v: &BigInt| BigRational::from_integer(v.clone()) / &size;
+    let size = root(&BigRational::from(x * x + y * y))?;
+    let part = |v: &BigInt| BigRational::from(v.clone()) / &size;
     Some((part(x), part(y)))
 }
 
 /// A direction of rational components.
 fn pointing(x: &BigRational, y: &BigRational) -> Exact {
-    let common = x.denom().lcm(y.denom());
-    let whole = |v: &BigRational| (v * BigRational::from_integer(common.clone())).to_integer();
+    let common = x.denominator().as_ibig().lcm(y.denominator().as_ibig());
+    let whole = |v: &BigRational| (v * BigRational::from(common.clone())).trunc();
     Exact::direction(whole(x), whole(y))
 }
 
@@ -216,7 +217,7 @@ impl Scalar for Exact {
     }
 
     fn recip(&self) -> Self {
-        Self::of(self.as_rational().filter(|v| !v.is_zero()).map(BigRational::recip))
+        Self::of(self.as_rational().filter(|v| !v.is_zero()).map(Inverse::inv))
     }
 
     fn call(f: Fun, x: &Self) -> Self {
@@ -238,7 +239,7 @@ impl Scalar for Exact {
 
 /// An angle a whole number of times; a thousand turns are as many as a formula can hold.
 fn times(n: &BigRational, angle: &Exact) -> Exact {
-    let count = if n.is_integer() { n.numer().to_i32().filter(|k| k.abs() <= 1000) } else { None };
+    let count = if n.is_int() { n.numerator().to_i32().filter(|k| k.abs() <= 1000) } else { None };
     let Some(count) = count else { return Exact::undefined() };
     let once = if count < 0 { angle.neg() } else { angle.clone() };
     (0..count.unsigned_abs()).fold(Exact::ratio(0, 1), |sum, _| sum.add(&once))

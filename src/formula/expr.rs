@@ -1,7 +1,7 @@
 //! Expressions: formulas as data.
 
 use super::{BigInt, BigRational, Fun, Scalar, Symbol};
-use num_traits::{One, Signed, Zero};
+use num_traits::Signed;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -64,7 +64,7 @@ impl Expr {
 
     /// A whole number.
     pub fn int(n: i64) -> Self {
-        Self::number(&BigRational::from_integer(BigInt::from(n)))
+        Self::number(&BigRational::from(n))
     }
 
     /// An exact number; what is no decimal becomes a quotient of two.
@@ -75,8 +75,8 @@ impl Expr {
         if is_decimal(value) {
             return Self::raw(Node::Num(value.clone()));
         }
-        let whole = |n: &BigInt| Self::raw(Node::Num(BigRational::from_integer(n.clone())));
-        Self::raw(Node::Div(whole(value.numer()), whole(value.denom())))
+        let whole = |n: &BigInt| Self::raw(Node::Num(BigRational::from(n.clone())));
+        Self::raw(Node::Div(whole(value.numerator()), whole(value.denominator().as_ibig())))
     }
 
     /// A function of an expression.
@@ -198,7 +198,7 @@ impl Default for Expr {
 
 /// Whether the denominator has no prime factor but 2 and 5.
 fn is_decimal(value: &BigRational) -> bool {
-    let mut rest = value.denom().clone();
+    let mut rest = value.denominator().as_ibig().clone();
     for p in [2, 5] {
         while (&rest % BigInt::from(p)).is_zero() {
             rest /= p;

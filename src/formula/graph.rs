@@ -1,7 +1,7 @@
 //! Expressions as a hash-consed graph, in which equal sub-expressions stand once.
 
 use super::{BigRational, Expr, Fun, Node, Symbol};
-use num_traits::{One, Signed, Zero};
+use num_traits::{Signed, Zero};
 use std::collections::HashMap;
 
 /// A node of a [`Graph`].
@@ -121,7 +121,7 @@ impl Graph {
     }
 
     pub(super) fn int(&mut self, n: i64) -> NodeId {
-        self.number(BigRational::from_integer(n.into()))
+        self.number(BigRational::from(n))
     }
 
     fn push(&mut self, op: Op) -> NodeId {

@@ -127,8 +127,8 @@ fn number(text: &str, chars: &[char], start: usize) -> Result<(BigRational, usiz
         return Err(caret(text, start, format!("a number of more than {MAX_DIGITS} digits")));
     }
     let mantissa: BigInt = digits.parse().unwrap_or_else(|_| BigInt::zero());
-    let ten = BigRational::from_integer(BigInt::from(10));
-    Ok((BigRational::from_integer(mantissa) * num_traits::Pow::pow(ten, scale), at))
+    let ten = BigRational::from(10);
+    Ok((BigRational::from(mantissa) * ten.pow(scale as isize), at))
 }
 
 /// The exponent after a mantissa: its value (`None` when it does not fit) and where it ends.

@@ -42,21 +42,36 @@ mod symbol;
 mod typst;
 mod unit;
 
-pub use dual::{Dual, Parts};
+pub use dual::Dual;
+#[doc(hidden)]
+pub use dual::Parts;
 pub use exact::Exact;
-pub use expr::{Expr, Node};
+pub use expr::Expr;
+#[doc(hidden)]
+pub use expr::Node;
+#[doc(hidden)]
 pub use fun::Fun;
-pub use graph::{Graph, NodeId, Op};
-pub use jet::{Jet, Layout};
-pub use lanes::{Changes, Isa, Kernel, Lanes, Memory, Rows};
+pub use graph::Graph;
+#[doc(hidden)]
+pub use graph::{NodeId, Op};
+pub use jet::Jet;
+#[doc(hidden)]
+pub use jet::Layout;
+pub use lanes::Lanes;
+#[doc(hidden)]
+pub use lanes::{Changes, Isa, Kernel, Memory, Rows};
+#[doc(hidden)]
 pub use latex::latex_symbol;
 pub(crate) use lex::{caret, column_of};
 pub(crate) use normal::with_work_bounded;
 pub use normal::{Normal, identical};
+#[doc(hidden)]
 pub use polynomial::Polynomial;
 pub use program::Program;
+#[doc(hidden)]
 pub use rational::{BigInt, BigRational, exact_f64, nearest_f64};
 pub use scalar::Scalar;
+#[doc(hidden)]
 pub use size::Size;
 pub use symbol::Symbol;
 pub use unit::Unit;

@@ -130,7 +130,7 @@ fn of_number(f: Fun, v: &BigRational) -> Option<Fraction> {
     }
     // Arcsine and arccosine of a direction to the right lie within a quarter of a turn.
     let (x, y) = value.as_direction().filter(|(x, _)| *x > Zero::zero())?;
-    Some(arctan(&Fraction::constant(BigRational::new(y, x))))
+    Some(arctan(&Fraction::constant(BigRational::from_parts_signed(y, x))))
 }
 
 fn call(f: Fun, x: &Fraction) -> Option<Fraction> {

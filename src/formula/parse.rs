@@ -160,7 +160,7 @@ impl Parser<'_> {
         let bracket = self.take('(');
         let negative = self.take('-');
         let value = match self.peek() {
-            TokenKind::Number(v) if v.is_integer() => v.numer().to_i32().filter(|n| *n <= MAX_POWER),
+            TokenKind::Number(v) if v.is_int() => v.numerator().to_i32().filter(|n| *n <= MAX_POWER),
             _ => None,
         };
         let wanted = format!("a whole exponent up to {MAX_POWER}");

@@ -1,6 +1,7 @@
 //! A formula as a polynomial in its atoms: like terms collected, products multiplied out.
 
 use super::{BigRational, Expr, Fun, Node};
+use dashu_base::Inverse;
 use num_traits::{One, Signed, Zero};
 use std::collections::BTreeMap;
 
@@ -78,7 +79,7 @@ impl Polynomial {
             Node::Sub(a, b) => Self::of(a).plus(&Self::of(b).scaled(&-BigRational::one())),
             Node::Mul(a, b) => Self::of(a).times(&Self::of(b)).unwrap_or_else(|| Self::atom(e)),
             Node::Div(a, b) => match b.as_number() {
-                Some(v) if !v.is_zero() => Self::of(a).scaled(&v.recip()),
+                Some(v) if !v.is_zero() => Self::of(a).scaled(&v.inv()),
                 _ => Self::of(a).times(&Self::atom(&(&Expr::int(1) / b))).unwrap_or_else(|| Self::atom(e)),
             },
             Node::Pow(x, n) if (0..=8).contains(n) => {
@@ -223,9 +224,9 @@ pub(super) fn signed_sum(terms: &[(bool, Expr)]) -> Expr {
 
 /// A rational multiple of a product: small denominators as a quotient, others as a decimal where they are one.
 fn term(m: &Monomial, size: &BigRational) -> Expr {
-    let quotient = *size.denom() <= 9.into();
+    let quotient = *size.denominator().as_ibig() <= 9.into();
     let (factor, divisor) = match quotient {
-        true => (size.numer().clone().into(), size.denom().clone().into()),
+        true => (size.numerator().clone().into(), size.denominator().as_ibig().clone().into()),
         false => (size.clone(), BigRational::one()),
     };
     let (numerators, denominators): (Vec<_>, Vec<_>) = m.iter().partition(|(a, _)| !is_reciprocal(&a.expr));

@@ -1,7 +1,6 @@
 //! Expressions to text that reads back as the same expression.
 
-use super::{BigInt, BigRational, Expr, Node};
-use num_traits::Zero;
+use super::{BigRational, Expr, Node};
 use std::fmt;
 
 /// How tightly a form binds; a part that binds less tightly than its place asks for gets parentheses.
@@ -55,12 +54,12 @@ impl fmt::Display for Part<'_> {
 pub(super) fn decimal(v: &BigRational) -> String {
     let mut scale = 0usize;
     let mut rest = v.clone();
-    let ten = BigRational::from_integer(BigInt::from(10));
-    while !rest.denom().is_one() {
+    let ten = BigRational::from(10);
+    while !rest.denominator().as_ibig().is_one() {
         rest *= &ten;
         scale += 1;
     }
-    let digits = rest.numer().to_string();
+    let digits = rest.numerator().to_string();
     if scale == 0 || v.is_zero() {
         return digits;
     }

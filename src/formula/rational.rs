@@ -1,4 +1,4 @@
-//! Exact numbers: whole ones of any length and their ratios.
+//! Exact rational numbers: whole numbers of any length and their ratios (dashu), to and from the nearest double.
 
 use num_traits::ToPrimitive;
 
@@ -10,27 +10,26 @@ pub type BigInt = dashu_int::IBig;
 /// ```
 /// use creepage::formula::{BigInt, BigRational};
 ///
-/// let half = BigRational::new(BigInt::from(3), BigInt::from(6));
+/// let half = BigRational::from_parts_signed(BigInt::from(3), BigInt::from(6));
 /// assert_eq!(half.to_string(), "1/2");
 /// ```
-pub type BigRational = num_rational::Ratio<BigInt>;
+pub type BigRational = dashu_ratio::RBig;
 
 /// The double nearest to a ratio: infinite beyond the largest.
 ///
 /// ```
 /// use creepage::formula::{BigRational, nearest_f64};
 ///
-/// assert_eq!(nearest_f64(&BigRational::new(1.into(), 10.into())), 0.1);
+/// assert_eq!(nearest_f64(&BigRational::from_parts_signed(1.into(), 10.into())), 0.1);
 /// ```
 pub fn nearest_f64(v: &BigRational) -> f64 {
     const EXACT: i64 = 1 << f64::MANTISSA_DIGITS;
     let exact = |n: &BigInt| n.to_i64().filter(|n| (-EXACT..=EXACT).contains(n));
-    if let (Some(p), Some(q)) = (exact(v.numer()), exact(v.denom())) {
+    if let (Some(p), Some(q)) = (exact(v.numerator()), exact(v.denominator().as_ibig())) {
         // Two doubles without an error: their quotient is rounded once.
         return p as f64 / q as f64;
     }
-    let long = |n: &BigInt| num_bigint::BigInt::from_signed_bytes_le(&n.to_le_bytes());
-    num_rational::BigRational::new_raw(long(v.numer()), long(v.denom())).to_f64().unwrap_or(f64::NAN)
+    v.to_f64().value()
 }
 
 /// The ratio that a double is; none for one that is not finite.
@@ -42,9 +41,7 @@ pub fn nearest_f64(v: &BigRational) -> f64 {
 /// assert!(exact_f64(f64::NAN).is_none());
 /// ```
 pub fn exact_f64(v: f64) -> Option<BigRational> {
-    let long = num_rational::BigRational::from_float(v)?;
-    let whole = |n: &num_bigint::BigInt| BigInt::from_le_bytes(&n.to_signed_bytes_le());
-    Some(BigRational::new_raw(whole(long.numer()), whole(long.denom())))
+    BigRational::try_from(v).ok()
 }
 
 /// How many bits a whole number has, its sign left out.
@@ -77,7 +74,7 @@ mod tests {
             assert_eq!(nearest_f64(&exact).to_bits(), v.to_bits(), "{v}");
         }
         assert!([f64::NAN, f64::INFINITY, f64::NEG_INFINITY].into_iter().all(|v| exact_f64(v).is_none()));
-        assert!(exact_f64(-7.5).unwrap() == BigRational::new((-15).into(), 2.into()));
+        assert!(exact_f64(-7.5).unwrap() == BigRational::from_parts_signed((-15).into(), 2.into()));
     }
 
     /// What is no double is rounded to the nearest one, as a decimal that is read is.
@@ -87,11 +84,25 @@ mod tests {
         for (digits, places) in
             [("1", 1), ("-12345678901234567", 3), ("9007199254740993", 0), ("17976931348623157", 320)]
         {
-            let exact = BigRational::new(digits.parse().unwrap(), ten(places));
+            let exact = BigRational::from_parts_signed(digits.parse().unwrap(), ten(places));
             let read: f64 = format!("{digits}e-{places}").parse().unwrap();
             assert_eq!(nearest_f64(&exact).to_bits(), read.to_bits(), "{digits}e-{places}");
         }
-        assert_eq!(nearest_f64(&BigRational::from_integer(ten(400))), f64::INFINITY);
+        assert_eq!(nearest_f64(&BigRational::from(ten(400))), f64::INFINITY);
+    }
+
+    /// Halfway between two doubles the even one is nearest, among subnormal ones and at both ends of the range too.
+    #[test]
+    fn ties_go_to_the_even_double() {
+        let two = |n: usize| BigInt::from(1) << n;
+        let nearest = |p: BigInt, q: BigInt| nearest_f64(&BigRational::from_parts_signed(p, q));
+        let tiny = |thousandths: i64| nearest(thousandths.into(), two(1074) * BigInt::from(1000));
+        assert_eq!([499, 500, 501, 1499, 1500, 2500, 2501].map(tiny), [0, 0, 1, 1, 2, 2, 3].map(f64::from_bits));
+        assert_eq!([-501, -1500].map(tiny), [-f64::from_bits(1), -f64::from_bits(2)]);
+        assert_eq!(nearest((two(53) + BigInt::from(1)) << 900, BigInt::from(3) << 900), 3_002_399_751_580_331.0);
+        let half_beyond = two(1024) - two(970);
+        assert_eq!(nearest(half_beyond.clone() - BigInt::from(1), 1.into()), f64::MAX);
+        assert_eq!(nearest(half_beyond, 1.into()), f64::INFINITY);
     }
 
     #[test]

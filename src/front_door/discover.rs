@@ -1,4 +1,4 @@
-//! The main jobs as calls: discover, check, describe, simulate.
+//! The jobs on a model and its runs as calls: discover, check, describe, simulate.
 
 use super::discovery::Discovery;
 use super::model::Model;
@@ -31,7 +31,7 @@ pub fn discover(model: &Model, runs: &[Run]) -> Result<Discovery> {
     discover_with(model, runs, &Options::default())
 }
 
-/// As [`discover`](crate::discover), with runs held out, horizons and a seed of one's own.
+/// As [`discover`](crate::discover), with [`Options`] of one's own: runs held out, horizons, effects, a listener.
 ///
 /// ```
 /// use creepage::{Model, Options, Run};
@@ -46,19 +46,20 @@ pub fn discover(model: &Model, runs: &[Run]) -> Result<Discovery> {
 /// ```
 ///
 /// # Errors
-/// As [`discover`](crate::discover).
+/// As [`discover`](crate::discover); when an effect of the options is unknown, or their listener stops the work.
 pub fn discover_with(model: &Model, runs: &[Run], options: &Options) -> Result<Discovery> {
     model.file.no_forces("discover")?;
     VehicleModel::check_motion(&model.file)?;
+    let library = options.effects_of(model)?;
     let request = Request {
         file: &model.file,
         runs,
         held_out: &options.held_out,
-        library: &model.library,
+        library: &library,
         horizons: &options.horizons,
         seed: options.seed,
     };
-    let found = discover_aligned(&request, options.clock_offset, &|_| ())?;
+    let found = discover_aligned(&request, options.clock_offset, options.progress)?;
     let patched = model.rewritten(&found.patched(&model.file))?;
     Ok(Discovery { report: found.report, model: patched, pictures: found.pictures })
 }
@@ -76,9 +77,28 @@ pub fn discover_with(model: &Model, runs: &[Run], options: &Options) -> Result<D
 /// # Errors
 /// As [`discover`](crate::discover).
 pub fn check(model: &Model, runs: &[Run]) -> Result<Check> {
+    check_with(model, runs, &Options::default())
+}
+
+/// As [`check`](crate::check), with effects, a clock offset and a listener of one's own.
+///
+/// ```
+/// use creepage::{Model, Options, Run};
+/// let model = Model::read("examples/runs/cornering/model.toml")?;
+/// let runs = [Run::read("examples/runs/cornering/eights.csv", &model)?];
+/// let options = Options { effects: Some(vec!["cornering-creep".into()]), ..Options::default() };
+/// assert_eq!(creepage::check_with(&model, &runs, &options)?.effects.len(), 1);
+/// # Ok::<(), creepage::Error>(())
+/// ```
+///
+/// # Errors
+/// As [`discover_with`](crate::discover_with).
+pub fn check_with(model: &Model, runs: &[Run], options: &Options) -> Result<Check> {
     model.file.no_forces("check")?;
     VehicleModel::check_motion(&model.file)?;
-    check_aligned(&Checked { file: &model.file, runs, library: &model.library }, None, &|_| ())
+    let library = options.effects_of(model)?;
+    let of = Checked { file: &model.file, runs, library: &library };
+    check_aligned(&of, options.clock_offset, options.progress)
 }
 
 /// The constraints of a model with equations, Jacobians, growth vector and RT signature.

@@ -7,6 +7,16 @@ use crate::discrepancy::report::{Pictures, Report};
 use crate::error::Result;
 
 /// The answer of [`discover`](crate::discover).
+///
+/// ```
+/// # use creepage::{Model, Run};
+/// # let model = Model::read("examples/runs/cornering/model.toml")?;
+/// # let eights = Run::read("examples/runs/cornering/eights.csv", &model)?;
+/// let found: creepage::Discovery = creepage::discover(&model, &[eights])?;
+/// assert!(found.text().contains("cornering-creep") && found.html().ends_with("</html>\n"));
+/// assert!(found.model.text().contains("mass_over_bT"));
+/// # Ok::<(), creepage::Error>(())
+/// ```
 pub struct Discovery {
     /// Verdict, effects, gaps and all else of `report.json`.
     pub report: Report,

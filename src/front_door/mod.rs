@@ -5,9 +5,11 @@ mod discovery;
 mod model;
 mod options;
 mod run;
+mod verify;
 
-pub use discover::{check, describe, discover, discover_with, simulate};
+pub use discover::{check, check_with, describe, discover, discover_with, simulate};
 pub use discovery::Discovery;
 pub use model::Model;
 pub use options::Options;
 pub use run::Pose;
+pub use verify::{sweep, verify};

@@ -12,6 +12,12 @@ use std::sync::Arc;
 /// In TOML its `type` is the id of a type of the catalogue, or a table with the fields of [`ConstraintType`]; its
 /// `slots` are formulas, in which names that end in `'` are rates. In place of slots a constraint of type `momentum` may
 /// have the `energy` and the `generator` of [`Momentum::of`].
+///
+/// ```
+/// use creepage::vehicles;
+/// let own: Vec<_> = vehicles::all().iter().flat_map(|vehicle| &vehicle.constraints).collect();
+/// assert!(own.iter().all(|constraint| !constraint.name.is_empty()));
+/// ```
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(try_from = "Written")]
 pub struct Constraint {

@@ -71,7 +71,7 @@ impl Echelon {
         let mut vector = vec![BigRational::zero(); self.width];
         vector[column] = BigRational::one();
         for (pivot, row) in &self.rows {
-            vector[*pivot] = -BigRational::new(row[column].clone(), row[*pivot].clone());
+            vector[*pivot] = -BigRational::from_parts_signed(row[column].clone(), row[*pivot].clone());
         }
         vector
     }
@@ -109,8 +109,8 @@ pub(crate) fn common_factor<'a>(values: impl Iterator<Item = &'a BigInt>) -> Big
 
 /// A positive multiple of rational numbers that is whole and without common factor.
 pub(crate) fn whole(row: &[BigRational]) -> Vec<BigInt> {
-    let denominator = row.iter().fold(BigInt::one(), |all, v| all.lcm(v.denom()));
-    let mut row: Vec<BigInt> = row.iter().map(|v| v.numer() * (&denominator / v.denom())).collect();
+    let denominator = row.iter().fold(BigInt::one(), |all, v| all.lcm(v.denominator().as_ibig()));
+    let mut row: Vec<BigInt> = row.iter().map(|v| v.numerator() * (&denominator / v.denominator().as_ibig())).collect();
     primitive(&mut row);
     row
 }
@@ -126,5 +126,6 @@ pub(crate) fn whole_and_positive(row: &[BigRational]) -> Vec<BigInt> {
 
 /// Σ aᵢ·bᵢ
 pub(crate) fn dot(a: &[BigRational], b: &[BigRational]) -> BigRational {
-    a.iter().zip(b).filter(|(x, y)| !x.is_zero() && !y.is_zero()).map(|(x, y)| x * y).sum()
+    let terms = a.iter().zip(b).filter(|(x, y)| !x.is_zero() && !y.is_zero());
+    terms.fold(BigRational::zero(), |sum, (x, y)| sum + x * y)
 }

@@ -75,8 +75,8 @@ impl Term {
 
     /// Its derivatives with respect to the coordinates; `None` where one is not exact.
     pub(crate) fn gradient(&self, at: &Sample) -> Option<Vec<BigRational>> {
-        let scale = self.parameters.iter().map(|p| at.point.value(p).as_rational().cloned());
-        let scale = scale.product::<Option<BigRational>>()?;
+        let mut parameters = self.parameters.iter().map(|p| at.point.value(p).as_rational().cloned());
+        let scale = parameters.try_fold(BigRational::one(), |product, v| Some(product * v?))?;
         let (value, slope) = match self.factor {
             None => (BigRational::one(), BigRational::zero()),
             Some((f, w)) => circular(f, &at.directions[w])?,
@@ -112,7 +112,7 @@ impl Combination {
     pub(crate) fn gradient(&self, at: &Sample) -> Option<Vec<BigRational>> {
         let mut sum = vec![BigRational::zero(); at.numbers.len()];
         for (factor, term) in &self.parts {
-            let factor = BigRational::from_integer(factor.clone());
+            let factor = BigRational::from(factor.clone());
             sum.iter_mut().zip(term.gradient(at)?).for_each(|(s, g)| *s += &factor * g);
         }
         Some(sum)
@@ -121,7 +121,7 @@ impl Combination {
     /// As a formula.
     pub(crate) fn expr(&self, coordinates: &[Symbol]) -> Expr {
         self.parts.iter().fold(Expr::int(0), |sum, (factor, term)| {
-            let size = &Expr::number(&BigRational::from_integer(factor.abs())) * &term.expr(coordinates);
+            let size = &Expr::number(&BigRational::from(factor.abs())) * &term.expr(coordinates);
             if factor.is_negative() { &sum - &size } else { &sum + &size }
         })
     }

@@ -31,6 +31,7 @@ mod realisation;
 mod regime;
 mod row;
 pub(crate) mod slot_value;
+#[doc(hidden)]
 pub mod solve;
 pub(crate) mod unit_test_point;
 pub(crate) mod vector_field;
@@ -40,20 +41,30 @@ pub(crate) mod zero_test;
 pub use constrained_system::Mechanism;
 pub use constraint::Constraint;
 pub(crate) use constraint_type::rank;
-pub use constraint_type::{ConstraintType, Printed, Regimes, Slot, constraint_types};
+pub use constraint_type::{ConstraintType, constraint_types};
+#[doc(hidden)]
+pub use constraint_type::{Printed, Regimes, Slot};
+#[doc(hidden)]
 pub use contact::{Direction, Rolling, sigma_closed_form};
+#[doc(hidden)]
 pub use definitions::Definitions;
+#[doc(hidden)]
 pub use form::Form;
 pub use growth_vector::Growth;
 pub use heading::Heading;
+#[doc(hidden)]
 pub use integrals::Integral;
 pub use momentum::Momentum;
+#[doc(hidden)]
 pub use nonholonomy::Nonholonomy;
 pub use point::Point;
 pub use realisation::Realisation;
 pub(crate) use realisation::counted;
+#[doc(hidden)]
 pub use regime::{Landmark, Limits, RotationMotion, RotationRegime, Side, TraverseMotion, TraverseRegime, Way};
 pub use row::Row;
+#[doc(hidden)]
 pub use slot_value::Part;
+#[doc(hidden)]
 pub use unit_test_point::Sample;
 pub use velocity::Velocity;

@@ -27,7 +27,7 @@ impl Samples {
     /// A positive rational number.
     pub(crate) fn number(&mut self) -> BigRational {
         let (p, q) = (self.source.random_range(1..60), self.source.random_range(1..12));
-        BigRational::new(p.into(), q.into())
+        BigRational::from_parts_signed(p.into(), q.into())
     }
 
     /// An angle that is no multiple of a right angle, where formulas would vanish that do not elsewhere.

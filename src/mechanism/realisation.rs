@@ -4,7 +4,6 @@ use super::exact_linear_algebra::{Echelon, dot};
 use super::{Mechanism, Point, Row, rank};
 use crate::error::{Error, Result};
 use crate::formula::{BigRational, Expr, Symbol};
-use num_traits::Zero;
 
 /// The most smallest sets that are listed; their number grows as a binomial coefficient.
 const MAX_SETS: usize = 1000;

@@ -28,11 +28,11 @@ impl Field {
         let constants: Option<Vec<_>> = components.iter().map(|j| j.constant().as_rational()).collect();
         let constants = constants?;
         let all = components.iter().flat_map(|j| j.terms().values()).chain(constants.iter().copied());
-        let denominator = all.fold(BigInt::one(), |d, v| d.lcm(v.denom()));
+        let denominator = all.fold(BigInt::one(), |d, v| d.lcm(v.denominator().as_ibig()));
         let component = |(jet, constant): (&Jet, &&BigRational)| {
             let mut whole = vec![BigInt::zero(); layout.count(layout.order())];
             let terms = jet.terms().iter().map(|(m, v)| (*m, v)).chain([(0, *constant)]);
-            terms.for_each(|(m, v)| whole[m] = v.numer() * (&denominator / v.denom()));
+            terms.for_each(|(m, v)| whole[m] = v.numerator() * (&denominator / v.denominator().as_ibig()));
             whole
         };
         let components = components.iter().zip(&constants).map(component).collect();

@@ -6,6 +6,7 @@
 mod applicable;
 mod body;
 mod build;
+mod compilation;
 mod constraints;
 pub mod effect_equation;
 mod equations;

@@ -7,6 +7,12 @@ use crate::formula::{Graph, Program, Symbol};
 use crate::model::{Equations, Model, Workspace};
 
 /// Named columns of equal length.
+///
+/// ```
+/// use creepage::motion::Table;
+/// let table = Table { names: vec!["t".into(), "x".into()], columns: vec![vec![0.0, 1.0], vec![0.0, 0.5]] };
+/// assert_eq!((table.rows(), table.column("x")), (2, Some(&[0.0, 0.5][..])));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     /// Names of the columns.

@@ -12,6 +12,7 @@ mod shard;
 mod table;
 
 pub use prepared_sweep::Sweep;
-pub use run::{Progress, Summary};
+pub use run::Summary;
 pub use shard::Shard;
+#[doc(hidden)]
 pub use table::Format;

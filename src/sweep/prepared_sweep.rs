@@ -16,6 +16,12 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// A sweep ready to run.
+///
+/// ```
+/// use creepage::sweep::Sweep;
+/// assert_eq!(Sweep::read("examples/sweeps/wheels.toml")?.cases(), 2 * 9 * 9 * 10);
+/// # Ok::<(), creepage::Error>(())
+/// ```
 pub struct Sweep {
     pub(super) file: SweepFile,
     /// Names of what varies: the grid, then what is drawn.

@@ -6,6 +6,7 @@ use super::shard::Shard;
 use super::table::{Format, csv, header};
 use crate::error::Result;
 use crate::motion::Case;
+use crate::progress::{OnProgress, Stage, tell};
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 use std::ops::Range;
@@ -20,18 +21,13 @@ const ROUND_BLOCKS: [usize; 2] = [4, 64];
 /// by a kill.
 const QUICK_ROUND: Duration = Duration::from_millis(50);
 
-/// How far a sweep is, in cases.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Progress {
-    /// Cases that were there from an earlier run.
-    pub found: usize,
-    /// Cases that are done.
-    pub done: usize,
-    /// Cases of the part.
-    pub all: usize,
-}
-
 /// What a sweep has written.
+///
+/// ```
+/// use creepage::sweep::Summary;
+/// let all_well = |s: &Summary| s.undefined == 0 && s.not_converged == 0;
+/// assert!(all_well(&Summary { cases: 10, found: 4, undefined: 0, not_converged: 0 }));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Summary {
     /// Cases of the part.
@@ -57,8 +53,8 @@ impl Sweep {
     /// The first part has the header, so that parts in their order, one behind the other, are the whole table.
     ///
     /// # Errors
-    /// When the output cannot be written.
-    pub fn write(&self, shard: Shard, out: &Path, tell: &(dyn Fn(Progress) + Sync)) -> Result<Summary> {
+    /// When the output cannot be written, or the listener stops it: what is done waits beside the output then.
+    pub fn write(&self, shard: Shard, out: &Path, progress: &OnProgress) -> Result<Summary> {
         let format = Format::of(out)?;
         let range = shard.of(self.cases());
         let columns = self.columns();
@@ -72,7 +68,10 @@ impl Sweep {
         let mut computed: Vec<Result<Rows>> = vec![];
         let mut blocks = ROUND_BLOCKS[0];
         loop {
-            tell(Progress { found: journal.found, done: journal.cases(), all });
+            if let Err(stopped) = tell(progress, Stage::Cases { found: journal.found }, journal.cases(), all) {
+                append(&mut journal, computed)?;
+                return Err(stopped);
+            }
             let began = Instant::now();
             let round = next..range.end.min(next + self.block() * blocks * rayon::current_num_threads());
             next = round.end;

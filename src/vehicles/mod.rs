@@ -4,8 +4,11 @@
 mod moves;
 mod vehicle;
 
+#[doc(hidden)]
 pub use moves::Moves;
-pub use vehicle::{Coordinate, Definition, Input, Instead, Quantity, Section, Vehicle, Wheel};
+#[doc(hidden)]
+pub use vehicle::Instead;
+pub use vehicle::{Coordinate, Definition, Input, Quantity, Section, Vehicle, Wheel};
 
 use std::sync::LazyLock;
 
@@ -30,6 +33,11 @@ pub fn all() -> &'static [Vehicle] {
 }
 
 /// The vehicle of that id.
+///
+/// ```
+/// assert_eq!(creepage::vehicles::named("car").map(|v| v.id.as_str()), Some("car"));
+/// assert!(creepage::vehicles::named("hovercraft").is_none());
+/// ```
 pub fn named(id: &str) -> Option<&'static Vehicle> {
     all().iter().find(|v| v.id == id)
 }

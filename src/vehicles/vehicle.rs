@@ -9,6 +9,12 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// A body with wheels: the description from which constraints and motion are derived.
+///
+/// ```
+/// use creepage::vehicles;
+/// let car = vehicles::named("car").unwrap();
+/// assert!(car.parameters.contains_key("wheelbase") && car.wheels.len() > 1);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Vehicle {
@@ -115,6 +121,12 @@ impl Vehicle {
 }
 
 /// A coordinate of its own.
+///
+/// ```
+/// use creepage::vehicles::{self, Coordinate};
+/// let all: Vec<&Coordinate> = vehicles::all().iter().flat_map(|vehicle| &vehicle.coordinates).collect();
+/// assert!(all.iter().all(|coordinate| !coordinate.meaning.is_empty()));
+/// ```
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Coordinate {
@@ -127,6 +139,12 @@ pub struct Coordinate {
 }
 
 /// Unit and meaning of a number.
+///
+/// ```
+/// use creepage::vehicles;
+/// let car = vehicles::named("car").unwrap();
+/// assert_eq!(car.parameters["wheelbase"].unit, "m");
+/// ```
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Quantity {
@@ -140,6 +158,12 @@ pub struct Quantity {
 }
 
 /// A measured input.
+///
+/// ```
+/// use creepage::vehicles;
+/// let car = vehicles::named("car").unwrap();
+/// assert!(car.inputs.values().all(|input| !input.unit.is_empty()));
+/// ```
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Input {
@@ -168,6 +192,12 @@ pub struct Instead {
 }
 
 /// A symbol of the vehicle's formulas.
+///
+/// ```
+/// use creepage::vehicles;
+/// let car = vehicles::named("car").unwrap();
+/// assert!(car.define.values().all(|definition| definition.formula.to_string() != ""));
+/// ```
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Definition {
@@ -182,6 +212,12 @@ pub struct Definition {
 /// A trailer that is a part of a vehicle: a bar from its hitch back to an axle that keeps its direction.
 ///
 /// Its heading is phi_i, the coefficient of its traverse creep e_tc_i, with i its number from one.
+///
+/// ```
+/// use creepage::vehicles::{self, Section};
+/// let all: Vec<&Section> = vehicles::all().iter().flat_map(|vehicle| &vehicle.trailers).collect();
+/// assert!(all.iter().all(|section| !section.name.is_empty()));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Section {
@@ -195,6 +231,12 @@ pub struct Section {
 }
 
 /// A wheel, or an axle's worth of aligned wheels.
+///
+/// ```
+/// use creepage::vehicles;
+/// let car = vehicles::named("car").unwrap();
+/// assert!(car.wheels.iter().all(|wheel| wheel.on.is_none()));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Wheel {

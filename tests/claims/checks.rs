@@ -8,6 +8,7 @@ use creepage::claims::{
 use creepage::effects::{self, Applied};
 use creepage::formula::{Exact, Expr, Fun, Scalar, Symbol};
 use creepage::model::Model;
+use creepage::progress::unheard;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
@@ -300,7 +301,7 @@ fn every_piece_of_evidence_has_a_seed_of_its_own_and_sabotage_few_cases() {
             Outcome::Holds { cases: 1 }
         })
     });
-    verify(&[claim], &Options { cases: 500, seed: 5 }, &|_| ());
+    verify(&[claim], &Options { cases: 500, seed: 5 }, &unheard).unwrap();
     let told = told.lock().unwrap().clone();
     let seeds: BTreeSet<u64> = told.iter().map(|t| t.1).collect();
     assert_eq!(seeds.len(), 40);
@@ -331,7 +332,7 @@ fn a_file_states_what_its_claims_are() {
     let stated: Vec<Status> = claims.iter().map(|c| c.stated).collect();
     assert_eq!(stated, [Status::Proved, Status::Corrected, Status::Refuted, Status::Open]);
     assert_eq!(claims[0].evidence[0].equations.len(), 1);
-    let made = verify(&claims, &Options { cases: 10, seed: 1 }, &|_| ());
+    let made = verify(&claims, &Options { cases: 10, seed: 1 }, &unheard).unwrap();
     let earned: Vec<Status> = made.entries.iter().map(|e| e.earned).collect();
     assert_eq!((earned[0], earned[1], earned[3]), (Status::Proved, Status::Corrected, Status::Open));
     let sound = |i: usize| made.entries[i].shown.iter().all(|s| s.survivors.is_empty() && s.sabotages > 0);

@@ -7,7 +7,6 @@ use creepage::claims::generated::{
 use creepage::claims::written;
 use creepage::formula::{BigRational, Exact, Fun, Scalar, Symbol};
 use creepage::mechanism::{Constraint, Mechanism, Point};
-use num_traits::Zero;
 use proptest::prelude::*;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -65,7 +64,7 @@ fn wheels_of_one_vehicle_have_different_radii_and_headings() {
             prop_assert!(known.equals(wheel.radius.as_ref().unwrap()), "{}", wheel);
         }
         let towards: BTreeSet<_> = headings.iter().map(cos_and_sin).collect();
-        let one = BigRational::from_integer(1.into());
+        let one = BigRational::from(1);
         prop_assert!(towards.iter().all(|[cos, sin]| cos * cos + sin * sin == one));
         met.note("two radii", radii.len() > 1);
         met.note("five radii", radii.len() > 4);

@@ -4,6 +4,7 @@ use creepage::claims::{
     self, Claim, DerivedFormulas, Gives, Ledger, Options, Outcome, Sampling, Statement, Status, ledger, mutants, prove,
     proving, verify,
 };
+use creepage::progress::unheard;
 use std::path::Path;
 use std::process::{Command, Output};
 use std::sync::LazyLock;
@@ -11,7 +12,7 @@ use std::sync::LazyLock;
 const FEW: Options = Options { cases: 40, seed: 3 };
 
 /// The whole ledger.
-static LEDGER: LazyLock<Ledger> = LazyLock::new(|| verify(&claims::all(), &FEW, &|_| ()));
+static LEDGER: LazyLock<Ledger> = LazyLock::new(|| verify(&claims::all(), &FEW, &unheard).unwrap());
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -54,7 +55,7 @@ fn the_ledger_is_the_same_for_any_number_of_threads() {
     let some: Vec<Claim> = claims::all().into_iter().filter(|c| !c.id.starts_with("growth")).step_by(5).collect();
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| ledger::text(&verify(&some, &Options { cases: 12, seed: 7 }, &|_| ())))
+        pool.install(|| ledger::text(&verify(&some, &Options { cases: 12, seed: 7 }, &unheard).unwrap()))
     };
     assert_eq!(with(1), with(5));
 }
@@ -62,7 +63,7 @@ fn the_ledger_is_the_same_for_any_number_of_threads() {
 #[test]
 fn a_seed_changes_the_cases_and_not_the_ledger() {
     let one: Vec<Claim> = claims::all().into_iter().filter(|c| c.id == "energy-rule").collect();
-    let of = |seed| verify(&one, &Options { cases: 12, seed }, &|_| ());
+    let of = |seed| verify(&one, &Options { cases: 12, seed }, &unheard).unwrap();
     assert!(of(1).all_earned() && of(2).all_earned());
     // A check that tells the seed it was given shows that the seed arrives.
     let told = std::sync::Arc::new(std::sync::Mutex::new(Vec::new()));
@@ -72,7 +73,7 @@ fn a_seed_changes_the_cases_and_not_the_ledger() {
         Outcome::Holds { cases: 1 }
     });
     for seed in [1, 2, 1] {
-        verify(std::slice::from_ref(&claim), &Options { cases: 12, seed }, &|_| ());
+        verify(std::slice::from_ref(&claim), &Options { cases: 12, seed }, &unheard).unwrap();
     }
     let seeds = told.lock().unwrap().clone();
     let first: Vec<u64> = seeds.iter().map(|s| s.0).collect();
@@ -158,7 +159,7 @@ fn what_is_not_earned_is_open() {
         ),
     ];
     for (what, claim) in cases {
-        let made = verify(std::slice::from_ref(&claim), &FEW, &|_| ());
+        let made = verify(std::slice::from_ref(&claim), &FEW, &unheard).unwrap();
         assert_eq!(made.entries[0].earned, Status::Open, "{what}: {}", ledger::text(&made));
         assert!(!made.all_earned() && ledger::text(&made).contains("NOT EARNED"), "{what}");
     }
@@ -172,7 +173,7 @@ fn statuses_follow_from_the_evidence() {
     let proof = |c: Claim| c.proof("", &[(left, law)], proving(DerivedFormulas::default()));
     let sample = |c: Claim| c.sample("", &[(left, law)], proving(DerivedFormulas::default()));
     let refutation = |c: Claim| c.refutation("", &[(left, slip)], &[(left, law)], proving(DerivedFormulas::default()));
-    let earned = |c: Claim| verify(&[c], &FEW, &|_| ()).entries[0].earned;
+    let earned = |c: Claim| verify(&[c], &FEW, &unheard).unwrap().entries[0].earned;
     assert_eq!(earned(proof(base())), Status::Proved);
     assert_eq!(earned(sample(base())), Status::Sampled);
     assert_eq!(earned(sample(proof(base()))), Status::Sampled);
@@ -215,7 +216,7 @@ fn slips_are_one_step_away_and_none_is_the_same_function() {
 fn the_rt_theorem_falls_to_six_numbers() {
     let all = claims::all();
     let theorem: Vec<Claim> = all.into_iter().filter(|c| c.id == "theorem-single-body").collect();
-    let made = verify(&theorem, &FEW, &|_| ());
+    let made = verify(&theorem, &FEW, &unheard).unwrap();
     let Outcome::Fails(found) = &made.entries[0].shown[0].outcome else { panic!("{}", ledger::text(&made)) };
     assert_eq!(found.values.len(), 6, "{found}");
     let value = |name: &str| {

@@ -2,13 +2,15 @@
 
 use crate::program::creepage;
 use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
+use creepage::discrepancy::check::check;
 use creepage::discrepancy::estimation::fit::Effort;
 use creepage::discrepancy::estimation::problem::Problem;
-use creepage::discrepancy::identifiability::{Check, Checked, Seen, Standing, check};
+use creepage::discrepancy::identifiability::{Check, Checked, Seen, Standing};
 use creepage::discrepancy::record::run_record::Record;
 use creepage::effects::Applied;
 use creepage::files::{ModelFile, Run};
 use creepage::model::{self, Model};
+use creepage::progress::unheard;
 use creepage::scaffold::{Starter, Wanted};
 use creepage::{effects, vehicles};
 
@@ -201,7 +203,7 @@ fn driven(scenario: &Scenario) -> (ModelFile, Run) {
 }
 
 fn checked(file: &ModelFile, runs: &[Run]) -> Check {
-    check(&Checked { file, runs, library: effects::all() }, &|_| ()).unwrap()
+    check(&Checked { file, runs, library: effects::all() }, &unheard).unwrap()
 }
 
 fn drive(seed: u64) -> Scenario {
@@ -253,7 +255,7 @@ fn what_is_said_to_be_seen_is_seen() {
         let (file, run) = driven(&Scenario { hidden, seed, ..drive(5) });
         let model = Model::from_file(&file, effects::all(), &run.roles).unwrap();
         let problem = Problem::new(vec![Record::of_run(&run, file.input_timing, 0)], None, None);
-        choose(&problem, &model, effects::all(), &|_| ()).unwrap().unwrap().chosen.len()
+        choose(&problem, &model, effects::all(), &unheard).unwrap().unwrap().chosen.len()
     };
     let smallest = smallest.unwrap();
     let large: usize = (0..4).map(|i| names(smallest, 200 + i).min(1)).sum();

@@ -6,13 +6,13 @@ use std::path::Path;
 use std::process::Output;
 use std::time::{Duration, Instant};
 
-/// What a command may take on a machine that is busy with other things.
-const MOST: Duration = Duration::from_secs(240);
+/// The most time a command may take by the clock: the machine may be busy with other things.
+const MAX_TIME: Duration = Duration::from_secs(240);
 
 fn creepage(dir: &Path, arguments: &[&str]) -> Output {
     let begin = Instant::now();
     let output = program::creepage(dir, arguments);
-    assert!(begin.elapsed() < MOST, "{arguments:?} took {:?}", begin.elapsed());
+    assert!(begin.elapsed() < MAX_TIME, "{arguments:?} took {:?}", begin.elapsed());
     let message = String::from_utf8_lossy(&output.stderr);
     let lines = message.trim_end().lines().count();
     match output.status.code() {

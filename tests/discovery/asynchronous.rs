@@ -7,6 +7,7 @@ use creepage::discrepancy::identifiability::Checked;
 use creepage::discrepancy::report::{Report, RunClock, Verdict};
 use creepage::discrepancy::request::Request;
 use creepage::files::{ModelFile, Run};
+use creepage::progress::unheard;
 use creepage::{effects, model};
 use std::path::Path;
 use std::process::Command;
@@ -60,7 +61,7 @@ fn report(scenario: &Scenario, skew: Skew) -> Report {
     let runs = [run];
     let request =
         Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[1.0], seed: 3 };
-    discover_aligned(&request, None, &|_| ()).unwrap().report
+    discover_aligned(&request, None, &unheard).unwrap().report
 }
 
 /// The clock as `check` finds it, which is quicker than discovering; no effect is asked about.
@@ -69,7 +70,7 @@ fn clock(scenario: &Scenario, skew: Skew) -> RunClock {
     write(folder.path(), "run", scenario, skew);
     let (file, run) = read(folder.path(), "run");
     let of = Checked { file: &file, runs: &[run], library: &[] };
-    let mut found = check_aligned(&of, None, &|_| ()).unwrap();
+    let mut found = check_aligned(&of, None, &unheard).unwrap();
     assert_eq!(found.data.clocks.len(), 1, "{}", found.summary);
     found.data.clocks.remove(0)
 }
@@ -160,7 +161,7 @@ fn files_that_overlap_in_part_are_enough() {
     let (file, run) = read(folder.path(), "run");
     let runs = [run];
     let request = Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[], seed: 0 };
-    let report = discover_aligned(&request, None, &|_| ()).unwrap().report;
+    let report = discover_aligned(&request, None, &unheard).unwrap().report;
     let clock = &report.data.clocks[0];
     let [offset, _] = errors(clock, skew);
     assert!(offset.abs() < 5.0 && clock.other_offset_s.is_none(), "{offset} {clock:?}");
@@ -175,7 +176,7 @@ fn files_of_two_drives_do_not_fit() {
     let run = Run::read_apart(folder.path().join("a.csv"), folder.path().join("b_poses.csv"), &file).unwrap();
     let runs = [run];
     let request = Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[], seed: 0 };
-    let report = discover_aligned(&request, None, &|_| ()).unwrap().report;
+    let report = discover_aligned(&request, None, &unheard).unwrap().report;
     assert_eq!(report.verdict, Verdict::UnusableData, "{}", report.summary);
 }
 
@@ -201,7 +202,7 @@ fn runs_in_one_file_and_in_two_do_not_mix() {
     let whole = Run::parse("whole.csv", &scenario.run().to_csv(9), &file).unwrap();
     let runs = [apart, whole];
     let request = Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[], seed: 0 };
-    let Err(refused) = discover_aligned(&request, None, &|_| ()) else { panic!("accepted") };
+    let Err(refused) = discover_aligned(&request, None, &unheard) else { panic!("accepted") };
     let refused = refused.to_string();
     assert!(refused.starts_with("whole.csv: has its poses in itself") && refused.contains("--truth"), "{refused}");
 }
@@ -214,7 +215,7 @@ fn times_that_are_no_seconds_are_refused() {
     let (file, mut run) = read(folder.path(), "a");
     run.time.iter_mut().for_each(|t| *t *= 1e9);
     let of = Checked { file: &file, runs: &[run], library: effects::all() };
-    let found = check_aligned(&of, None, &|_| ()).unwrap();
+    let found = check_aligned(&of, None, &unheard).unwrap();
     assert!(found.summary.contains("is its time in seconds?"), "{}", found.summary);
 }
 
@@ -290,7 +291,7 @@ fn the_unaligned_run_is_answered_with_its_clock() {
     let runs = [Run::read_apart(&run, &run, &file).unwrap()];
     let request =
         Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[30.0], seed: 0 };
-    let report = discover_aligned(&request, None, &|_| ()).unwrap().report;
+    let report = discover_aligned(&request, None, &unheard).unwrap().report;
     assert_eq!(report.verdict, Verdict::MissingEffect, "{}", report.summary);
     let track = report.effects.iter().find(|e| e.id == "track-width").unwrap_or_else(|| panic!("{}", report.summary));
     assert!((track.parameters["scale"].value - 0.01).abs() < 0.006, "{track:?}");
@@ -311,7 +312,7 @@ fn a_delay_of_the_model_file_goes_into_the_clock() {
     std::fs::write(&path, text).unwrap();
     let (file, run) = read(folder.path(), "run");
     let of = Checked { file: &file, runs: std::slice::from_ref(&run), library: effects::all() };
-    let checked = check_aligned(&of, None, &|_| ()).unwrap();
+    let checked = check_aligned(&of, None, &unheard).unwrap();
     let asked: Vec<&str> = checked.effects.iter().map(|e| e.id.as_str()).collect();
     assert!(asked.len() > 5 && !asked.contains(&"input-delay"), "an offset of the clock is no effect: {asked:?}");
     let [offset, _] = errors(&checked.data.clocks[0], SKEW);
@@ -323,7 +324,7 @@ fn a_delay_of_the_model_file_goes_into_the_clock() {
     );
     let request =
         Request { file: &file, runs: &[run], held_out: &[], library: effects::all(), horizons: &[1.0], seed: 3 };
-    let report = discover_aligned(&request, None, &|_| ()).unwrap().report;
+    let report = discover_aligned(&request, None, &unheard).unwrap().report;
     assert_eq!(report.verdict, Verdict::NoMissingEffect, "{}", report.summary);
     assert!(report.data.warnings.iter().any(|w| w.contains("input-delay is left out")), "{:?}", report.data.warnings);
 }
@@ -347,7 +348,7 @@ fn held_out_poses_say_nothing_of_the_clock() {
         let runs = [run];
         let request =
             Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[1.0], seed: 3 };
-        discover_aligned(&request, None, &|_| ()).unwrap().report.data.clocks.remove(0)
+        discover_aligned(&request, None, &unheard).unwrap().report.data.clocks.remove(0)
     };
     let (clean, spoilt) = (found(0.0), found(0.01));
     assert_eq!((clean.offset_s, clean.drift, clean.at_s), (spoilt.offset_s, spoilt.drift, spoilt.at_s));
@@ -361,7 +362,7 @@ fn two_short_files_are_too_short_and_not_of_two_drives() {
     let (file, run) = read(folder.path(), "run");
     let runs = [run];
     let request = Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[], seed: 3 };
-    let report = discover_aligned(&request, None, &|_| ()).unwrap().report;
+    let report = discover_aligned(&request, None, &unheard).unwrap().report;
     assert_eq!(report.verdict, Verdict::NotIdentifiable, "{}", report.summary);
     assert!(report.summary.contains("too short"), "{}", report.summary);
 }

@@ -7,6 +7,7 @@ use creepage::discrepancy::request::Request;
 use creepage::effects;
 use creepage::files::{ModelFile, Run};
 use creepage::model;
+use creepage::progress::unheard;
 
 const NOISE: Noise = Noise { position: 3e-4, heading: 3e-4 };
 
@@ -24,7 +25,7 @@ fn report(scenario: &Scenario, known: &str) -> Report {
     let run = Run::parse("run.csv", &scenario.run().to_csv(9), &file).unwrap();
     let request =
         Request { file: &file, runs: &[run], held_out: &[], library: effects::all(), horizons: &[5.0], seed: 1 };
-    discover(&request, &|_| ()).unwrap().report
+    discover(&request, &unheard).unwrap().report
 }
 
 const SLOW: Hidden = Hidden::RelaxationLength { e_tc: 0.05, length: 0.8 };

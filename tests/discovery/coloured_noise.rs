@@ -3,11 +3,13 @@
 
 use crate::read_back::read_back;
 use crate::simulator::{Hidden, Noise, Scenario, Tractor};
-use creepage::discrepancy::identifiability::{Checked, check};
+use creepage::discrepancy::check::check;
+use creepage::discrepancy::identifiability::Checked;
 use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::report::{Report, Verdict};
 use creepage::discrepancy::request::Request;
 use creepage::effects;
+use creepage::progress::unheard;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
@@ -36,7 +38,7 @@ fn report(scenario: &Scenario, time: f64) -> Report {
     let runs = [run];
     let request =
         Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[1.0], seed: 5 };
-    discover(&request, &|_| ()).unwrap().report
+    discover(&request, &unheard).unwrap().report
 }
 
 fn drive(tractor: Tractor, hidden: Vec<Hidden>, seed: u64) -> Scenario {
@@ -101,10 +103,10 @@ fn inputs_that_come_in_steps_are_told() {
         let runs = [run];
         let request =
             Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[1.0], seed: 5 };
-        let report = discover(&request, &|_| ()).unwrap().report;
+        let report = discover(&request, &unheard).unwrap().report;
         assert!(report.effects.is_empty(), "{}", report.summary);
         let said = |text: &String| text.contains("comes in steps of 0.40 rad/s");
-        let checked = check(&Checked { file: &file, runs: &runs, library: effects::all() }, &|_| ()).unwrap();
+        let checked = check(&Checked { file: &file, runs: &runs, library: effects::all() }, &unheard).unwrap();
         let beforehand = checked.data.findings.iter().filter(|f| f.id == "coarse-inputs" && said(&f.says)).count();
         let advised = report.next_experiment.is_some_and(|n| n.manoeuvre.contains("finer steps") && said(&n.why));
         (report.verdict, advised, report.data.warnings.iter().filter(|w| said(w)).count(), beforehand)

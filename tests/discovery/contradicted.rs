@@ -6,6 +6,7 @@ use creepage::discrepancy::report::{Report, Verdict};
 use creepage::discrepancy::request::Request;
 use creepage::effects::{self, Effect};
 use creepage::files::Run;
+use creepage::progress::unheard;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Normal};
@@ -76,7 +77,7 @@ fn report(hidden: [Hidden; 3]) -> Report {
         ["load-dependent-creep", "yaw-rate-scale", "rotation-creep", "traction-creep", "input-delay", "lever-arm"];
     let library: Vec<Effect> = effects::all().iter().filter(|e| wanted.contains(&e.id.as_str())).cloned().collect();
     let request = Request { file: &file, runs: &runs, held_out: &[], library: &library, horizons: &[1.0], seed: 7 };
-    discover(&request, &|_| ()).unwrap().report
+    discover(&request, &unheard).unwrap().report
 }
 
 /// Demands both effects that all runs have, each within three of its deviations, and no other.

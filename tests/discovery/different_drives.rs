@@ -11,6 +11,7 @@ use creepage::discrepancy::request::Request;
 use creepage::effects::{self, Applied};
 use creepage::files::{ModelFile, Run};
 use creepage::model::{self, Model};
+use creepage::progress::unheard;
 
 /// Straight ahead but for what no driver can help: 4 mrad/s, or 4 mrad of steering.
 fn straight() -> Profile {
@@ -41,7 +42,7 @@ fn discovered(drives: &[Scenario]) -> Report {
     let (file, runs) = logged(drives);
     let request =
         Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[1.0], seed: 1 };
-    discover(&request, &|_| ()).unwrap().report
+    discover(&request, &unheard).unwrap().report
 }
 
 /// Demands that one drive that turns and up to three that do not are answered with one effect.

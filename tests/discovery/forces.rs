@@ -6,6 +6,7 @@ use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::report::Report;
 use creepage::discrepancy::request::Request;
 use creepage::effects;
+use creepage::progress::unheard;
 
 /// What `discover` says of two runs of one kind.
 fn report(body: Body, law: &'static str, values: &[f64]) -> Report {
@@ -17,7 +18,7 @@ fn report(body: Body, law: &'static str, values: &[f64]) -> Report {
     let runs = [first, second];
     let request =
         Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[1.0, 5.0], seed: 7 };
-    discover(&request, &|_| ()).unwrap().report
+    discover(&request, &unheard).unwrap().report
 }
 
 /// Demands one effect, a parameter within three of its standard deviations of the truth and known to a twentieth, and a

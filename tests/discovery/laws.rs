@@ -6,6 +6,7 @@ use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::report::{Named, Verdict};
 use creepage::discrepancy::request::Request;
 use creepage::files::{ModelFile, Run};
+use creepage::progress::unheard;
 use creepage::{effects, model};
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -46,7 +47,7 @@ fn discovery(model: &str, fitted: &[&Log], held_out: &[&Log]) -> Discovery {
         horizons: &[1.0, 5.0],
         seed: 3,
     };
-    discover(&request, &|_| ()).unwrap()
+    discover(&request, &unheard).unwrap()
 }
 
 fn ids(effects: &[Named]) -> Vec<&str> {
@@ -165,7 +166,7 @@ fn a_seed_gives_one_report_on_any_number_of_threads() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let request =
             Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[], seed: 5 };
-        let found = pool.install(|| discover(&request, &|_| ())).unwrap();
+        let found = pool.install(|| discover(&request, &unheard)).unwrap();
         serde_json::to_string(&found.report).unwrap()
     };
     let alone = report(1);

@@ -7,7 +7,10 @@ use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::report::{Report, Verdict};
 use creepage::discrepancy::request::Request;
 use creepage::effects;
-use std::cell::RefCell;
+use creepage::progress::unheard;
+use creepage::{OnProgress, Progress, Stage};
+use std::ops::ControlFlow;
+use std::sync::Mutex;
 
 /// A short drive before motion capture.
 fn drive(tractor: Tractor, hidden: Vec<Hidden>, seed: u64) -> Scenario {
@@ -15,11 +18,11 @@ fn drive(tractor: Tractor, hidden: Vec<Hidden>, seed: u64) -> Scenario {
 }
 
 fn discovery(scenario: &Scenario) -> Discovery {
-    heard(scenario, &|_| ())
+    heard(scenario, &unheard)
 }
 
 /// A discovery whose progress somebody hears.
-fn heard(scenario: &Scenario, progress: &dyn Fn(&str)) -> Discovery {
+fn heard(scenario: &Scenario, progress: &OnProgress) -> Discovery {
     let (file, run) = read_back(&scenario.model_toml(), &scenario.run().to_csv(9));
     let runs = [run];
     let request =
@@ -172,10 +175,14 @@ fn nothing(tractor: Tractor, seeds: [u64; 2]) {
 /// Where nothing remains no equation is looked for: it would cost as much as all names together.
 #[test]
 fn no_equation_is_sought_where_nothing_remains() {
-    let said = RefCell::new(vec![]);
-    heard(&drive(Tractor::Unicycle, vec![], 31), &|step| said.borrow_mut().push(step.to_string()));
-    let said = said.into_inner();
-    assert!(!said.is_empty() && said.iter().all(|s| !s.contains("no name")), "{said:?}");
+    let said = Mutex::new(vec![]);
+    let listener = |p: Progress| {
+        said.lock().unwrap().push(p.stage);
+        ControlFlow::Continue(())
+    };
+    heard(&drive(Tractor::Unicycle, vec![], 31), &listener);
+    let said = said.into_inner().unwrap();
+    assert!(!said.is_empty() && !said.contains(&Stage::UnnamedTerms), "{said:?}");
 }
 
 #[test]

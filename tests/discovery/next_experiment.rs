@@ -4,14 +4,17 @@ use crate::read_back::read_back;
 use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
 use creepage::discrepancy::experiment::envelope::Envelope;
 use creepage::discrepancy::experiment::manoeuvre::{LENGTH, library};
+use creepage::discrepancy::experiment::next_step::PlannedManoeuvre;
 use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::record::run_record::Record;
+use creepage::discrepancy::rendering::manoeuvre_text::planned;
 use creepage::discrepancy::report::{NextExperiment, Report};
 use creepage::discrepancy::request::Request;
 use creepage::effects::{self, Applied};
 use creepage::files::{ModelFile, Run};
 use creepage::model::Model;
 use creepage::motion::{Integrator, Signals, Timing, simulate_model};
+use creepage::progress::unheard;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
@@ -92,15 +95,16 @@ impl Setting {
     fn report(&self, runs: &[Run]) -> Report {
         let request =
             Request { file: &self.file, runs, held_out: &[], library: effects::all(), horizons: &[1.0], seed: 1 };
-        discover(&request, &|_| ()).unwrap().report
+        discover(&request, &unheard).unwrap().report
     }
 
     /// The advised manoeuvre, driven by the true model.
     fn advised(&self, advice: &NextExperiment, seed: u64) -> Option<Run> {
         let record = Record::of_run(&self.first, self.file.input_timing, 0).split(0.75).0;
         let envelope = Envelope::of(&self.truth, &[record])?;
-        let named = |m: &&creepage::discrepancy::experiment::manoeuvre::Manoeuvre| {
-            advice.manoeuvre.split("; ").next() == Some(m.sentence(&envelope).as_str())
+        let named = |m: &&'static creepage::discrepancy::experiment::manoeuvre::Manoeuvre| {
+            let planned = planned(&PlannedManoeuvre { manoeuvre: m, envelope: envelope.clone() });
+            advice.manoeuvre.split("; ").next() == Some(planned.as_str())
         };
         let manoeuvre = library(&envelope).find(named)?;
         // The margins at a log's ends are not fitted, and a quarter is held out.

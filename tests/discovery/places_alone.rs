@@ -8,6 +8,7 @@ use creepage::discrepancy::request::Request;
 use creepage::effects;
 use creepage::files::{ModelFile, Run};
 use creepage::model;
+use creepage::progress::unheard;
 
 /// Stops for a second or two again and again, while a slope or a current goes on moving it.
 fn stopping(hidden: &[Hidden], seed: u64) -> Report {
@@ -20,7 +21,7 @@ fn stopping(hidden: &[Hidden], seed: u64) -> Report {
     let file = ModelFile::parse(&s.model_toml(), "model.toml", &model::known(effects::all())).unwrap();
     let run = Run::parse("run.csv", &s.run().to_csv(9), &file).unwrap();
     let request = Request { file: &file, runs: &[run], held_out: &[], library: effects::all(), horizons: &[], seed: 1 };
-    discover(&request, &|_| ()).unwrap().report
+    discover(&request, &unheard).unwrap().report
 }
 
 #[test]

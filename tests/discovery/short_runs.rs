@@ -7,6 +7,7 @@ use creepage::discrepancy::request::Request;
 use creepage::effects;
 use creepage::files::{ModelFile, Run};
 use creepage::model;
+use creepage::progress::unheard;
 
 fn scenario(hidden: &[Hidden], duration: f64, seed: u64) -> Scenario {
     let speed = Signal::constant(0.9) + Signal::wave(0.25, 11.0, 0.0);
@@ -23,7 +24,7 @@ fn read(scenario: &Scenario, name: &str) -> (ModelFile, Run) {
 
 fn discovered(file: &ModelFile, runs: &[Run], held_out: &[Run]) -> Report {
     let request = Request { file, runs, held_out, library: effects::all(), horizons: &[1.0], seed: 1 };
-    discover(&request, &|_| ()).unwrap().report
+    discover(&request, &unheard).unwrap().report
 }
 
 #[test]
@@ -109,7 +110,7 @@ fn steps_are_told_only_where_the_fitted_runs_reach() {
         horizons: &[30.0],
         seed: 1,
     };
-    let report = discover(&request, &|_| ()).unwrap().report;
+    let report = discover(&request, &unheard).unwrap().report;
     assert_eq!((report.effects.len(), report.steps.len()), (1, 0), "{:?}", report.steps);
     assert!(report.gap.iter().all(|g| g.fit.is_none() && g.held_out.is_some()));
 }

@@ -8,6 +8,7 @@ use creepage::discrepancy::request::Request;
 use creepage::effects;
 use creepage::files::{ModelFile, Run};
 use creepage::model;
+use creepage::progress::unheard;
 
 /// What a robot logged that often says, turning slowly enough for rows a second apart.
 fn answer(rate: f64, hidden: &[Hidden], seed: u64) -> Report {
@@ -22,7 +23,7 @@ fn driven([speed, turn]: [f64; 2], rate: f64, hidden: &[Hidden], seed: u64) -> R
     let file = ModelFile::parse(&s.model_toml(), "model.toml", &model::known(effects::all())).unwrap();
     let run = Run::parse("run.csv", &s.run().to_csv(9), &file).unwrap();
     let request = Request { file: &file, runs: &[run], held_out: &[], library: effects::all(), horizons: &[], seed: 1 };
-    discover(&request, &|_| ()).unwrap().report
+    discover(&request, &unheard).unwrap().report
 }
 
 /// The model, with what was added, predicts a second to the noise; of longer stretches there are too few to ask.

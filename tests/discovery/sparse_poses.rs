@@ -8,6 +8,7 @@ use creepage::discrepancy::request::Request;
 use creepage::effects;
 use creepage::files::{ModelFile, Run};
 use creepage::model;
+use creepage::progress::unheard;
 
 fn file_of(scenario: &Scenario) -> ModelFile {
     ModelFile::parse(&scenario.model_toml(), "model.toml", &model::known(effects::all())).unwrap()
@@ -42,7 +43,7 @@ fn what_happens_between_poses_is_followed() {
     // Off the rows of the inputs, as a clock of its own would be, and between them.
     std::fs::write(&poses, lines(&|i| i % 10 == 3, &|c| c < first)).unwrap();
     let run = Run::read_apart(&inputs, &poses, &file).unwrap();
-    let report = discover_aligned(&request(&file, &[run]), None, &|_| ()).unwrap().report;
+    let report = discover_aligned(&request(&file, &[run]), None, &unheard).unwrap().report;
     assert_eq!(report.verdict, Verdict::NoMissingEffect, "{}", report.summary);
     let offset = &report.data.clocks[0].offset_s;
     assert!(offset.value.abs() < 4.0 * offset.std.unwrap(), "{offset:?}");
@@ -76,7 +77,7 @@ fn a_row_without_a_pose_has_inputs() {
         let run = Run::parse("run.csv", &text, &file).unwrap();
         assert_eq!((run.time.len(), run.inputs[0].len()), (667, 2001));
         assert_eq!(run.why_dropped.values().sum::<usize>(), 1334, "{:?}", run.why_dropped);
-        let report = discover(&request(&file, &[run]), &|_| ()).unwrap().report;
+        let report = discover(&request(&file, &[run]), &unheard).unwrap().report;
         let ids: Vec<&str> = report.effects.iter().map(|e| e.id.as_str()).collect();
         assert_eq!(ids, named, "{}", report.summary);
         near_the_floor(&report);

@@ -2,9 +2,10 @@
 //! like.
 
 use crate::simulator::{Hidden, Log, Noise, Profile, Scenario, Signal, Tractor};
+use creepage::discrepancy::check::check;
 use creepage::discrepancy::check::check_aligned;
 use creepage::discrepancy::discover::discover_aligned;
-use creepage::discrepancy::identifiability::{Checked, Standing, check};
+use creepage::discrepancy::identifiability::{Checked, Standing};
 use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::rendering::html::html;
 use creepage::discrepancy::report::{Report, Verdict};
@@ -12,6 +13,7 @@ use creepage::discrepancy::request::Request;
 use creepage::effects;
 use creepage::files::{ModelFile, Run};
 use creepage::model;
+use creepage::progress::unheard;
 
 const TIME: usize = 0;
 const X: usize = 1;
@@ -32,7 +34,7 @@ fn driven(tractor: Tractor, hidden: &[Hidden]) -> (ModelFile, Log) {
 
 fn answers(file: &ModelFile, runs: &[Run], held_out: &[Run]) -> Report {
     let request = Request { file, runs, held_out, library: effects::all(), horizons: &[], seed: 1 };
-    discover(&request, &|_| ()).unwrap().report
+    discover(&request, &unheard).unwrap().report
 }
 
 fn slipped(file: &ModelFile, log: &Log, slip: Slip) -> Run {
@@ -57,7 +59,7 @@ fn is_told_at_once(tractor: Tractor, slip: Slip, word: &str) {
     is_told(tractor, slip, word);
     let (file, log) = driven(tractor, &[]);
     let runs = [slipped(&file, &log, slip)];
-    let answer = check(&Checked { file: &file, runs: &runs, library: effects::all() }, &|_| ()).unwrap();
+    let answer = check(&Checked { file: &file, runs: &runs, library: effects::all() }, &unheard).unwrap();
     assert_eq!(answer.verdict, Standing::UnusableData, "{}", answer.summary);
     assert!(answer.summary.contains(word), "{word}: {}", answer.summary);
 }
@@ -138,7 +140,7 @@ fn the_picture_shows_what_is_wrong() {
     let (file, log) = driven(Tractor::Unicycle, &[]);
     let runs = [slipped(&file, &log, &|row| row.swap(X, Y))];
     let request = Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[], seed: 1 };
-    let found = discover(&request, &|_| ()).unwrap();
+    let found = discover(&request, &unheard).unwrap();
     let [path] = &found.pictures.paths[..] else { panic!("{:?}", found.pictures.paths.len()) };
     assert!(!path.before.is_empty() && path.after.is_empty());
     let page = html(&found.report, &found.pictures);
@@ -172,12 +174,13 @@ fn no_way_in_leads_past() {
     std::fs::write(path("poses.csv"), part(X..INPUT, 1.0)).unwrap();
     let apart = [Run::read_apart(path("in.csv"), path("poses.csv"), &file).unwrap()];
     let request = Request { file: &file, runs: &apart, held_out: &[], library: effects::all(), horizons: &[], seed: 1 };
-    let report = discover_aligned(&request, None, &|_| ()).unwrap().report;
+    let report = discover_aligned(&request, None, &unheard).unwrap().report;
     assert!(
         report.verdict == Verdict::UnusableData && report.summary.contains("is time in seconds"),
         "{}",
         report.summary
     );
-    let answer = check_aligned(&Checked { file: &file, runs: &apart, library: effects::all() }, None, &|_| ()).unwrap();
+    let answer =
+        check_aligned(&Checked { file: &file, runs: &apart, library: effects::all() }, None, &unheard).unwrap();
     assert!(answer.verdict == Standing::UnusableData && answer.summary.contains("is time in seconds"));
 }

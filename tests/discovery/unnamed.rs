@@ -9,6 +9,7 @@ use creepage::discrepancy::request::Request;
 use creepage::files::ModelFile;
 use creepage::formula::Unit;
 use creepage::model::Model;
+use creepage::progress::unheard;
 use creepage::{effects, model, vehicles};
 
 fn drive(tractor: Tractor, hidden: Vec<Hidden>, seed: u64) -> Scenario {
@@ -20,7 +21,7 @@ fn discovery(log: &Log, model_text: &str) -> (Discovery, ModelFile) {
     let runs = [run];
     let request =
         Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[1.0], seed: 7 };
-    (discover(&request, &|_| ()).unwrap(), file)
+    (discover(&request, &unheard).unwrap(), file)
 }
 
 /// Forward speed, sideways speed and yaw rate that a model gives along a log.

@@ -1,57 +1,12 @@
 //! The arrows between files: a stage imports only itself and stages before it, and no files import one another in a circle.
 
+mod source;
+mod stages;
+
+use source::{Source, module_of};
+use stages::stage;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-
-/// The stages in their order, folders and files below `src`. Stages of one line are level: none of them imports another.
-const STAGES: [&[&str]; 46] = [
-    &["error"],
-    &["provenance", "wording", "number_format"],
-    &["formula"],
-    &["mechanism"],
-    &["vehicles"],
-    &["effects"],
-    &["files"],
-    &["model"],
-    &["motion"],
-    &["energy_rule"],
-    &["equivalence"],
-    &["describe"],
-    &["extensions"],
-    &["connection"],
-    &["dynamics"],
-    &["scaffold"],
-    &["sweep"],
-    &["picture"],
-    &["claims"],
-    &["discrepancy/report"],
-    &["discrepancy/request"],
-    &["discrepancy/record"],
-    &["discrepancy/initial_state"],
-    &["discrepancy/shooting"],
-    &["discrepancy/preprocessing"],
-    &["discrepancy/estimation"],
-    &["discrepancy/evidence"],
-    &["discrepancy/localisation"],
-    &["discrepancy/selection"],
-    &["discrepancy/diagnosis"],
-    &["discrepancy/experiment"],
-    &["discrepancy/clock_alignment"],
-    &["discrepancy/identifiability"],
-    &["discrepancy/rendering"],
-    &["discrepancy/discovery"],
-    &["discrepancy/pipeline"],
-    &["discrepancy/check", "discrepancy/discover"],
-    &["discrepancy/fleet"],
-    &["discrepancy/fixtures"],
-    &["discrepancy"],
-    &["figures"],
-    &["theory"],
-    &["front_door"],
-    &["lib"],
-    &["command"],
-    &["main"],
-];
 
 /// The one circle that stays: a fraction holds polynomials of atoms, and an atom may hold a fraction.
 const OF_THE_DATA: &str = "formula/normal";
@@ -59,15 +14,6 @@ const OF_THE_DATA: &str = "formula/normal";
 /// Sources by their path below `src`, without the ending.
 pub struct Sources {
     files: BTreeMap<String, Source>,
-}
-
-struct Source {
-    /// The path of the module.
-    module: Vec<String>,
-    /// Imported paths from the crate's root, those of unit tests left out.
-    paths: Vec<Vec<String>>,
-    /// Names that the module gives on, with the path each has in truth.
-    given_on: BTreeMap<String, Vec<String>>,
 }
 
 impl Sources {
@@ -157,118 +103,6 @@ fn collect(dir: &Path, src: &Path, texts: &mut BTreeMap<String, String>) {
     }
 }
 
-/// The place of a file's stage in the order, and its place within the line: the longest prefix that is one counts.
-fn stage(file: &str) -> Option<(usize, usize)> {
-    let places =
-        STAGES.iter().enumerate().flat_map(|(i, line)| line.iter().enumerate().map(move |(k, s)| ((i, k), *s)));
-    let inside = |s: &str| file == s || file.strip_prefix(s).is_some_and(|rest| rest.starts_with('/'));
-    // `discrepancy` itself is its mod.rs alone: what stands below it stands in a stage of its own.
-    let own = |s: &str| s != "discrepancy" || file == "discrepancy/mod";
-    places.filter(|(_, s)| inside(s) && own(s)).max_by_key(|(_, s)| s.len()).map(|(place, _)| place)
-}
-
-fn module_of(file: &str) -> Vec<String> {
-    let mut parts: Vec<String> = file.split('/').map(String::from).collect();
-    if parts.last().is_some_and(|p| ["mod", "lib"].contains(&p.as_str())) {
-        parts.pop();
-    }
-    parts
-}
-
-/// Code without comments, strings and unit tests.
-fn bare(text: &str) -> String {
-    let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
-    let lines = code.lines().map(|line| line.split("//").next().unwrap_or_default());
-    lines.collect::<Vec<_>>().join("\n")
-}
-
-impl Source {
-    fn of(file: &str, text: &str, modules: &BTreeSet<Vec<String>>) -> Self {
-        let module = module_of(file);
-        let mut source = Self { module, paths: vec![], given_on: BTreeMap::new() };
-        let mut rest = String::new();
-        for part in bare(text).split_inclusive(';') {
-            let start = part.rfind("use ").filter(|at| starts_a_statement(&part[..*at]));
-            match start {
-                Some(at) => {
-                    rest.push_str(&part[..at]);
-                    let mut leaves = Vec::new();
-                    tree(part[at + 4..].trim_end_matches(';').trim(), &[], &mut leaves);
-                    leaves.into_iter().for_each(|(path, name)| source.import(&path, name, modules));
-                }
-                None => rest.push_str(part),
-            }
-        }
-        for path in inline(&rest) {
-            source.import(&path, String::new(), modules);
-        }
-        source
-    }
-
-    fn import(&mut self, path: &[String], name: String, modules: &BTreeSet<Vec<String>>) {
-        let Some(absolute) = self.absolute(path, modules) else { return };
-        if !name.is_empty() && name != "*" {
-            self.given_on.insert(name, absolute.clone());
-        }
-        self.paths.push(absolute);
-    }
-
-    /// A path from the crate's root; `None` for one that leads to another crate.
-    fn absolute(&self, path: &[String], modules: &BTreeSet<Vec<String>>) -> Option<Vec<String>> {
-        let ups = path.iter().take_while(|p| *p == "super").count();
-        let rest: Vec<String> =
-            path.iter().skip(ups).filter(|p| !["*", "self"].contains(&p.as_str())).cloned().collect();
-        match path.first()?.as_str() {
-            "crate" => Some(rest[1..].to_vec()),
-            "super" => Some([&self.module[..self.module.len().checked_sub(ups)?], &rest[..]].concat()),
-            "self" => Some([self.module.clone(), rest].concat()),
-            first => {
-                let child = [self.module.clone(), vec![first.to_string()]].concat();
-                modules.contains(&child).then(|| [self.module.clone(), rest].concat())
-            }
-        }
-    }
-}
-
-/// Whether nothing but an item's visibility stands before a `use` on its line.
-fn starts_a_statement(before: &str) -> bool {
-    let line = before.rsplit('\n').next().unwrap_or_default().trim();
-    line.is_empty() || line == "pub" || (line.starts_with("pub(") && line.ends_with(')'))
-}
-
-/// The paths of a `use` tree, each with the name it is known by.
-fn tree(text: &str, prefix: &[String], leaves: &mut Vec<(Vec<String>, String)>) {
-    let text = text.trim();
-    if let Some(open) = text.find('{') {
-        let head = segments(&text[..open]);
-        let prefix = [prefix, &head].concat();
-        let inside = &text[open + 1..text.rfind('}').unwrap_or(text.len())];
-        let mut depth = 0;
-        let parts = inside.split(|c| {
-            depth += i32::from(c == '{') - i32::from(c == '}');
-            c == ',' && depth == 0
-        });
-        parts.filter(|p| !p.trim().is_empty()).for_each(|p| tree(p, &prefix, leaves));
-        return;
-    }
-    let (path, name) = text.split_once(" as ").unwrap_or((text, ""));
-    let path = [prefix, &segments(path)].concat();
-    let last = path.iter().rev().find(|p| *p != "self").cloned().unwrap_or_default();
-    leaves.push((path, if name.is_empty() { last } else { name.trim().into() }));
-}
-
-fn segments(path: &str) -> Vec<String> {
-    path.split("::").map(|p| p.trim().to_string()).filter(|p| !p.is_empty()).collect()
-}
-
-/// Paths that stand in code and begin at the crate's root or above the module.
-fn inline(code: &str) -> Vec<Vec<String>> {
-    let is_path = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
-    let words = code.split(|c| !is_path(c));
-    let paths = words.filter(|w| ["crate::", "super::", "self::"].iter().any(|root| w.starts_with(root)));
-    paths.map(|w| segments(w.trim_end_matches(':'))).collect()
-}
-
 fn reached<'f>(from: &'f str, arrows: &BTreeMap<&'f str, BTreeSet<&'f str>>) -> BTreeSet<&'f str> {
     let mut found = BTreeSet::new();
     let mut open: Vec<&str> = arrows[from].iter().copied().collect();
@@ -319,4 +153,20 @@ fn a_circle_is_told_and_that_of_the_normal_form_is_not() {
 fn a_file_in_no_stage_is_told() {
     let told = sources(&[("gadgets/one", ""), ("discrepancy/walk", ""), ("discrepancy/record/record", "")]).homeless();
     assert_eq!(told, ["src/discrepancy/walk.rs stands in no stage", "src/gadgets/one.rs stands in no stage"]);
+}
+
+/// A file that says `mod part;` and calls `part::run()` imports it, so that the part may import none of the file's items.
+#[test]
+fn a_circle_of_parent_and_child_is_told() {
+    let told = |parent: &str, child: &str| {
+        sources(&[("command/mod", parent), ("command/check", child), ("command/print", "pub fn print() {}")]).circles()
+    };
+    let parent = "mod check;\nmod print;\nfn run() { check::run(1) }\npub fn helper() {}\n";
+    assert_eq!(told(parent, "use super::helper;\n"), ["in a circle: command/check, command/mod"]);
+    assert_eq!(told(parent, "use super::print::print;\n"), [""; 0]);
+    // What the parent itself has by `use` is defined elsewhere.
+    let given_on = format!("{parent}use print::print;\n");
+    assert_eq!(told(&given_on, "use super::print;\n"), [""; 0]);
+    // A parent that does nothing with its child but declare it is no circle.
+    assert_eq!(told("mod check;\npub fn helper() {}\n", "use super::helper;\n"), [""; 0]);
 }

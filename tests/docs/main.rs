@@ -6,7 +6,9 @@ mod documents;
 mod fences;
 mod groups;
 mod links;
+mod public_names;
 mod sandbox;
+mod sentences;
 
 use documents::{Document, all};
 

@@ -234,13 +234,14 @@ mod bags {
     fn discover_names_what_hides_in_a_bag() {
         use creepage::discrepancy::discover::discover_aligned;
         use creepage::discrepancy::request::Request;
+        use creepage::progress::unheard;
         let folder = tempfile::tempdir().unwrap();
         let path = written(&folder, "eights.mcap", &to_bag::bag(&rows()).unwrap());
         let file = bag_model(|t| t);
         let runs = [Run::read(&path, &file).unwrap()];
         let request =
             Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[], seed: 0 };
-        let report = discover_aligned(&request, None, &|_| ()).unwrap().report;
+        let report = discover_aligned(&request, None, &unheard).unwrap().report;
         let named: Vec<&str> = report.effects.iter().map(|e| e.id.as_str()).collect();
         assert_eq!(named, ["cornering-creep"]);
         assert!(report.data.clocks.is_empty(), "a bag has one clock");

@@ -16,7 +16,7 @@ fn constant_of(layout: &Arc<Layout>, value: Exact) -> Jet {
 }
 
 fn whole(n: i64) -> Jet {
-    Jet::number(&BigRational::from_integer(n.into()))
+    Jet::number(&BigRational::from(n))
 }
 
 #[test]

@@ -2,7 +2,6 @@
 
 use crate::support::{Outcome, check};
 use creepage::formula::{BigRational, Exact, Expr, Fun, Jet, Layout, Scalar, Symbol};
-use num_traits::Zero;
 use proptest::prelude::*;
 use std::sync::Arc;
 
@@ -14,7 +13,7 @@ fn layout_of(order: usize) -> Arc<Layout> {
 }
 
 fn ratio(p: i64, q: i64) -> BigRational {
-    BigRational::new(p.into(), q.into())
+    BigRational::from_parts_signed(p.into(), q.into())
 }
 
 /// x, y and phi near a point, series cut above an order.

@@ -113,14 +113,14 @@ fn the_longest_and_smallest_numbers_read_back_too() {
 
 #[test]
 fn an_exact_number_is_written_as_a_decimal_or_a_quotient() {
-    let written = |p: i64, q: i64| Expr::number(&BigRational::new(p.into(), q.into()));
+    let written = |p: i64, q: i64| Expr::number(&BigRational::from_parts_signed(p.into(), q.into()));
     let table = [(1, 4, "0.25"), (-1, 4, "-0.25"), (1, 3, "1/3"), (-22, 7, "-22/7"), (0, 5, "0"), (6, 3, "2")];
     for (p, q, text) in table {
         assert_eq!(written(p, q).to_string(), text);
     }
     check(1000, (any::<i64>(), 1..i64::MAX), |(p, q)| {
         let e = written(p, q);
-        prop_assert_eq!(e.as_number(), Some(BigRational::new(p.into(), q.into())));
+        prop_assert_eq!(e.as_number(), Some(BigRational::from_parts_signed(p.into(), q.into())));
         returns(&e)
     });
 }

@@ -138,7 +138,7 @@ fn a_graph_has_no_node_for_what_is_left_out() {
 }
 
 fn whole(n: i64) -> BigRational {
-    BigRational::from_integer(n.into())
+    BigRational::from(n)
 }
 
 #[test]

@@ -129,7 +129,7 @@ traverse_creep = "e_3"
     let found = realised(&robot, &["theta_1'", "theta_2'", "theta_3'"], &at);
     assert_eq!(found.signature(), "R^2T");
     assert_eq!(names(&robot, &found.passive), ["e_rc_3", "e_3"]);
-    let ratio = |p: i64, q: i64| BigRational::new(p.into(), q.into());
+    let ratio = |p: i64, q: i64| BigRational::from_parts_signed(p.into(), q.into());
     let values = [
         ("e_rc_1", ratio(1, 50)),
         ("e_rc_2", ratio(1, 20)),

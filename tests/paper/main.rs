@@ -19,6 +19,7 @@ mod trust;
 
 use creepage::figures::{Options, draw};
 use creepage::picture::theme::without_halo;
+use creepage::progress::unheard;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -37,7 +38,7 @@ fn paper(path: &str) -> PathBuf {
 /// Names and texts of all files in `paper/generated/`, made once.
 static GENERATED: LazyLock<BTreeMap<String, String>> = LazyLock::new(|| {
     let names: Vec<String> = FIGURES.iter().map(ToString::to_string).collect();
-    let drawn = draw(&names, &Options::default(), &|_| {}).unwrap();
+    let drawn = draw(&names, &Options::default(), &unheard).unwrap();
     let mut files: BTreeMap<String, String> = drawn
         .into_iter()
         .map(|(figure, drawing)| (format!("{}.svg", figure.name), without_halo(&drawing.svg)))

@@ -3,17 +3,18 @@
 use crate::reviewed::reviewed;
 use creepage::energy_rule::Reading;
 use creepage::figures::{self, Drawing, FIGURES, Options, Rig, readings};
+use creepage::progress::unheard;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 /// Every figure as it is drawn without options, made once for all tests.
 static DRAWN: LazyLock<BTreeMap<&'static str, Drawing>> = LazyLock::new(|| {
-    let drawn = figures::draw(&[], &Options::default(), &|_| {}).unwrap();
+    let drawn = figures::draw(&[], &Options::default(), &unheard).unwrap();
     drawn.into_iter().map(|(figure, drawing)| (figure.name, drawing)).collect()
 });
 
 fn one(name: &str, options: &Options) -> Drawing {
-    figures::draw(&[name.into()], options, &|_| {}).unwrap().remove(0).1
+    figures::draw(&[name.into()], options, &unheard).unwrap().remove(0).1
 }
 
 fn with(e_rc: Option<f64>, e_tc: Option<f64>) -> Options {

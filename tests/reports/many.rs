@@ -4,8 +4,9 @@
 use crate::reviewed::reviewed;
 use crate::rounded::rounded;
 use crate::simulator::{Hidden, Mounting, Noise, Profile, Scenario, Signal, Timing, Tractor, Vehicle};
+use creepage::discrepancy::check::check;
 use creepage::discrepancy::discovery::Discovery;
-use creepage::discrepancy::identifiability::{Checked, check};
+use creepage::discrepancy::identifiability::Checked;
 use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::rendering::check_text::check_text;
 use creepage::discrepancy::rendering::html::html;
@@ -15,6 +16,7 @@ use creepage::discrepancy::request::Request;
 use creepage::effects;
 use creepage::files::{ModelFile, Run};
 use creepage::model;
+use creepage::progress::unheard;
 use std::fmt::Write as _;
 
 /// Runs as their user has them.
@@ -61,7 +63,7 @@ impl Drive {
         let (file, [runs, held_out]) = self.read();
         let (library, horizons) = (effects::all(), &self.horizons[..]);
         let request = Request { file: &file, runs: &runs, held_out: &held_out, library, horizons, seed: 3 };
-        let found = discover(&request, &|_| ()).unwrap();
+        let found = discover(&request, &unheard).unwrap();
         (file, found)
     }
 
@@ -86,7 +88,7 @@ impl Drive {
     #[track_caller]
     fn check(&self, name: &str) {
         let (file, [runs, _]) = self.read();
-        let answer = check(&Checked { file: &file, runs: &runs, library: effects::all() }, &|_| ()).unwrap();
+        let answer = check(&Checked { file: &file, runs: &runs, library: effects::all() }, &unheard).unwrap();
         let mut json = serde_json::to_value(&answer).unwrap();
         rounded(&mut json);
         reviewed(&format!("check-{name}"), &format!("{json:#}\n\n{}", check_text(&answer)));

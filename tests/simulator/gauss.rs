@@ -3,7 +3,7 @@
 use std::array::from_fn;
 
 /// Enough for the contraction factors met here (step/time constant below 1/5).
-const MOST_ITERATIONS: usize = 60;
+const MAX_ITERATIONS: usize = 60;
 
 /// Nodes 1/2 − √15/10, 1/2, 1/2 + √15/10 of the interval.
 fn nodes() -> [f64; 3] {
@@ -26,7 +26,7 @@ fn step(rates: &impl Fn(f64, &[f64]) -> Vec<f64>, t: f64, y: &[f64], h: f64) -> 
     let (nodes, weights) = (nodes(), weights());
     let start = rates(t, y);
     let mut slopes: [Vec<f64>; 3] = from_fn(|_| start.clone());
-    for _ in 0..MOST_ITERATIONS {
+    for _ in 0..MAX_ITERATIONS {
         let next: [Vec<f64>; 3] = from_fn(|i| rates(t + nodes[i] * h, &moved(y, &slopes, &weights[i], h)));
         let change = largest_change(&slopes, &next);
         slopes = next;

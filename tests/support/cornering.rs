@@ -6,6 +6,7 @@ use creepage::discrepancy::request::Request;
 use creepage::effects;
 use creepage::files::{ModelFile, Run};
 use creepage::model::known;
+use creepage::progress::unheard;
 
 /// The model of the example and what is discovered in its runs.
 pub fn discovered() -> (ModelFile, Discovery) {
@@ -15,6 +16,6 @@ pub fn discovered() -> (ModelFile, Discovery) {
     let (runs, held_out) = ([run("eights.csv"), run("rosette.csv")], [run("bay_held_out.csv")]);
     let request =
         Request { file: &file, runs: &runs, held_out: &held_out, library: effects::all(), horizons: &[], seed: 0 };
-    let found = discover(&request, &|_| {}).unwrap();
+    let found = discover(&request, &unheard).unwrap();
     (file, found)
 }

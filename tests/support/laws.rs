@@ -1,12 +1,12 @@
 //! The laws of a carrier.
 
 use super::{Outcome, check};
-use creepage::formula::{BigInt, BigRational, Fun, Scalar};
+use creepage::formula::{BigRational, Fun, Scalar};
 use proptest::prelude::*;
 use std::fmt::Debug;
 
 pub fn number<S: Scalar>(n: i64) -> S {
-    S::number(&BigRational::from_integer(BigInt::from(n)))
+    S::number(&BigRational::from(n))
 }
 
 /// A carrier as the laws see it.
@@ -154,8 +154,8 @@ pub fn laws<S: Scalar + Debug>(
 
 /// An overflow is undefined, and nothing brings it back.
 pub fn overflow_is_undefined<S: Scalar + Debug>() {
-    let big = S::number(&num_traits::pow(BigRational::from_integer(10.into()), 200));
-    let huge = S::number(&num_traits::pow(BigRational::from_integer(10.into()), 400));
+    let big = S::number(&BigRational::from(10).pow(200));
+    let huge = S::number(&BigRational::from(10).pow(400));
     let fine = |x: &S| x.is_defined() && x.equals(x);
     assert!(fine(&big) && fine(&big.neg()) && fine(&big.recip()));
     let lost = [

@@ -20,6 +20,7 @@ use creepage::files::{EffectsFile, Initial, Inputs, Known, ModelFile, Run, read_
 use creepage::formula::Expr;
 use creepage::model::Model;
 use creepage::motion::{Integrator, Signals, Table, simulate_model};
+use creepage::progress::unheard;
 use creepage::sweep::{Shard, Sweep};
 use creepage::{Error, Result, effects, extensions, vehicles};
 use std::path::{Path, PathBuf};
@@ -244,7 +245,7 @@ fn swept(dir: &Path) -> Result<()> {
     let sweep = Sweep::read(dir.join("sweep.toml"))?;
     let out = dir.join("sweep.csv");
     let part: Shard = format!("1/{}", sweep.cases().div_ceil(40)).parse().unwrap();
-    let written = sweep.write(part, &out, &|_| {});
+    let written = sweep.write(part, &out, &unheard);
     let rows = std::fs::read_to_string(&out);
     drop(std::fs::remove_file(&out));
     let (cases, rows) = (written?.cases, rows.unwrap());
@@ -278,7 +279,7 @@ fn discovered(dir: &Path) -> Result<()> {
     let runs = [Run::read(dir.join("run.csv"), &file)?];
     let request =
         Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[0.1], seed: 0 };
-    let found = discover(&request, &|_| {})?;
+    let found = discover(&request, &unheard)?;
     let page = html(&found.report, &found.pictures);
     assert!(page.ends_with("</html>\n") && gap_svg(&found.report, &found.pictures).ends_with("</svg>\n"));
     // A number that is none would stand in a formula; rows are dropped for a "blank or NaN cell".
@@ -290,7 +291,7 @@ fn discovered(dir: &Path) -> Result<()> {
 
 fn verify(dir: &Path) -> Result<()> {
     let claims = claims::read(&dir.join("claims.toml"), creepage::vehicles::all())?;
-    let made = claims::verify(&claims, &claims::Options { cases: 5, seed: 0 }, &|_| {});
+    let made = claims::verify(&claims, &claims::Options { cases: 5, seed: 0 }, &unheard)?;
     assert!(!ledger::text(&made).is_empty() && ledger::json(&made).is_object());
     Ok(())
 }

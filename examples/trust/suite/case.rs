@@ -37,14 +37,14 @@ impl Kind {
     }
 }
 
-/// Cases of a kind that one suite may have.
-const MOST: u64 = 100_000;
+/// The most cases of a kind in one suite: seeds of kinds lie so far apart.
+const MAX_CASES: u64 = 100_000;
 /// How often a case is drawn anew when its data cannot tell what it hides.
 const ATTEMPTS: u64 = 3;
 
 /// The seed of the `index`-th case of a kind in a suite.
 pub fn seed(suite: u64, kind: Kind, index: u64) -> u64 {
-    (suite * 10 + kind as u64) * MOST + index % MOST
+    (suite * 10 + kind as u64) * MAX_CASES + index % MAX_CASES
 }
 
 /// One hidden run.
@@ -69,8 +69,8 @@ pub struct Case {
 impl Case {
     /// What the case of a seed is about, before anything is drawn: the make and the effects it hides.
     pub fn topic(seed: u64) -> (Kind, usize, Vec<Target>) {
-        let kind = Kind::ALL[(seed / MOST % 10) as usize % Kind::ALL.len()];
-        let index = (seed % MOST) as usize;
+        let kind = Kind::ALL[(seed / MAX_CASES % 10) as usize % Kind::ALL.len()];
+        let index = (seed % MAX_CASES) as usize;
         // The step is prime to the number of pairings: every one has its turn before any has a second.
         let (make, target) = PAIRINGS[index * 89 % PAIRINGS.len()];
         match kind {

@@ -5,6 +5,7 @@ use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::report::Report;
 use creepage::discrepancy::request::Request;
 use creepage::files::{ModelFile, Run};
+use creepage::progress::unheard;
 use creepage::{Result, effects, model};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -46,7 +47,7 @@ fn asked(folder: &Path, seconds: &mut f64) -> Result<Report> {
     let runs = [Run::read(folder.join("run.csv"), &file)?];
     let request = Request { file: &file, runs: &runs, held_out: &[], library: effects::all(), horizons: &[], seed: 0 };
     let begun = Instant::now();
-    let found = discover(&request, &|_| ());
+    let found = discover(&request, &unheard);
     *seconds = begun.elapsed().as_secs_f64();
     found.map(|f| f.report)
 }

@@ -4,7 +4,9 @@ mod blade;
 mod direction;
 mod domain;
 mod editorial;
+mod falling_cat;
 mod finite;
+mod hinge_chain;
 mod ideal_limit;
 mod introduction;
 mod laws;
@@ -49,6 +51,8 @@ pub fn all() -> Vec<Claim> {
         ideal_limit::claims(),
         planning::claims(),
         symmetry::claims(),
+        hinge_chain::claims(),
+        falling_cat::claims(),
         symmetry_creep::claims(),
         laws::claims(),
         power::claims(),

@@ -4,7 +4,9 @@ use super::cross_correlation::{Found, SHORTEST, search};
 use super::refinement::Fitted;
 use super::refinement::refined;
 use super::speed_profile::{Driven, Measured};
-use crate::discrepancy::diagnosis::verdict::Outcome;
+use crate::discrepancy::diagnosis::reason::Reason;
+use crate::discrepancy::diagnosis::verdict::{Outcome, unusable};
+use crate::discrepancy::diagnosis::warning::Warning;
 use crate::discrepancy::preprocessing::unit_errors::too_sparse;
 use crate::discrepancy::report::{Estimate, RunClock, Verdict};
 use crate::discrepancy::request::Request;
@@ -13,7 +15,7 @@ use crate::error::Result;
 use crate::files::Clock;
 use crate::files::{ModelFile, Run};
 use crate::model::Model;
-use crate::number_format::significant;
+use crate::progress::{Counter, OnProgress, Stage};
 use rayon::prelude::*;
 
 /// Grid of the poses' motion, s.
@@ -42,22 +44,6 @@ pub struct Aligned {
     pub(crate) until: f64,
 }
 
-/// Why a run cannot be aligned, for a person.
-pub(crate) struct Obstacle {
-    verdict: Verdict,
-    why: String,
-}
-
-impl Obstacle {
-    fn unusable(why: String) -> Self {
-        Self { verdict: Verdict::UnusableData, why }
-    }
-
-    pub fn outcome(self) -> Outcome {
-        Outcome { verdict: self.verdict, sentence: Some(self.why), next_experiment: None }
-    }
-}
-
 impl Aligned {
     /// As the report lists it.
     pub fn clock(&self, held_out: bool) -> RunClock {
@@ -75,13 +61,9 @@ impl Aligned {
     }
 
     /// A warning where another offset would do nearly as well.
-    pub(crate) fn doubt(&self) -> Option<String> {
-        let other = significant(self.other?, 4);
-        let own = significant(self.fitted.clock.offset, 4);
-        Some(format!(
-            "{}: a clock offset of {other} s fits nearly as well as {own} s; give --clock-offset if you know it",
-            self.run.name
-        ))
+    pub(crate) fn doubt(&self) -> Option<Warning> {
+        let own = self.fitted.clock.offset;
+        Some(Warning::ClockOffsetInDoubt { run: self.run.name.clone(), own, other: self.other? })
     }
 }
 
@@ -95,8 +77,16 @@ pub(crate) fn aligned(
     request: &Request,
     model: &Model,
     near: Option<f64>,
-) -> Result<std::result::Result<Vec<Aligned>, Obstacle>> {
-    runs.par_iter().map(|run| aligned_one(run, share, request, model, near)).collect()
+    progress: &OnProgress,
+) -> Result<std::result::Result<Vec<Aligned>, Outcome>> {
+    let counter = Counter::begin(progress, Stage::ClockAlignment, runs.len())?;
+    let one = |run: &Run| {
+        let found = aligned_one(run, share, request, model, near)?;
+        counter.one()?;
+        Ok(found)
+    };
+    let all: Vec<std::result::Result<Aligned, Outcome>> = runs.par_iter().map(one).collect::<Result<_>>()?;
+    Ok(all.into_iter().collect())
 }
 
 fn aligned_one(
@@ -105,12 +95,12 @@ fn aligned_one(
     request: &Request,
     model: &Model,
     near: Option<f64>,
-) -> Result<std::result::Result<Aligned, Obstacle>> {
+) -> Result<std::result::Result<Aligned, Outcome>> {
     if let Some(obstacle) = endless(run) {
-        return Ok(Err(Obstacle::unusable(obstacle)));
+        return Ok(Err(Outcome::new(Verdict::UnusableData, obstacle, None)));
     }
-    if let Some(obstacle) = too_sparse(model, [run])? {
-        return Ok(Err(Obstacle::unusable(obstacle)));
+    if let Some(slip) = too_sparse(model, [run])? {
+        return Ok(Err(unusable(slip)));
     }
     let driven = Driven::of(model, run, request.file.input_timing.into())?;
     let laid = |part: &Run| {
@@ -164,36 +154,22 @@ fn settled(first: Fitted, rival: Option<Fitted>) -> (Fitted, Option<f64>) {
 }
 
 /// Files too long to lay upon each other, or to be in seconds.
-fn endless(run: &Run) -> Option<String> {
-    let longest = span(run.input_time()).max(span(&run.time));
-    (longest.is_nan() || longest > LONGEST).then(|| {
-        format!(
-            "The clocks of {} cannot be aligned: it lasts {} s, and at most {} s can be; is its time in seconds?",
-            run.name,
-            significant(longest, 3),
-            significant(LONGEST, 2)
-        )
-    })
+fn endless(run: &Run) -> Option<Reason> {
+    let lasts = span(run.input_time()).max(span(&run.time));
+    let reason = || Reason::ClockTooLong { run: run.name.clone(), lasts, longest: LONGEST };
+    (lasts.is_nan() || lasts > LONGEST).then(reason)
 }
 
 /// Why no clock makes both files one drive.
-fn unlike(run: &Run) -> Obstacle {
+fn unlike(run: &Run) -> Outcome {
     let truth = run.apart.as_ref().map(|a| file_name(&a.truth)).unwrap_or_default();
-    let shortest = span(run.input_time()).min(span(&run.time));
-    if shortest < SHORTEST {
-        let why = format!(
-            "{} and {truth} are too short to find how their clocks belong together: {} s, and at least {} s are needed.",
-            run.name,
-            significant(shortest, 2),
-            significant(SHORTEST, 2)
-        );
-        return Obstacle { verdict: Verdict::NotIdentifiable, why };
+    let lasts = span(run.input_time()).min(span(&run.time));
+    let run = run.name.clone();
+    if lasts < SHORTEST {
+        let reason = Reason::ClockTooShort { run, truth, lasts, needed: SHORTEST };
+        return Outcome::new(Verdict::NotIdentifiable, reason, None);
     }
-    Obstacle::unusable(format!(
-        "No offset of their clocks makes the inputs of {} move as the poses of {truth} do: check that both are of one \
-         drive, the columns and the units.",
-        run.name
-    ))
+    Outcome::new(Verdict::UnusableData, Reason::ClocksUnlike { run, truth }, None)
 }
 
 fn span(time: &[f64]) -> f64 {
@@ -209,13 +185,12 @@ pub(crate) fn is_aligned(run: &Run) -> bool {
     run.apart.as_ref().is_none_or(|a| a.one_clock)
 }
 
-/// A model file without a delay of its inputs, which is one with the offset of the clocks; and a word where it has one.
-pub(crate) fn without_delay(file: &ModelFile) -> (ModelFile, Option<String>) {
+/// A model file without a delay of its inputs, which is one with the offset of the clocks; and a warning where it has one.
+pub(crate) fn without_delay(file: &ModelFile) -> (ModelFile, Option<Warning>) {
     let is_delay = |id: &str| of_clock().is_some_and(|e| e.id == id);
     let has_one = file.effects.iter().any(|e| is_delay(&e.id));
     let effects = file.effects.iter().filter(|e| !is_delay(&e.id)).cloned().collect();
-    let says = "the model's input-delay is left out: it is one with the offset of the clocks, which has it";
-    (ModelFile { effects, ..file.clone() }, has_one.then(|| says.into()))
+    (ModelFile { effects, ..file.clone() }, has_one.then_some(Warning::DelayLeftOut))
 }
 
 #[cfg(test)]
@@ -260,9 +235,9 @@ mod tests {
             ("[[effects]]\nid = \"traverse-creep\"\ne_tc = 0.1\n", "[[effects]]\nid = \"input-delay\"\ndelay = 0.1\n");
         let ids = |file: &ModelFile| file.effects.iter().map(|e| e.id.clone()).collect::<Vec<_>>();
         let (file, says) = without_delay(&unicycle_file(creep));
-        assert_eq!((ids(&file), says), (vec!["traverse-creep".to_string()], None));
+        assert!(ids(&file) == ["traverse-creep"] && says.is_none());
         let (file, says) = without_delay(&unicycle_file(&[creep, delay].concat()));
         assert_eq!(ids(&file), ["traverse-creep"]);
-        assert!(says.unwrap().starts_with("the model's input-delay is left out"));
+        assert!(matches!(says, Some(Warning::DelayLeftOut)));
     }
 }

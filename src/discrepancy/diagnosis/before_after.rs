@@ -1,5 +1,6 @@
 //! The model before and after along the fitted and the held-out runs, and how far each strays.
 
+use super::warning::Warning;
 use crate::discrepancy::preprocessing::dataset::Data;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::record::sensor_noise::Noise;
@@ -13,6 +14,8 @@ use rayon::prelude::*;
 
 /// Horizons of the curve, s.
 const CURVE: [f64; 12] = [0.2, 0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0, 45.0];
+/// A held-out gap that is so many times as large with what was found, and as the noise floor, has grown.
+const GREW: f64 = 1.25;
 /// Windows a point of the curve needs.
 const FEWEST_WINDOWS: usize = 2;
 
@@ -131,5 +134,46 @@ impl<'a> ModelComparison<'a> {
             Ok(Step { added: added.clone(), gap_after })
         };
         choice.steps.iter().map(step).collect()
+    }
+}
+
+/// Held-out runs that are predicted worse with what was found, at the horizon at which they are worst.
+pub(crate) fn grown(gaps: &[Gap]) -> Option<Warning> {
+    let of = |g: &Gap| g.held_out.as_ref().map(|h| (h.position_rms_before, h.position_rms_after, g.horizon_s));
+    let grew = gaps.iter().filter(|g| of(g).is_some_and(|(_, after, _)| after > GREW * g.noise_floor.position_rms));
+    let (before, after, horizon) = grew
+        .filter_map(of)
+        .filter(|(before, after, _)| *after > GREW * before)
+        .max_by(|a, b| (a.1 / a.0).total_cmp(&(b.1 / b.0)))?;
+    Some(Warning::HeldOutGapGrew { horizon, before, after })
+}
+
+/// The horizons asked for that no run is long enough for.
+pub(crate) fn too_long(asked: &[f64], gaps: &[Gap]) -> Vec<Warning> {
+    let is_missing = |h: &&f64| gaps.iter().all(|g| g.horizon_s != **h);
+    asked.iter().filter(is_missing).map(|h| Warning::HorizonTooLong(*h)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_held_out_gap_that_grows_is_told_at_its_worst() {
+        let gap = |horizon_s: f64, before: f64, after: f64| Gap {
+            horizon_s,
+            fit: None,
+            held_out: Some(BeforeAfter {
+                position_rms_before: before,
+                position_rms_after: after,
+                heading_rms_before: None,
+                heading_rms_after: None,
+            }),
+            noise_floor: Floor { position_rms: 0.1, heading_rms: None },
+        };
+        let told = grown(&[gap(1.0, 0.2, 0.3), gap(5.0, 0.2, 0.5), gap(30.0, 1.0, 0.4)]);
+        assert!(matches!(told, Some(Warning::HeldOutGapGrew { horizon: 5.0, before: 0.2, after: 0.5 })), "{told:?}");
+        // Within the noise, and by a little, a gap does not grow.
+        assert!(grown(&[gap(1.0, 0.05, 0.12), gap(5.0, 1.0, 1.2)]).is_none());
     }
 }

@@ -1,31 +1,19 @@
-//! In words: effects that the runs ask for, but not all of their parts, or not with the inputs logged half as often.
+//! Effects that the runs ask for, but not all of their parts, or not with the inputs logged half as often.
 
-use crate::discrepancy::diagnosis::advice::{contradiction, named};
+use super::warning::Warning;
 use crate::discrepancy::selection::choice::Selected;
-use crate::wording::listed;
 
-/// That something would have another value, were the inputs logged half as often; `None` where nothing would.
-pub(crate) fn too_seldom(choice: &Selected) -> Option<String> {
-    let names = named(&choice.sampling_sensitive);
-    names
-        .map(|names| format!("with every second row of the inputs left out these runs ask for other values of {names}"))
-}
-
-/// Whether something was asked for by some of the runs' parts or rows only.
+/// Whether an effect was asked for by some of the runs' parts or rows only.
 pub(crate) fn is_contested(choice: &Selected) -> bool {
     !choice.inconsistent.is_empty() || !choice.sampling_sensitive.is_empty()
 }
 
 /// What the report warns of where parts of the data contradict each other, or rows too far apart.
-pub(crate) fn warnings(choice: &Selected) -> impl Iterator<Item = String> {
-    let both = [contradiction(choice), too_seldom(choice)];
-    both.into_iter().flatten().map(|asked| format!("{asked}, so that is not named"))
-}
-
-/// What is named where more remains that is not.
-pub(crate) fn partly(choice: &Selected) -> String {
-    let names = listed(choice.chosen.iter().map(|c| c.applied.label()));
-    format!("The model misses {names}; what else remains differs between parts of these runs and is not named.")
+pub(crate) fn warnings(choice: &Selected) -> Vec<Warning> {
+    let parts = (!choice.inconsistent.is_empty()).then(|| Warning::Inconsistent(choice.inconsistent.clone()));
+    let seldom =
+        (!choice.sampling_sensitive.is_empty()).then(|| Warning::SamplingSensitive(choice.sampling_sensitive.clone()));
+    parts.into_iter().chain(seldom).collect()
 }
 
 #[cfg(test)]
@@ -48,7 +36,7 @@ mod tests {
                 inconsistent,
                 sampling_sensitive,
             };
-            (is_contested(&choice), warnings(&choice).count())
+            (is_contested(&choice), warnings(&choice).len())
         };
         assert_eq!(of(vec![], vec![]), (false, 0));
         assert_eq!((of(asked(), vec![]), of(vec![], asked())), ((true, 1), (true, 1)));

@@ -6,4 +6,6 @@ pub(crate) mod contradictions;
 pub mod equivalents;
 pub(crate) mod findings;
 pub(crate) mod plausibility;
+pub mod reason;
 pub mod verdict;
+pub mod warning;

@@ -1,11 +1,11 @@
 //! Effects that the runs ask for far beyond what vehicles have: right numbers for a wrong reason, as a rule.
 
+use super::warning::Warning;
 use crate::discrepancy::preprocessing::unit_errors;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::selection::choice::Selected;
 use crate::effects::Applied;
 use crate::error::Result;
-use crate::number_format::significant;
 
 /// A share this many times as large as a plausible one is none that wear, load or a careless measurement explain.
 const FAR: f64 = 10.0;
@@ -16,25 +16,27 @@ const FAR: f64 = 10.0;
 ///
 /// # Errors
 /// When the model's formulas are malformed.
-pub(crate) fn warnings(choice: &Selected, records: &[Record]) -> Result<Vec<String>> {
-    let far: Vec<String> = choice.chosen.iter().filter_map(|c| far_beyond(&c.applied)).collect();
+pub(crate) fn warnings(choice: &Selected, records: &[Record]) -> Result<Vec<Warning>> {
+    let far: Vec<&Applied> = choice.chosen.iter().map(|c| &c.applied).filter(|a| far_beyond(a).is_some()).collect();
     let slip = if far.is_empty() { None } else { unit_errors::suspected(&choice.before.model, records)? };
-    let doubt = slip.map_or_else(
-        || ": check numbers and units of model file and log, or it imitates another effect".into(),
-        |slip| format!("; {slip}"),
-    );
-    Ok(far.into_iter().map(|says| says + &doubt).collect())
+    let warning = |applied: &Applied| {
+        let (parameter, value, usual) = far_beyond(applied)?;
+        Some(Warning::Implausible {
+            applied: applied.clone(),
+            parameter: parameter.into(),
+            value,
+            usual,
+            slip: slip.clone(),
+        })
+    };
+    Ok(far.into_iter().filter_map(warning).collect())
 }
 
-fn far_beyond(applied: &Applied) -> Option<String> {
+/// The first share of an effect that is far beyond its usual size: its name, value and usual size.
+fn far_beyond(applied: &Applied) -> Option<(&str, f64, f64)> {
     let mut parameters = applied.effect.parameters.iter().zip(&applied.values);
     let ((name, p), value) = parameters.find(|((_, p), v)| p.unit == "1" && v.abs() > FAR * p.size)?;
-    Some(format!(
-        "{} {name} = {} is far beyond the usual {}",
-        applied.label(),
-        significant(*value, 3),
-        significant(p.size, 2),
-    ))
+    Some((name, *value, p.size))
 }
 
 #[cfg(test)]
@@ -44,17 +46,16 @@ mod tests {
 
     #[test]
     fn a_share_is_warned_of_and_a_length_is_not() {
-        let said = |id: &str, times: f64| {
+        let at = |id: &str, times: f64| {
             let effect = effects::named(id).unwrap();
             let values = effect.parameters.values().map(|p| times * p.size).collect();
-            far_beyond(&Applied::new(effect, None, values))
+            far_beyond(&Applied::new(effect, None, values)).map(|(name, value, usual)| (name.to_string(), value, usual))
         };
-        assert_eq!(said("track-width", 9.0), None);
-        assert_eq!(said("track-width", -9.0), None);
-        for (times, value) in [(11.0, "0.330"), (-11.0, "−0.330")] {
-            let said = said("track-width", times).unwrap();
-            assert!(said.contains(&format!("track-width scale = {value} is far beyond the usual 0.030")), "{said}");
+        assert_eq!(at("track-width", 9.0), None);
+        assert_eq!(at("track-width", -9.0), None);
+        for times in [11.0, -11.0] {
+            assert_eq!(at("track-width", times), Some(("scale".into(), times * 0.03, 0.03)));
         }
-        assert_eq!(said("lever-arm", 11.0), None);
+        assert_eq!(at("lever-arm", 11.0), None);
     }
 }

@@ -8,6 +8,7 @@ use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::shooting::windows::plan;
 use crate::effects::Applied;
 use crate::error::Result;
+use crate::progress::{Counter, OnProgress, Stage};
 use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
@@ -32,12 +33,15 @@ pub(crate) struct Jackknife {
 impl Jackknife {
     /// The jackknife: σ² = (g − 1)/g·Σ (θ₍ᵢ₎ − θ̄)², θ₍ᵢ₎ the values without the i-th of g parts. `None` where the model
     /// cannot be fitted to a part.
-    pub(crate) fn of(problem: &Problem, fit: &Fit) -> Result<Option<Self>> {
+    pub(crate) fn of(problem: &Problem, fit: &Fit, progress: &OnProgress) -> Result<Option<Self>> {
+        let parts = parts(problem);
+        let counter = Counter::begin(progress, Stage::PartsOfData, parts.len())?;
         let of_part = |part: &Problem| -> Result<Option<Vec<f64>>> {
             let starts = part.starts(&fit.model)?;
-            Ok(part.fit(&fit.model, &starts, &fit.variances, Effort::FULL)?.map(|f| f.p))
+            let found = part.fit(&fit.model, &starts, &fit.variances, Effort::FULL)?;
+            counter.one().map(|()| found.map(|f| f.p))
         };
-        let all: Vec<Option<Vec<f64>>> = parts(problem).par_iter().map(of_part).collect::<Result<_>>()?;
+        let all: Vec<Option<Vec<f64>>> = parts.par_iter().map(of_part).collect::<Result<_>>()?;
         let Some(all) = all.into_iter().collect::<Option<Vec<Vec<f64>>>>() else { return Ok(None) };
         let g = all.len() as f64;
         let of_value = |i: usize| {

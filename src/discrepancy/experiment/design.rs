@@ -5,6 +5,7 @@
 
 use super::envelope::Envelope;
 use super::manoeuvre::{LENGTH, Manoeuvre, library};
+use super::next_step::{NextStep, PlannedManoeuvre};
 use crate::discrepancy::diagnosis::equivalents::EquivalentEffect;
 use crate::discrepancy::diagnosis::verdict::{Outcome, missed};
 use crate::discrepancy::estimation::elimination::eliminate;
@@ -14,7 +15,7 @@ use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::estimation::problem::{Problem, starts};
 use crate::discrepancy::initial_state::hidden_states;
 use crate::discrepancy::record::run_record::Record;
-use crate::discrepancy::report::{NextExperiment, Verdict};
+use crate::discrepancy::report::Verdict;
 use crate::discrepancy::selection::choice::Selected;
 use crate::discrepancy::selection::search::without_effect;
 use crate::discrepancy::selection::select::Candidate;
@@ -24,7 +25,6 @@ use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
 use crate::motion::{StateSensitivity, Stepper, Timing};
-use crate::number_format::significant;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
@@ -36,6 +36,8 @@ const PASSES: usize = 3;
 const ENOUGH: f64 = 25.0;
 /// A manoeuvre within this share of the best one is as good.
 pub(crate) const ALIKE: f64 = 0.9;
+/// A manoeuvre of a minute is repeated so often at most.
+const MOST_REPETITIONS: f64 = 30.0;
 /// More rivals than these are not thought of at once.
 const MOST_RIVALS: usize = 4;
 
@@ -86,7 +88,7 @@ pub fn next(
     choice: &Selected,
     relatives: &[Vec<EquivalentEffect>],
     outcome: &Outcome,
-) -> Result<Option<NextExperiment>> {
+) -> Result<Option<NextStep>> {
     let own = match outcome.verdict {
         Verdict::MissingEffect | Verdict::UnnamedEffect => between(problem, choice, relatives)?,
         Verdict::NotIdentifiable => {
@@ -94,18 +96,14 @@ pub fn next(
         }
         _ => None,
     };
-    Ok(own.or_else(|| outcome.next_experiment.clone()))
+    Ok(own.or_else(|| outcome.next.clone().map(NextStep::Advice)))
 }
 
 /// Manoeuvres for what the runs at hand leave open: the first chosen effect with relatives that differ from it.
 ///
 /// # Errors
 /// When a model's formulas are malformed.
-fn between(
-    problem: &Problem,
-    choice: &Selected,
-    relatives: &[Vec<EquivalentEffect>],
-) -> Result<Option<NextExperiment>> {
+fn between(problem: &Problem, choice: &Selected, relatives: &[Vec<EquivalentEffect>]) -> Result<Option<NextStep>> {
     let open = choice.chosen.iter().zip(relatives);
     let open = open.map(|(c, r)| (c, most_different(r)));
     let Some((chosen, rivals)) = open.into_iter().find(|(_, r)| !r.is_empty()) else { return Ok(None) };
@@ -130,51 +128,41 @@ fn between(
             .flat_map(|o| [thought.expected_delta_bic(m, &truth, o), thought.expected_delta_bic(m, o, &truth)]);
         both.collect::<Option<Vec<_>>>().map(|all| all.into_iter().fold(f64::INFINITY, f64::min))
     };
-    let names: Vec<String> = rivals.iter().take(MOST_RIVALS).map(|r| r.applied.label()).collect();
-    let pair = format!("{} from {}", chosen.applied.label(), names.join(" or "));
-    Ok(thought.best(worth).map(|(m, worth)| advice(m.sentence(&thought.envelope), worth, &pair)))
+    let step = |(m, worth)| NextStep::Separate {
+        chosen: chosen.applied.clone(),
+        rivals: rivals.iter().take(MOST_RIVALS).map(|r| r.applied.clone()).collect(),
+        manoeuvre: thought.planned(m),
+        expected_delta_bic: worth,
+        times: repetitions(worth),
+    };
+    Ok(thought.best(worth).map(step))
 }
 
 /// The manoeuvre that would show an effect of plausible size that the runs at hand would not have shown.
 ///
 /// # Errors
 /// When a model's formulas are malformed.
-fn revealing(problem: &Problem, choice: &Selected, missed: &Candidate) -> Option<NextExperiment> {
+fn revealing(problem: &Problem, choice: &Selected, missed: &Candidate) -> Option<NextStep> {
     let before = &choice.after;
     let thought = PredictedExperiment::of(problem, before)?;
     let of = PriorInformation::of(before);
     let effect = &missed.applied.effect;
     let sizes: Vec<f64> = effect.parameters.values().map(|p| p.size).collect();
     let applied = Applied::new(effect, missed.applied.trailer, sizes);
-    let label = applied.label();
-    let truth =
-        PriorInformation { model: before.model.clone().with_effect(applied.freed()), ..PriorInformation::of(before) };
+    let model = before.model.clone().with_effect(applied.clone().freed());
+    let truth = PriorInformation { model, ..PriorInformation::of(before) };
     let (m, worth) = thought.best(|m| thought.expected_delta_bic(m, &truth, &of))?;
-    let why = format!(
-        "a plausible {label} would have been missed; this is expected to show it with a ΔBIC of about {}",
-        significant(worth, 2)
-    );
-    (worth > ENOUGH).then(|| NextExperiment { why, manoeuvre: m.sentence(&thought.envelope) })
+    (worth > ENOUGH).then(|| NextStep::Reveal {
+        effect: applied,
+        manoeuvre: thought.planned(m),
+        expected_delta_bic: worth,
+    })
 }
 
-/// What to say of a manoeuvre that is expected to be worth so much.
-fn advice(sentence: String, worth: f64, pair: &str) -> NextExperiment {
-    let expected = significant(worth.max(0.0), 2);
-    let times = (ENOUGH / worth.max(1e-9)).ceil();
-    let (manoeuvre, why) = match times {
-        t if t <= 1.0 => (sentence, format!("the minute is expected to do so with a ΔBIC of {expected}")),
-        t if t <= 30.0 => (
-            format!("{sentence}; repeat it {t} times"),
-            format!("a minute is expected to give a ΔBIC of {expected} only"),
-        ),
-        _ => (
-            "no manoeuvre within these speeds and turns separates them in reasonable time; measure the parameter \
-             itself instead"
-                .to_string(),
-            format!("a minute is expected to give a ΔBIC of {expected} at best"),
-        ),
-    };
-    NextExperiment { why: format!("these runs do not tell {pair}; {why}"), manoeuvre }
+/// How often a manoeuvre of such a worth has to be driven to separate two effects beyond doubt; `None` where that is
+/// beyond reason.
+fn repetitions(worth: f64) -> Option<f64> {
+    Some((ENOUGH / worth.max(1e-9)).ceil().max(1.0)).filter(|times| *times <= MOST_REPETITIONS)
 }
 
 /// The relatives that a run is to tell apart: those that agree to first order only where there are no others, for they
@@ -201,6 +189,11 @@ impl<'a> PredictedExperiment<'a> {
     pub(crate) fn scaled(&self, mut v: NoiseModel) -> NoiseModel {
         v.measurement_mut().iter_mut().for_each(|c| c.variance *= (self.like.step() * RATE).min(1e3));
         v
+    }
+
+    /// A manoeuvre at the speeds and turns of the runs at hand.
+    pub(crate) fn planned(&self, manoeuvre: &'static Manoeuvre) -> PlannedManoeuvre {
+        PlannedManoeuvre { manoeuvre, envelope: self.envelope.clone() }
     }
 
     /// The manoeuvre of the most worth, or the simplest of those that are nearly as good.
@@ -346,21 +339,18 @@ mod tests {
         }
     }
 
-    /// What is worth the evidence in one minute is driven once, what needs a few as often as that; below there is none.
+    /// A manoeuvre that is worth the evidence in one minute is driven once, one that needs a few as often as that.
     #[test]
     fn a_manoeuvre_is_repeated_until_it_is_worth_enough() {
-        let of = |worth: f64| advice("drive a circle".into(), worth, "a from b");
-        for (worth, manoeuvre, expected) in [
-            (30.0, "drive a circle", "expected to do so with a ΔBIC of 30"),
-            (25.0, "drive a circle", "expected to do so with a ΔBIC of 25"),
-            (24.0, "drive a circle; repeat it 2 times", "ΔBIC of 24 only"),
-            (25.0 / 30.0, "drive a circle; repeat it 30 times", "ΔBIC of 0.83 only"),
-            (0.8, "no manoeuvre within these speeds", "ΔBIC of 0.80 at best"),
-            (-3.0, "no manoeuvre within these speeds", "ΔBIC of 0 at best"),
+        for (worth, times) in [
+            (30.0, Some(1.0)),
+            (25.0, Some(1.0)),
+            (24.0, Some(2.0)),
+            (25.0 / 30.0, Some(30.0)),
+            (0.8, None),
+            (-3.0, None),
         ] {
-            let said = of(worth);
-            assert!(said.manoeuvre.starts_with(manoeuvre) && said.why.contains(expected), "{said:?}");
-            assert_eq!(said.manoeuvre.contains("repeat"), manoeuvre.contains("repeat"));
+            assert_eq!(repetitions(worth), times, "{worth}");
         }
     }
 }

@@ -8,16 +8,13 @@ use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::{Problem, starts};
 use crate::discrepancy::experiment::design::{ALIKE, PredictedExperiment};
 use crate::discrepancy::experiment::manoeuvre::{Manoeuvre, library};
-use crate::discrepancy::report::NextExperiment;
+use crate::discrepancy::experiment::next_step::{Mended, NextStep};
 use crate::discrepancy::shooting::windows::plan;
 use crate::error::Result;
-use crate::wording::listed_to;
 use rayon::prelude::*;
 
 /// Things that are looked at, of either kind.
 const MOST: usize = 6;
-/// Names in a sentence.
-const NAMED: usize = 4;
 
 /// What is to be mended.
 pub(crate) struct Open<'a> {
@@ -33,12 +30,12 @@ pub(crate) struct Open<'a> {
 }
 
 /// How far a manoeuvre mends each thing, one for what is mended.
-struct Mended {
+struct Tried {
     manoeuvre: &'static Manoeuvre,
     shares: Vec<f64>,
 }
 
-impl Mended {
+impl Tried {
     fn worth(&self) -> f64 {
         // What is mended counts far more than what is nearly so.
         self.shares.iter().map(|s| if *s >= 1.0 { 1.0 } else { 0.1 * s }).sum()
@@ -47,21 +44,23 @@ impl Mended {
 
 impl Open<'_> {
     /// What to drive; `None` with nothing open or for inputs that cannot be planned.
-    pub fn advice(&self, problem: &Problem, fit: &Fit) -> Result<Option<NextExperiment>> {
+    pub fn advice(&self, problem: &Problem, fit: &Fit) -> Result<Option<NextStep>> {
         if self.missed.is_empty() && self.pairs.is_empty() {
             return Ok(None);
         }
         let Some(thought) = PredictedExperiment::of(problem, fit) else { return Ok(None) };
-        let mend = |m: &'static Manoeuvre| -> Result<Option<Mended>> {
+        let mend = |m: &'static Manoeuvre| -> Result<Option<Tried>> {
             let Some(driven) = self.driven(&thought, fit, m)? else { return Ok(None) };
-            Ok(Some(Mended { manoeuvre: m, shares: self.shares(&driven, &thought, fit)? }))
+            Ok(Some(Tried { manoeuvre: m, shares: self.shares(&driven, &thought, fit)? }))
         };
         let all: Vec<&'static Manoeuvre> = library(&thought.envelope).collect();
-        let tried: Vec<Mended> =
+        let tried: Vec<Tried> =
             all.into_par_iter().map(mend).collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
-        let most = tried.iter().map(Mended::worth).fold(0.0, f64::max);
+        let most = tried.iter().map(Tried::worth).fold(0.0, f64::max);
         let best = tried.iter().find(|m| m.worth() >= ALIKE * most && most > 0.0);
-        Ok(best.map(|best| self.said(best, &best.manoeuvre.sentence(&thought.envelope))))
+        let step =
+            |best: &Tried| NextStep::Mend { mends: self.mended(best), manoeuvre: thought.planned(best.manoeuvre) };
+        Ok(best.map(step))
     }
 
     fn driven(&self, thought: &PredictedExperiment, fit: &Fit, m: &Manoeuvre) -> Result<Option<Driven>> {
@@ -89,18 +88,13 @@ impl Open<'_> {
         seen.chain(self.pairs.iter().take(MOST).map(told)).collect()
     }
 
-    fn said(&self, best: &Mended, sentence: &str) -> NextExperiment {
-        let label = |c: usize| self.all[c].applied.label();
-        let seen = self.missed.iter().take(MOST).map(|c| format!("show {}", label(*c)));
-        let told = self.pairs.iter().take(MOST).map(|([a, b], _)| format!("tell {} from {}", label(*a), label(*b)));
-        let mut names: Vec<String> =
-            seen.chain(told).zip(&best.shares).filter(|(_, s)| **s >= 1.0).map(|(n, _)| n).collect();
-        names.dedup();
-        if names.is_empty() {
-            let why = "one minute within these speeds and turns mends nothing of it by itself; this says most".into();
-            return NextExperiment { why, manoeuvre: format!("{sentence}; repeat it") };
-        }
-        let why = format!("the minute is expected to {}", listed_to(&names, NAMED));
-        NextExperiment { why, manoeuvre: sentence.into() }
+    /// What a manoeuvre mends by itself.
+    fn mended(&self, best: &Tried) -> Vec<Mended> {
+        let effect = |c: usize| self.all[c].applied.clone();
+        let shown = self.missed.iter().take(MOST).map(|c| Mended::Shown(Box::new(effect(*c))));
+        let told =
+            self.pairs.iter().take(MOST).map(|([a, b], _)| Mended::Separated(Box::new([effect(*a), effect(*b)])));
+        let mended = shown.chain(told).zip(&best.shares).filter(|(_, share)| **share >= 1.0);
+        mended.map(|(what, _)| what).collect()
     }
 }

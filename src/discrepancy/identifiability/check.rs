@@ -1,17 +1,20 @@
-//! The check in one line: runs → fit of the model as given → information → what it says.
+//! What runs can tell of a model: fit of the model as given, Fisher information, effects that would be seen.
 
 use super::advice::Open;
-use super::check_report::{Check, Health, Prospect, Seen, Standing};
+use super::check_report::{Health, Pair, Prospect, Seen, Standing};
 use super::confusable_pairs::{told_apart, unseparated};
-use super::data_quality::health;
+use super::data_finding::DataFinding;
+use super::data_quality::{health, of_fit};
 use super::detection_power::{Candidate, DetectionThreshold, ExpectedDetection, Table, candidates, groups};
 use super::expected_gain::Background;
 use super::fisher_information::Driven;
 use crate::discrepancy::diagnosis::equivalents::measured;
+use crate::discrepancy::diagnosis::reason::Reason;
 use crate::discrepancy::diagnosis::verdict;
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::estimation::problem::Problem;
+use crate::discrepancy::experiment::next_step::NextStep;
 use crate::discrepancy::preprocessing::outliers::without_gross_errors;
 use crate::discrepancy::preprocessing::unit_errors::too_sparse;
 use crate::discrepancy::record::run_record::Record;
@@ -21,7 +24,7 @@ use crate::effects::Effect;
 use crate::error::Result;
 use crate::files::{ModelFile, Run};
 use crate::model::Model;
-use crate::wording::listed;
+use crate::progress::{Counter, OnProgress, Stage, begin};
 use rayon::prelude::*;
 
 /// What `check` works on.
@@ -34,27 +37,35 @@ pub struct Checked<'a> {
     pub library: &'a [Effect],
 }
 
-/// Names in the summary.
-const NAMED: usize = 4;
+/// What runs can tell of a model.
+#[derive(Clone, Debug)]
+pub(crate) struct Assessment {
+    pub standing: Standing,
+    pub grounds: Grounds,
+    pub data: Health,
+    pub findings: Vec<DataFinding>,
+    pub effects: Vec<Prospect>,
+    pub not_separated: Vec<Pair>,
+    pub next: Option<NextStep>,
+}
 
-/// Says what runs can tell of a model.
-///
-/// ```no_run
-/// use creepage::discrepancy::identifiability::{Checked, check};
-/// use creepage::files::{ModelFile, Run};
-/// use creepage::{effects, model};
-/// let file = ModelFile::read("model.toml", &model::known(effects::all())).unwrap();
-/// let runs = [Run::read("run.csv", &file).unwrap()];
-/// let answer = check(&Checked { file: &file, runs: &runs, library: effects::all() }, &|_| ()).unwrap();
-/// println!("{}", answer.summary);
-/// ```
+/// Why the runs stand as they do.
+#[derive(Clone, Debug)]
+pub(crate) enum Grounds {
+    /// The runs are not even put to the model, for a reason where there is more to say.
+    NotFitted(Option<Reason>),
+    /// Ids of the effects that would be missed.
+    Missed(Vec<String>),
+}
+
+/// What runs can tell of a model: fit of the model as given, information, effects that would be seen.
 ///
 /// # Errors
 /// When runs log different inputs, or the model file's effects do not apply to its vehicle.
-pub fn check(of: &Checked, progress: &dyn Fn(&str)) -> Result<Check> {
+pub(crate) fn assess(of: &Checked, progress: &OnProgress) -> Result<Assessment> {
     let roles = common_roles(of.runs, &[])?;
     let model = Model::from_file(of.file, of.library, &roles)?;
-    progress("looking at the rows");
+    begin(progress, Stage::Rows)?;
     let sparse = too_sparse(&model, of.runs)?;
     let record = |r: &Run| {
         let record = Record::of_run(r, of.file.input_timing, model.trailer_count());
@@ -62,21 +73,22 @@ pub fn check(of: &Checked, progress: &dyn Fn(&str)) -> Result<Check> {
     };
     let clean: Vec<(Record, usize)> = of.runs.par_iter().map(record).collect::<Result<_>>()?;
     let (records, gross): (Vec<Record>, Vec<usize>) = clean.into_iter().unzip();
-    let data = health(&model, of.runs, &records, &gross)?;
-    if let Some(why) = sparse {
-        return Ok(without_fit(data, verdict::unusable(why)));
+    let (data, mut findings) = health(&model, of.runs, &records, &gross)?;
+    if let Some(slip) = sparse {
+        return Ok(without_fit(data, findings, verdict::unusable(slip)));
     }
     let problem = Problem::new(records, of.file.noise.position, of.file.noise.heading);
     if let Some(outcome) = verdict::before_fitting(&problem, &model)? {
-        return Ok(without_fit(data, outcome));
+        return Ok(without_fit(data, findings, outcome));
     }
-    progress("fitting the model as it is");
+    begin(progress, Stage::ModelFit)?;
     let starts = problem.starts(&model)?;
     let fit = problem.fit(&model, &starts, &problem.variances, Effort::FULL)?;
-    let Some(fit) = fit else { return Ok(without_fit(data, verdict::undefined_motion())) };
+    let Some(fit) = fit else { return Ok(without_fit(data, findings, verdict::undefined_motion())) };
     let data = data.with_fit(problem.variances.measurement(), &fit, problem.records[0].has_heading);
-    progress("weighing what each effect would leave in these runs");
+    findings.extend(of_fit(&fit));
     let all = candidates(&model, of.library);
+    let counter = Counter::begin(progress, Stage::Detection, all.len())?;
     let calm = (0..fit.variances.process().len()).fold(fit.variances.clone(), NoiseModel::without_jump);
     let variances = [calm.clone(), fit.variances.clone()];
     let variance_inflation = [fit.noise_correlation_time, fit.variance_inflation()];
@@ -88,7 +100,10 @@ pub fn check(of: &Checked, progress: &dyn Fn(&str)) -> Result<Check> {
         Driven { records: problem.records.clone(), plan: problem.plan.clone(), starts: fit.window_states.clone() };
     let table = Table::of(&model, &driven, &all, &groups(&all), &variances, variance_inflation)?;
     let ground = Background { calm, alike: fit.noise_correlation_time };
-    let shown = |c: &Candidate| ExpectedDetection::of(&model, &driven, c, &bar, &ground);
+    let shown = |c: &Candidate| {
+        let shown = ExpectedDetection::of(&model, &driven, c, &bar, &ground)?;
+        counter.one().map(|()| shown)
+    };
     let shown: Vec<ExpectedDetection> = all.par_iter().map(shown).collect::<Result<_>>()?;
     // Of an effect that is looked at in several directions the one that shows least.
     let weakest = |i: &usize| {
@@ -103,7 +118,7 @@ pub fn check(of: &Checked, progress: &dyn Fn(&str)) -> Result<Check> {
     let seen = of_kind(&|s| s != Seen::No);
     let told = |a: usize, b: usize| told_apart(&model, &driven, &all, a, b, &ground);
     let pairs = unseparated(&model, &table, &all, &seen, measured(&problem.records[0]), &told)?;
-    progress("thinking manoeuvres through");
+    begin(progress, Stage::Experiment)?;
     let open = Open {
         missed: of_kind(&|s| s == Seen::No),
         pairs: pairs.iter().filter(|u| u.pair.why == "data").map(|u| (u.candidates, u.pair.misfit)).collect(),
@@ -112,76 +127,56 @@ pub fn check(of: &Checked, progress: &dyn Fn(&str)) -> Result<Check> {
         ground,
         bar,
     };
-    let next_experiment = open.advice(&problem, &fit)?;
+    let next = open.advice(&problem, &fit)?;
     let mut not_separated: Vec<_> = pairs.into_iter().map(|u| u.pair).collect();
     not_separated.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
-    let (verdict, summary) = standing(&effects, of.library);
-    Ok(Check { schema: 1, verdict, summary, data, effects, not_separated, next_experiment })
+    let missed: Vec<String> = effects.iter().filter(|e| e.seen == Seen::No).map(|e| e.id.clone()).collect();
+    let standing = standing(&missed, of.library);
+    Ok(Assessment { standing, grounds: Grounds::Missed(missed), data, findings, effects, not_separated, next })
 }
 
-impl Check {
+impl Assessment {
     /// The answer for runs that are not even put to the model.
     pub(crate) fn cut_short(outcome: verdict::Outcome) -> Self {
-        without_fit(Health::default(), outcome)
+        without_fit(Health::default(), vec![], outcome)
     }
 }
 
-fn without_fit(data: Health, outcome: verdict::Outcome) -> Check {
-    let verdict = match outcome.verdict {
+fn without_fit(data: Health, findings: Vec<DataFinding>, outcome: verdict::Outcome) -> Assessment {
+    let standing = match outcome.verdict {
         Verdict::UnusableData => Standing::UnusableData,
         _ => Standing::NotIdentifiable,
     };
-    Check {
-        schema: 1,
-        verdict,
-        summary: outcome.sentence.unwrap_or_default(),
+    Assessment {
+        standing,
+        grounds: Grounds::NotFitted(outcome.reason),
         data,
+        findings,
         effects: vec![],
         not_separated: vec![],
-        next_experiment: outcome.next_experiment,
+        next: outcome.next.map(NextStep::Advice),
     }
 }
 
-/// The verdict by the basic effects, and a sentence.
-fn standing(effects: &[Prospect], library: &[Effect]) -> (Standing, String) {
-    let missed: Vec<&str> = effects.iter().filter(|e| e.seen == Seen::No).map(|e| e.id.as_str()).collect();
-    let basic = library.iter().any(|e| e.basic && missed.contains(&e.id.as_str()));
-    let named = listed(missed.iter().copied().take(NAMED));
-    let more = missed.len().saturating_sub(NAMED);
-    let more = if more > 0 { format!(" (and {more} more)") } else { String::new() };
-    match (missed.is_empty(), basic) {
-        (true, _) => (
-            Standing::Identifiable,
-            "These runs would show every effect of the library that applies, at its plausible size.".into(),
-        ),
-        (false, false) => (
-            Standing::Identifiable,
-            format!("These runs would show the basic effects at their plausible sizes, but not {named}{more}."),
-        ),
-        (false, true) => {
-            (Standing::NotIdentifiable, format!("These runs would not show {named}{more} at a plausible size."))
-        }
+/// A basic effect that would be missed decides.
+fn standing(missed: &[String], library: &[Effect]) -> Standing {
+    match library.iter().any(|e| e.basic && missed.contains(&e.id)) {
+        true => Standing::NotIdentifiable,
+        false => Standing::Identifiable,
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::collections::BTreeMap;
 
     /// A basic effect that would be missed decides, a user's own as well as one of the catalogue.
     #[test]
     fn a_basic_effect_that_is_missed_says_not_identifiable() {
         let own = Effect { id: "my-creep".into(), basic: true, ..Effect::default() };
-        let missed = Prospect {
-            id: own.id.clone(),
-            trailer: None,
-            place: String::new(),
-            seen: Seen::No,
-            parameters: BTreeMap::new(),
-        };
+        let missed = [own.id.clone()];
         let plain = Effect { basic: false, ..own.clone() };
-        let told = |effect| standing(std::slice::from_ref(&missed), &[effect]).0;
+        let told = |effect| standing(&missed, &[effect]);
         assert_eq!((told(own), told(plain)), (Standing::NotIdentifiable, Standing::Identifiable));
     }
 }

@@ -5,6 +5,15 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// The whole answer.
+///
+/// ```
+/// use creepage::{Check, Model, Run};
+/// let model = Model::read("examples/runs/cornering/model.toml")?;
+/// let eights = Run::read("examples/runs/cornering/eights.csv", &model)?;
+/// let told: Check = creepage::check(&model, &[eights])?;
+/// assert!(told.data.findings.iter().all(|finding| !finding.id.is_empty()));
+/// # Ok::<(), creepage::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Check {
     /// Version of this layout.
@@ -24,6 +33,11 @@ pub struct Check {
 }
 
 /// What the runs are good for.
+///
+/// ```
+/// use creepage::report::Standing;
+/// assert_eq!(serde_json::to_string(&Standing::NotIdentifiable).unwrap(), "\"not-identifiable\"");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Standing {
@@ -36,6 +50,11 @@ pub enum Standing {
 }
 
 /// Whether an effect of plausible size would be seen.
+///
+/// ```
+/// use creepage::report::Seen;
+/// assert_eq!(serde_json::to_string(&Seen::OnceExplained).unwrap(), "\"once-explained\"");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Seen {
@@ -48,6 +67,14 @@ pub enum Seen {
 }
 
 /// What is to be expected of an effect.
+///
+/// ```
+/// use creepage::report::{Prospect, Seen};
+/// fn missed(all: &[Prospect]) -> Vec<&str> {
+///     all.iter().filter(|effect| effect.seen == Seen::No).map(|effect| effect.id.as_str()).collect()
+/// }
+/// assert!(missed(&[]).is_empty());
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Prospect {
     /// The effect.
@@ -65,6 +92,13 @@ pub struct Prospect {
 }
 
 /// How well a parameter would be known.
+///
+/// ```
+/// use creepage::report::Parameter;
+/// fn shows(parameter: &Parameter) -> bool {
+///     parameter.smallest_seen.is_some_and(|least| least < parameter.plausible)
+/// }
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Parameter {
     /// SI unit.
@@ -80,6 +114,13 @@ pub struct Parameter {
 }
 
 /// Two effects that would not be told apart.
+///
+/// ```
+/// use creepage::report::Pair;
+/// fn is_about(pair: &Pair, id: &str) -> bool {
+///     pair.effects.iter().any(|effect| effect == id)
+/// }
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pair {
     /// Both of them, as they are listed.
@@ -91,6 +132,11 @@ pub struct Pair {
 }
 
 /// The state of the data.
+///
+/// ```
+/// use creepage::report::Health;
+/// assert!(Health::default().runs.is_empty());
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Health {
     /// Run by run.
@@ -109,6 +155,14 @@ pub struct Health {
 }
 
 /// Something to know of the data.
+///
+/// ```
+/// use creepage::report::Finding;
+/// fn is_one_sided(findings: &[Finding]) -> bool {
+///     findings.iter().any(|finding| finding.id == "one-turn-direction")
+/// }
+/// assert!(!is_one_sided(&[]));
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Finding {
     /// Its kind, for scripts, such as `one-turn-direction`.
@@ -118,6 +172,12 @@ pub struct Finding {
 }
 
 /// The state of one run.
+///
+/// ```
+/// use creepage::report::RunHealth;
+/// let run = RunHealth { rows: 600, duration_s: 60.0, ..RunHealth::default() };
+/// assert_eq!(run.rows as f64 / run.duration_s, 10.0);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RunHealth {
     /// Its name.

@@ -13,14 +13,15 @@
 //! looked at where it has its plausible size.
 
 mod advice;
-mod check;
+pub(crate) mod check;
 pub(crate) mod check_report;
 pub(crate) mod confusable_pairs;
+pub(crate) mod data_finding;
 pub(crate) mod data_quality;
 pub(crate) mod detection_power;
 pub(crate) mod driving_statistics;
 pub(crate) mod expected_gain;
 pub(crate) mod fisher_information;
 
-pub use check::{Checked, check};
+pub use check::Checked;
 pub use check_report::{Check, Finding, Health, Pair, Parameter, Prospect, RunHealth, Seen, Standing};

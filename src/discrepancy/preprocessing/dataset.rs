@@ -37,15 +37,31 @@ impl Data {
         Ok(Self { fitted, held_out, gross: a.iter().chain(&b).sum() })
     }
 
-    /// Where logs were interrupted, and which are too short to be fitted beside others.
-    pub fn warnings(&self) -> impl Iterator<Item = String> + '_ {
+    /// Logs that were interrupted, and such as are too short to be fitted beside others.
+    pub fn notes(&self) -> Vec<DatasetNote> {
         let interrupted = self.fitted.iter().chain(&self.held_out).filter_map(|r| {
             let pieces = r.segments(0.0).len();
-            (pieces > 1).then(|| format!("{}: the log is interrupted; it is used in {pieces} pieces", r.name))
+            (pieces > 1).then(|| DatasetNote::Interrupted { run: r.name.clone(), pieces })
         });
         let some = self.fitted.iter().any(has_windows);
-        let short = self.fitted.iter().filter(move |r| some && !has_windows(r));
-        let said = |r: &Record| format!("{}: too short for a window of one second; it is not fitted", r.name);
-        interrupted.chain(short.map(said))
+        let short = self.fitted.iter().filter(|r| some && !has_windows(r));
+        interrupted.chain(short.map(|r| DatasetNote::NotFitted { run: r.name.clone() })).collect()
     }
+}
+
+/// How a run enters the data otherwise than as a whole.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum DatasetNote {
+    /// The log is interrupted, and used in so many pieces.
+    Interrupted {
+        /// Name of the run.
+        run: String,
+        /// Pieces.
+        pieces: usize,
+    },
+    /// Too short for a window of one second.
+    NotFitted {
+        /// Name of the run.
+        run: String,
+    },
 }

@@ -201,9 +201,6 @@ fn usual(errors: &[f64]) -> Option<f64> {
     local_polynomial::deviation(&mut known).filter(|usual| *usual > 0.0)
 }
 
-/// Why a row whose pose no smooth motion passes through is left out.
-pub(crate) const GROSS: &str = "gross error of the measured pose";
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -3,7 +3,6 @@
 use crate::discrepancy::record::local_polynomial::median;
 use crate::files::Run;
 use crate::model::Model;
-use crate::number_format::significant;
 
 /// A step larger than this share of the input, root mean square, is worth a word.
 const COARSE: f64 = 0.02;
@@ -31,13 +30,26 @@ fn step_of(column: &[f64]) -> Option<f64> {
     (coarse && median(&mut changes)? < 1.5 * step).then_some(step)
 }
 
-/// What is told of the inputs of a run that come in steps.
-pub(crate) fn says(model: &Model, run: &Run) -> Vec<String> {
+/// An input of a run that was rounded before it was logged.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CoarseInput {
+    /// Name of the run.
+    pub run: String,
+    /// The input.
+    pub role: String,
+    /// Its step.
+    pub step: f64,
+    /// The unit of the step.
+    pub unit: String,
+}
+
+/// The inputs of a run that come in steps.
+pub(crate) fn coarse_inputs(model: &Model, run: &Run) -> Vec<CoarseInput> {
     let of = |(role, column): (&String, &Vec<f64>)| {
-        let step = significant(step_of(column)?, 2);
+        let step = step_of(column)?;
         // A speed may be logged in the place of a wheel's rate, whatever the vehicle.
-        let unit = model.vehicle.inputs.get(role).map_or("m/s", |input| &input.unit);
-        Some(format!("{}: {role} comes in steps of {step} {unit}; what it does within one is not logged", run.name))
+        let unit = model.vehicle.inputs.get(role).map_or("m/s", |input| &input.unit).into();
+        Some(CoarseInput { run: run.name.clone(), role: role.clone(), step, unit })
     };
     run.roles.iter().zip(&run.inputs).filter_map(of).collect()
 }

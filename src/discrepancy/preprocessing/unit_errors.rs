@@ -6,7 +6,6 @@ use crate::discrepancy::record::run_record::Record;
 use crate::error::Result;
 use crate::files::Run;
 use crate::model::{Equations, Model};
-use crate::number_format::significant;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
@@ -21,25 +20,107 @@ const DEGREES: f64 = 1e-4;
 /// How near, as a logarithm, a ratio is to that of a usual slip.
 const NEAR: f64 = 0.25;
 
-/// Why inputs say nothing of the motion: an angle is beyond half a turn, or the vehicle turns by more than that from row to
-/// row, as a rule, so that nobody knows where it points in between.
+/// A slip of units or columns, of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slip {
+    /// Name of the run.
+    pub run: String,
+    /// Its kind.
+    pub kind: SlipKind,
+}
+
+/// The kinds of slips that numbers tell.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SlipKind {
+    /// An angle is beyond half a turn.
+    AngleBeyondHalfTurn {
+        /// The input.
+        role: String,
+        /// Its largest value, rad.
+        largest: f64,
+    },
+    /// From row to row, some seconds apart, the vehicle turns by more than half a turn.
+    TurnsBetweenRows {
+        /// rad
+        turn: f64,
+        /// s
+        step: f64,
+    },
+    /// The path is the mirror image of the headings.
+    Mirrored,
+    /// The measured turning is so many times the model's.
+    Turning {
+        /// Measured over modelled.
+        ratio: f64,
+        /// The usual slip that it looks like.
+        cause: TurningCause,
+    },
+    /// The measured way is so many times the model's.
+    Way {
+        /// Measured over modelled.
+        ratio: f64,
+        /// The usual slip that it looks like.
+        cause: WayCause,
+        /// Whether wheels that spin would do the same.
+        may_spin: bool,
+    },
+}
+
+/// What makes a measured way another than the model's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WayCause {
+    /// Position as latitude and longitude.
+    PositionInDegrees,
+    /// Position in mm.
+    PositionInMillimetres,
+    /// Position in cm.
+    PositionInCentimetres,
+    /// A speed in mm/s.
+    SpeedInMillimetres,
+    /// A wheel's rate in degrees per second.
+    RateInDegrees,
+    /// A speed in km/h.
+    SpeedInKilometresPerHour,
+    /// A wheel's rate in turns per second.
+    RateInTurns,
+    /// A wheel's rate in turns per minute.
+    RateInTurnsPerMinute,
+    /// A diameter in the place of a radius, or the reverse.
+    Diameter,
+    /// Time in another unit: rows are far apart.
+    TimeUnit,
+    /// No usual slip.
+    Unknown,
+}
+
+/// What makes a measured turning another than the model's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TurningCause {
+    /// Heading in degrees.
+    HeadingInDegrees,
+    /// A yaw rate or an angle in degrees.
+    InputInDegrees,
+    /// Left and right exchanged, or angles that count clockwise.
+    Backwards,
+    /// No usual slip.
+    Unknown,
+}
+
+/// The slip of inputs that say nothing of the motion: an angle is beyond half a turn, or the vehicle turns by more than that
+/// from row to row, as a rule, so that nobody knows where it points in between.
 ///
 /// # Errors
 /// When the model's formulas are malformed.
-pub fn too_sparse<'a>(model: &Model, runs: impl IntoIterator<Item = &'a Run>) -> Result<Option<String>> {
+pub fn too_sparse<'a>(model: &Model, runs: impl IntoIterator<Item = &'a Run>) -> Result<Option<Slip>> {
     let equations = model.equations(&[])?;
     for run in runs {
-        if let Some(why) = beyond_half_a_turn(model, run) {
-            return Ok(Some(why));
+        let of = |kind| Slip { run: run.name.clone(), kind };
+        if let Some(kind) = beyond_half_a_turn(model, run) {
+            return Ok(Some(of(kind)));
         }
         let (turn, step) = between_rows(&equations, run);
         if turn > PI {
-            let [turn, step] = [turn, step].map(|x| significant(x, 3));
-            return Ok(Some(format!(
-                "The inputs of {} turn the vehicle by {turn} rad from row to row, in {step} s, so these rows do not show \
-                 how it moves: is time in seconds, and are the inputs in SI units?",
-                run.name
-            )));
+            return Ok(Some(of(SlipKind::TurnsBetweenRows { turn, step })));
         }
     }
     Ok(None)
@@ -49,18 +130,14 @@ pub fn too_sparse<'a>(model: &Model, runs: impl IntoIterator<Item = &'a Run>) ->
 const SOME: f64 = 0.05;
 
 /// Steering angles that no wheel has.
-fn beyond_half_a_turn(model: &Model, run: &Run) -> Option<String> {
+fn beyond_half_a_turn(model: &Model, run: &Run) -> Option<SlipKind> {
     let is_angle = |role: &str| model.vehicle.inputs.get(role).is_some_and(|input| input.unit == "rad");
     let (role, column) = run.roles.iter().zip(&run.inputs).find(|(role, column)| {
         let beyond = column.iter().filter(|u| u.abs() > PI).count();
         is_angle(role) && beyond as f64 > SOME * column.len() as f64
     })?;
     let largest = column.iter().map(|u| u.abs()).fold(0.0, f64::max);
-    Some(format!(
-        "In {} {role} reaches {} rad, more than half a turn: is it in degrees, or the angle of the steering wheel?",
-        run.name,
-        significant(largest, 3)
-    ))
+    Some(SlipKind::AngleBeyondHalfTurn { role: role.clone(), largest })
 }
 
 /// Medians of the turn between neighbouring rows of the inputs, rad, and of the time, s.
@@ -81,36 +158,42 @@ fn between_rows(equations: &Equations, run: &Run) -> (f64, f64) {
     (usual(turns), usual(between))
 }
 
-/// Why a vehicle that hardly moves as its inputs say, or in another direction than it points, cannot be put to its model.
+/// The slip of a vehicle that hardly moves as its inputs say, or in another direction than it points: it cannot be put to
+/// its model.
 ///
 /// # Errors
 /// When the model's formulas are malformed.
-pub fn another_motion(model: &Model, records: &[Record]) -> Result<Option<String>> {
+pub fn another_motion(model: &Model, records: &[Record]) -> Result<Option<Slip>> {
     for (record, ratios) in records.iter().zip(ratios(model, records)?) {
-        if record.has_heading && ratios.is_mirrored() {
-            return Ok(Some(format!(
-                "In {} the path is the mirror image of what the headings say: are x and y swapped, does one of them have \
-                 the wrong sign, or does the heading count clockwise?",
-                record.name
-            )));
-        }
-        let no_turn_of_its = |r: &f64| ratios.yaw_rate > TURNING && (r.abs() < ROLLS || usual_turn(*r).is_some());
-        if let Some(ratio) = ratios.turn.filter(no_turn_of_its) {
-            return Ok(Some(format!("In {} {}", record.name, wrong_turn(ratio))));
-        }
-        // Along where it points; what carries a vehicle that hardly drives does so in any direction.
-        if let Some(ratio) = ratios.way.filter(|r| *r > 1.0 / ROLLS && ratios.follows()) {
-            return Ok(Some(format!("In {} {}", record.name, wrong_way(ratio, record.step()))));
-        }
-        if let Some(ratio) = ratios.way.filter(|r| *r < ROLLS) {
-            return Ok(Some(format!(
-                "In {} {}, or do the wheels spin?",
-                record.name,
-                wrong_way(ratio, record.step()).trim_end_matches('?')
-            )));
+        let kind =
+            mirrored(record, &ratios).or_else(|| no_turn_of_its(&ratios)).or_else(|| no_way_of_its(record, &ratios));
+        if let Some(kind) = kind {
+            return Ok(Some(Slip { run: record.name.clone(), kind }));
         }
     }
     Ok(None)
+}
+
+fn mirrored(record: &Record, ratios: &Ratios) -> Option<SlipKind> {
+    (record.has_heading && ratios.is_mirrored()).then_some(SlipKind::Mirrored)
+}
+
+fn no_turn_of_its(ratios: &Ratios) -> Option<SlipKind> {
+    let turns_so = |r: &f64| r.abs() < ROLLS || usual_turning(*r).is_some();
+    ratios
+        .turn
+        .filter(|r| ratios.yaw_rate > TURNING && turns_so(r))
+        .map(|ratio| SlipKind::Turning { ratio, cause: turning_cause(ratio) })
+}
+
+fn no_way_of_its(record: &Record, ratios: &Ratios) -> Option<SlipKind> {
+    let step = record.step();
+    // Along where it points; what carries a vehicle that hardly drives does so in any direction.
+    let far = ratios.way.filter(|r| *r > 1.0 / ROLLS && ratios.follows());
+    let near = || ratios.way.filter(|r| *r < ROLLS);
+    far.map(|ratio| (ratio, false))
+        .or_else(|| near().map(|ratio| (ratio, true)))
+        .map(|(ratio, may_spin)| SlipKind::Way { ratio, cause: way_cause(ratio, step), may_spin })
 }
 
 fn ratios(model: &Model, records: &[Record]) -> Result<Vec<Ratios>> {
@@ -121,70 +204,52 @@ fn ratios(model: &Model, records: &[Record]) -> Result<Vec<Ratios>> {
 ///
 /// # Errors
 /// When the model's formulas are malformed.
-pub fn suspected(model: &Model, records: &[Record]) -> Result<Option<String>> {
+pub fn suspected(model: &Model, records: &[Record]) -> Result<Option<Slip>> {
     for (record, ratios) in records.iter().zip(ratios(model, records)?) {
-        let turn = ratios.turn.and_then(|r| Some(turned(r, usual_turn(r)?)));
-        let way = ratios.way.and_then(|r| Some(gone(r, usual_way(r)?)));
-        if let Some(says) = turn.or(way) {
-            return Ok(Some(format!("in {} {says}", record.name)));
+        let turning = ratios.turn.and_then(|ratio| Some(SlipKind::Turning { ratio, cause: usual_turning(ratio)? }));
+        let way = ratios.way.and_then(|ratio| Some(SlipKind::Way { ratio, cause: usual_way(ratio)?, may_spin: false }));
+        if let Some(kind) = turning.or(way) {
+            return Ok(Some(Slip { run: record.name.clone(), kind }));
         }
     }
     Ok(None)
 }
 
-/// Why the model drives another way than was measured, where rows are some time apart.
-pub fn wrong_way(ratio: f64, step: f64) -> String {
-    let unknown = if step > SPARSE {
-        "is time in seconds?"
-    } else {
-        "check wheel_radius and the units of position and wheel rate"
-    };
-    gone(ratio, usual_way(ratio).filter(|_| step <= SPARSE).unwrap_or(unknown))
+/// What makes the model drive another way than was measured, where rows are some time apart.
+pub fn way_cause(ratio: f64, step: f64) -> WayCause {
+    if step > SPARSE { WayCause::TimeUnit } else { usual_way(ratio).unwrap_or(WayCause::Unknown) }
 }
 
-fn gone(ratio: f64, why: &str) -> String {
-    format!("the measured way is {} times what the model drives: {why}", significant(ratio, 3))
-}
-
-fn usual_way(ratio: f64) -> Option<&'static str> {
+fn usual_way(ratio: f64) -> Option<WayCause> {
     let near = |x: f64| (ratio / x).ln().abs() < NEAR;
     Some(match () {
         // A degree of latitude is 111 km.
-        () if ratio < DEGREES => "is the position in degrees of latitude and longitude?",
-        () if near(1e3) => "is the position in millimetres?",
-        () if near(1e2) => "is the position in centimetres?",
-        () if near(1e-3) => "is a speed in millimetres per second?",
-        () if near(PI / 180.0) => "is the wheel rate in degrees per second?",
-        () if near(1.0 / 3.6) => "is the speed in km/h?",
-        () if near(TAU) => "is the wheel rate in turns per second?",
-        () if near(TAU / 60.0) => "is the wheel rate in turns per minute, or wheel_radius wrong?",
-        () if near(0.5) || near(2.0) => "is wheel_radius a diameter, or the other way round?",
+        () if ratio < DEGREES => WayCause::PositionInDegrees,
+        () if near(1e3) => WayCause::PositionInMillimetres,
+        () if near(1e2) => WayCause::PositionInCentimetres,
+        () if near(1e-3) => WayCause::SpeedInMillimetres,
+        () if near(PI / 180.0) => WayCause::RateInDegrees,
+        () if near(1.0 / 3.6) => WayCause::SpeedInKilometresPerHour,
+        () if near(TAU) => WayCause::RateInTurns,
+        () if near(TAU / 60.0) => WayCause::RateInTurnsPerMinute,
+        () if near(0.5) || near(2.0) => WayCause::Diameter,
         () => return None,
     })
 }
 
-/// Why the model turns otherwise than was measured.
-pub fn wrong_turn(ratio: f64) -> String {
-    let unknown = match ratio < 0.0 {
-        true => BACKWARDS,
-        false => "check track_width or wheelbase, and the units of heading and yaw rate",
-    };
-    turned(ratio, usual_turn(ratio).unwrap_or(unknown))
+/// What makes the model turn otherwise than was measured.
+pub fn turning_cause(ratio: f64) -> TurningCause {
+    let unknown = if ratio < 0.0 { TurningCause::Backwards } else { TurningCause::Unknown };
+    usual_turning(ratio).unwrap_or(unknown)
 }
 
-const BACKWARDS: &str = "are left and right swapped, or do angles count clockwise?";
-
-fn turned(ratio: f64, why: &str) -> String {
-    format!("the measured turning is {} times the model's: {why}", significant(ratio, 3))
-}
-
-fn usual_turn(ratio: f64) -> Option<&'static str> {
+fn usual_turning(ratio: f64) -> Option<TurningCause> {
     let degrees = 180.0 / PI;
     let near = |x: f64| ratio * x > 0.0 && (ratio / x).ln().abs() < NEAR;
     Some(match () {
-        () if near(degrees) || near(-degrees) => "is the heading in degrees?",
-        () if near(1.0 / degrees) || near(-1.0 / degrees) => "is the yaw rate, or the angle, in degrees?",
-        () if near(-1.0) => BACKWARDS,
+        () if near(degrees) || near(-degrees) => TurningCause::HeadingInDegrees,
+        () if near(1.0 / degrees) || near(-1.0 / degrees) => TurningCause::InputInDegrees,
+        () if near(-1.0) => TurningCause::Backwards,
         () => return None,
     })
 }
@@ -205,43 +270,45 @@ mod tests {
             let model = Model::from_file(&file, crate::effects::all(), &run.roles).unwrap();
             too_sparse(&model, [&run]).unwrap()
         };
-        let degrees = said(&|i| 20.0 * (0.1 * f64::from(i)).sin()).unwrap();
-        assert!(degrees.contains("steering_angle reaches 20.0 rad") && degrees.contains("degrees"), "{degrees}");
+        let degrees = said(&|i| 20.0 * (0.1 * f64::from(i)).sin()).unwrap().kind;
+        let SlipKind::AngleBeyondHalfTurn { role, largest } = degrees else { panic!("{degrees:?}") };
+        assert!(role == "steering_angle" && (largest - 20.0).abs() < 0.01, "{role} {largest}");
         assert_eq!(said(&|i| 0.5 * (0.1 * f64::from(i)).sin()), None);
         // A gross error here and there is no unit.
         assert_eq!(said(&|i| if i % 25 == 3 { 50.0 } else { 0.1 }), None);
     }
 
     #[test]
-    fn usual_slips_of_units_are_named() {
-        for (ratio, word) in [
-            (1010.0, "millimetres?"),
-            (90.0, "centimetres?"),
-            (0.0009, "millimetres per second?"),
-            (1.2e-5, "latitude and longitude?"),
-            (0.0175, "degrees per second?"),
-            (0.1, "per minute"),
-            (6.3, "turns per second"),
-            (0.27, "km/h"),
-            (0.51, "diameter"),
-            (2.1, "diameter"),
-            (0.7, "wheel_radius"),
+    fn usual_slips_of_units_are_told_by_their_ratio() {
+        use TurningCause::{Backwards, HeadingInDegrees, InputInDegrees};
+        for (ratio, cause) in [
+            (1010.0, WayCause::PositionInMillimetres),
+            (90.0, WayCause::PositionInCentimetres),
+            (0.0009, WayCause::SpeedInMillimetres),
+            (1.2e-5, WayCause::PositionInDegrees),
+            (0.0175, WayCause::RateInDegrees),
+            (0.1, WayCause::RateInTurnsPerMinute),
+            (6.3, WayCause::RateInTurns),
+            (0.27, WayCause::SpeedInKilometresPerHour),
+            (0.51, WayCause::Diameter),
+            (2.1, WayCause::Diameter),
+            (0.7, WayCause::Unknown),
         ] {
-            assert!(wrong_way(ratio, 0.1).contains(word), "{ratio}: {}", wrong_way(ratio, 0.1));
+            assert_eq!(way_cause(ratio, 0.1), cause, "{ratio}");
         }
-        assert!(wrong_way(0.001, 1.1).contains("is time in seconds?"));
+        assert_eq!(way_cause(0.001, 1.1), WayCause::TimeUnit);
         assert_eq!(usual_way(0.7), None);
-        for (ratio, word) in [
-            (57.0, "heading in degrees"),
-            (-57.0, "heading in degrees"),
-            (-0.0175, "yaw rate"),
-            (-1.02, "swapped"),
-            (-0.4, "swapped"),
-            (0.0175, "yaw rate"),
-            (0.6, "track_width"),
+        for (ratio, cause) in [
+            (57.0, HeadingInDegrees),
+            (-57.0, HeadingInDegrees),
+            (-0.0175, InputInDegrees),
+            (-1.02, Backwards),
+            (-0.4, Backwards),
+            (0.0175, InputInDegrees),
+            (0.6, TurningCause::Unknown),
         ] {
-            assert!(wrong_turn(ratio).contains(word), "{ratio}: {}", wrong_turn(ratio));
+            assert_eq!(turning_cause(ratio), cause, "{ratio}");
         }
-        assert_eq!((usual_turn(-0.4), usual_turn(0.6), usual_turn(1.0)), (None, None, None));
+        assert_eq!((usual_turning(-0.4), usual_turning(0.6), usual_turning(1.0)), (None, None, None));
     }
 }

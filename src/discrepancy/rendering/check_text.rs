@@ -1,12 +1,36 @@
 //! The check as text.
 
+use super::reason_text;
+use crate::discrepancy::identifiability::check::{Assessment, Grounds};
 use crate::discrepancy::identifiability::check_report::{
     Check, Health, Parameter, Prospect, RunHealth, Seen, Standing,
 };
 use crate::discrepancy::rendering::summary::clock_line;
 use crate::number_format::{prefixed, significant};
 use crate::picture::svg::cut;
+use crate::wording::listed;
 use std::fmt::Write;
+
+/// Names in the summary.
+const NAMED: usize = 4;
+
+/// An assessment in a sentence.
+pub(crate) fn summary(of: &Assessment) -> String {
+    let missed = match &of.grounds {
+        Grounds::NotFitted(reason) => return reason.as_ref().map(reason_text::sentence).unwrap_or_default(),
+        Grounds::Missed(missed) => missed,
+    };
+    let named = listed(missed.iter().take(NAMED).map(String::as_str));
+    let more = missed.len().saturating_sub(NAMED);
+    let more = if more > 0 { format!(" (and {more} more)") } else { String::new() };
+    match (missed.is_empty(), of.standing) {
+        (true, _) => "These runs would show every effect of the library that applies, at its plausible size.".into(),
+        (false, Standing::Identifiable) => {
+            format!("These runs would show the basic effects at their plausible sizes, but not {named}{more}.")
+        }
+        (false, _) => format!("These runs would not show {named}{more} at a plausible size."),
+    }
+}
 
 /// The check for a terminal, 100 columns at most.
 pub fn check_text(check: &Check) -> String {

@@ -1,6 +1,7 @@
 //! The data behind the report's pictures.
 
 use crate::discrepancy::diagnosis::before_after::{ModelComparison, Rollouts};
+use crate::discrepancy::localisation::constraint_residuals::ConstraintResiduals;
 use crate::discrepancy::preprocessing::dataset::Data;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::report::{CandidatePicture, PathPicture, Pictures, Report};
@@ -13,7 +14,14 @@ use crate::model::Model;
 /// Runs that are drawn.
 const MOST_RUNS: usize = 6;
 
-pub(crate) fn pictures(data: &Data, choice: &Selected, report: &Report, judged: &ModelComparison) -> Pictures {
+/// The pictures of a report, the residuals before and after among them.
+pub(crate) fn pictures(
+    data: &Data,
+    choice: &Selected,
+    report: &Report,
+    judged: &ModelComparison,
+    [before, after]: [&[ConstraintResiduals]; 2],
+) -> Pictures {
     let drawn = |records: &[Record], [before, after]: &[Rollouts; 2], held_out: bool| -> Vec<PathPicture> {
         let each = records.iter().zip(before.each()).zip(after.each());
         each.map(|((r, before), after)| path(r, held_out, before, after)).take(MOST_RUNS).collect()
@@ -32,7 +40,7 @@ pub(crate) fn pictures(data: &Data, choice: &Selected, report: &Report, judged: 
     Pictures {
         paths,
         gap: judged.curve(),
-        residuals: vec![],
+        residuals: before.iter().zip(after).flat_map(|(b, a)| b.pictures(a)).collect(),
         candidates: candidates.collect(),
         equations: named.chain(without_name).collect(),
     }

@@ -1,6 +1,14 @@
-//! Report, page and pictures for people.
+//! Report, page and pictures for people: every sentence of an answer is made here.
 
 pub mod check_text;
+pub(crate) mod effect_names;
+pub(crate) mod experiment_text;
 pub mod figure_data;
+pub(crate) mod finding_text;
 pub mod html;
+pub mod manoeuvre_text;
+pub(crate) mod reason_text;
+pub(crate) mod regime_text;
+pub(crate) mod slip_text;
 pub mod summary;
+pub(crate) mod warning_text;

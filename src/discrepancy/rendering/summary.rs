@@ -1,7 +1,7 @@
 //! The report on one screen of a terminal, and the sentences every form of the report shares.
 
 use crate::discrepancy::report::judged;
-use crate::discrepancy::report::{BeforeAfter, Estimate, Gap, Named, Report, Rival, RunClock, Verdict};
+use crate::discrepancy::report::{BeforeAfter, Estimate, Gap, Named, Report, Rival, RunClock, Unnamed, Verdict};
 use crate::number_format::{decimals, plain, prefixed, significant, with_error};
 use crate::picture::svg::cut;
 use crate::wording::listed;
@@ -28,20 +28,21 @@ pub fn verdict_name(verdict: Verdict) -> &'static str {
 /// The verdict in one sentence: the report's own, or one made from its numbers where it has none.
 pub fn verdict_sentence(report: &Report) -> String {
     let own = report.summary.trim();
-    if own.is_empty() { composed_sentence(report) } else { own.into() }
+    if own.is_empty() { composed_sentence(report.verdict, &report.effects, &report.unnamed) } else { own.into() }
 }
 
-fn composed_sentence(report: &Report) -> String {
-    match report.verdict {
+/// A verdict in a sentence of what was found.
+pub(crate) fn composed_sentence(verdict: Verdict, effects: &[Named], unnamed: &[Unnamed]) -> String {
+    match verdict {
         Verdict::UnusableData => "The model does not apply to these data, so nothing can be said about it.".into(),
         Verdict::NotIdentifiable => {
             "These runs are too short or too still to tell whether the model misses an effect.".into()
         }
         Verdict::UnnamedEffect => format!(
             "Model and measurement disagree in a repeatable way at the {}, and no known effect explains it.",
-            report.unnamed.first().map_or("constraints", |u| u.place.as_str())
+            unnamed.first().map_or("constraints", |u| u.place.as_str())
         ),
-        Verdict::MissingEffect => format!("The model misses {}.", listed(report.effects.iter().map(|e| e.id.as_str()))),
+        Verdict::MissingEffect => format!("The model misses {}.", listed(effects.iter().map(|e| e.id.as_str()))),
         Verdict::NoMissingEffect => "The model explains these runs to their noise; no effect is missing.".into(),
     }
 }

@@ -81,8 +81,8 @@ impl Search<'_> {
         let found = self.screen(
             &Fit { variances: fit.variances.clone(), ..bare.clone() },
             &smaller,
-            bare.deviance,
-            0.3 * lost,
+            [bare.deviance, 0.3 * lost],
+            None,
         )?;
         let fitted = found.single.into_iter().filter_map(|(p, fit)| Some((p.applied, fit?)));
         Ok(fitted.filter(|(a, _)| !a.same_as(effect)).collect())

@@ -11,6 +11,7 @@ use crate::discrepancy::evidence::wald_test::repeats;
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::Model;
+use crate::progress::{Counter, OnProgress, Stage};
 use rayon::prelude::*;
 
 /// How many of the best candidates are fitted with their own noise and jumps.
@@ -42,8 +43,14 @@ impl Search<'_> {
 
     /// The candidates for a model by what they promise; the most promising with a fit.
     ///
-    /// `from` is the deviance without the candidate, `floor` the least gain that is of interest.
-    pub(crate) fn screen(&self, base: &Fit, model: &Model, from: f64, floor: f64) -> Result<Shortlist> {
+    /// `from` is the deviance without the candidate, `floor` the least gain that is of interest; `counter` counts them.
+    pub(crate) fn screen(
+        &self,
+        base: &Fit,
+        model: &Model,
+        [from, floor]: [f64; 2],
+        counter: Option<&Counter>,
+    ) -> Result<Shortlist> {
         let ScoreTests { single: mut promises, pairs } =
             score_test::promises(self.problem, base, model, &self.open(model))?;
         let n = base.sample_size;
@@ -59,6 +66,7 @@ impl Search<'_> {
             } else {
                 None
             };
+            counter.map_or(Ok(()), Counter::one)?;
             Ok((p, fit))
         };
         let mut found: Vec<(ScoreTest, Option<Fit>)> =
@@ -77,7 +85,7 @@ impl Search<'_> {
 
     /// The candidates by ΔBIC against a fit, the finalists with noise and jumps of their own; the others are listed
     /// by what they promise, and have no fit.
-    pub(crate) fn ranked(&self, base: &Fit) -> Result<Ranking> {
+    pub(crate) fn ranked(&self, base: &Fit, chosen: usize, progress: &OnProgress) -> Result<Ranking> {
         let finish = |(i, (promise, fit)): (usize, (ScoreTest, Option<Fit>))| -> Result<_> {
             // At the edge where it vanishes an effect is not chosen, and is stiff to integrate.
             let gone = |fit: &Fit| find(&fit.model, &promise.applied).is_some_and(|a| vanishes(&a));
@@ -94,7 +102,8 @@ impl Search<'_> {
             let applied = fitted.unwrap_or(promise.applied);
             Ok((Candidate { applied, std: promise.std, delta_bic }, full))
         };
-        let screened = self.screen(base, &base.model, base.deviance, 0.5 * self.margin())?;
+        let counter = Counter::begin(progress, Stage::Candidates { chosen }, self.open(&base.model).len())?;
+        let screened = self.screen(base, &base.model, [base.deviance, 0.5 * self.margin()], Some(&counter))?;
         let mut scored: Vec<(Candidate, Option<Fit>)> =
             screened.single.into_par_iter().enumerate().map(finish).collect::<Result<_>>()?;
         scored.sort_by(|a, b| {

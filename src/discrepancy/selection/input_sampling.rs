@@ -13,6 +13,7 @@ use crate::discrepancy::record::run_record::Record;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::motion::Signals;
+use crate::progress::{OnProgress, Stage, begin};
 
 /// An effect of which more than this share may be what the interpolation misses is none.
 const MOST: f64 = 0.5;
@@ -33,7 +34,7 @@ pub(crate) struct InputSampling {
 pub(crate) fn keep_sampled(
     selection: &Search,
     grown: &mut SearchState,
-    progress: &dyn Fn(&str),
+    progress: &OnProgress,
 ) -> Result<InputSampling> {
     let mut found = InputSampling::default();
     if grown.fit.p.is_empty() {
@@ -41,7 +42,7 @@ pub(crate) fn keep_sampled(
     }
     let Some(coarse) = with_half_the_inputs(selection.problem) else { return Ok(found) };
     while !grown.fit.p.is_empty() {
-        progress("asking every second row of the inputs for the same effects");
+        begin(progress, Stage::InputSampling)?;
         let Some(half) = coarse.fit(&grown.fit.model, &grown.fit.window_states, &grown.fit.variances, Effort::FULL)?
         else {
             break;

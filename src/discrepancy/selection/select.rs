@@ -19,6 +19,7 @@ use crate::discrepancy::selection::choice::{Selected, SelectedEffect};
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::Model;
+use crate::progress::{OnProgress, Stage, begin, tell};
 
 pub use super::search::Candidate;
 
@@ -35,13 +36,8 @@ const DRAWS: usize = 99;
 /// A candidate must beat BIC = deviance + k·ln n by a margin of 2·ln M for a library of M candidates: with
 /// nothing hidden the best of M would otherwise pass by chance. After each addition earlier ones are asked
 /// again whether they are still needed, and whether another would do better in their place.
-pub fn choose(
-    problem: &Problem,
-    model: &Model,
-    library: &[Effect],
-    progress: &dyn Fn(&str),
-) -> Result<Option<Selected>> {
-    progress("fitting the model as it is");
+pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &OnProgress) -> Result<Option<Selected>> {
+    begin(progress, Stage::ModelFit)?;
     let starts = problem.starts(model)?;
     let Some(before) = problem.fit(model, &starts, &problem.variances, Effort::FULL)? else { return Ok(None) };
     let quick = transients::without_transients(library);
@@ -60,13 +56,13 @@ pub fn choose(
     let InputSampling { dropped: sampling_sensitive, mut missed } = keep_sampled(&selection, &mut grown, progress)?;
     // Where something went, the values no longer stand where they stood.
     let scatter = scatter.filter(|_| sampling_sensitive.is_empty());
-    let mut chosen = selection.examined(&grown.fit, scatter.as_ref(), &missed)?;
+    let mut chosen = selection.examined(&grown.fit, scatter.as_ref(), &missed, progress)?;
     // What others left of an effect may be less than it costs, or send it to the end of its range.
     while let Some(idle) = chosen.iter().find(|c| is_at_an_end(&c.applied)).or_else(|| least_worth(&chosen)) {
         let Some(smaller) = selection.without(&grown.fit, &idle.applied)? else { break };
         forget(&mut missed, &grown.fit, &idle.applied);
         grown.go_back_to(smaller);
-        chosen = selection.examined(&grown.fit, None, &missed)?;
+        chosen = selection.examined(&grown.fit, None, &missed, progress)?;
     }
     let SearchState { fit: after, steps, candidates, .. } = grown;
     Ok(Some(Selected { before, after, chosen, steps, candidates, inconsistent, sampling_sensitive }))
@@ -95,10 +91,19 @@ impl Search<'_> {
     /// Evidence, deviations and rivals of every chosen effect.
     ///
     /// `missed` is what the interpolation of the inputs may make up of each value; an offset no rows average out.
-    fn examined(&self, fit: &Fit, scatter: Option<&Jackknife>, missed: &[f64]) -> Result<Vec<SelectedEffect>> {
+    fn examined(
+        &self,
+        fit: &Fit,
+        scatter: Option<&Jackknife>,
+        missed: &[f64],
+        progress: &OnProgress,
+    ) -> Result<Vec<SelectedEffect>> {
         let mut at = 0;
         let mut found = Vec::new();
-        for applied in fit.model.free_effects().cloned() {
+        let chosen: Vec<Applied> = fit.model.free_effects().cloned().collect();
+        let of = chosen.len();
+        for (done, applied) in chosen.into_iter().enumerate() {
+            tell(progress, Stage::Evidence, done, of)?;
             let k = applied.values.len();
             // What runs scatter by counts where it is more than their noise, and what hangs together in it, explains.
             let runs = |i: usize| fit.between_runs.as_ref().map_or(0.0, |c| c[(i, i)].sqrt());

@@ -12,6 +12,7 @@ use crate::discrepancy::selection::search::still_open;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::effect_equation::is_term;
+use crate::progress::OnProgress;
 
 /// Searches at most: each is without what the one before could not keep.
 const ROUNDS: usize = 3;
@@ -29,7 +30,7 @@ pub(crate) struct Stable {
 /// Keeps of what was found what parts of the data share, and looks again without the rest.
 ///
 /// Asked only where motion remains that the fit does not explain: where nothing remains the formal evidence holds.
-pub(crate) fn search(selection: &Search, found: SearchState, progress: &dyn Fn(&str)) -> Result<Stable> {
+pub(crate) fn search(selection: &Search, found: SearchState, progress: &OnProgress) -> Result<Stable> {
     let mut stable = Stable { grown: found, inconsistent: vec![], scatter: None };
     for round in 1..=ROUNDS {
         if !stable.keep_shared(selection, progress)? || round == ROUNDS {
@@ -53,11 +54,10 @@ pub(crate) fn search(selection: &Search, found: SearchState, progress: &dyn Fn(&
 
 impl Stable {
     /// Drops what the parts do not share, one after another, what has no name first; whether anything went.
-    fn keep_shared(&mut self, selection: &Search, progress: &dyn Fn(&str)) -> Result<bool> {
+    fn keep_shared(&mut self, selection: &Search, progress: &OnProgress) -> Result<bool> {
         let known = self.inconsistent.len();
         while remains(&self.grown.fit) && !self.grown.fit.p.is_empty() {
-            progress("asking parts of the data for the same effects");
-            self.scatter = Jackknife::of(selection.problem, &self.grown.fit)?;
+            self.scatter = Jackknife::of(selection.problem, &self.grown.fit, progress)?;
             let worst = self.scatter.as_ref().and_then(|s| least_shared(&self.grown.fit, s));
             let Some(worst) = worst else { break };
             let Some(smaller) = selection.without(&self.grown.fit, &worst)? else { break };
@@ -69,7 +69,7 @@ impl Stable {
     }
 
     /// The search for names from what is shared on, without what is not.
-    fn look_again(&mut self, selection: &Search, progress: &dyn Fn(&str)) -> Result<()> {
+    fn look_again(&mut self, selection: &Search, progress: &OnProgress) -> Result<()> {
         let library = still_open(selection.library, &self.inconsistent);
         let found = Search { library: &library, ..*selection }.grown(&self.grown.fit, progress)?;
         self.go_on_with(found);

@@ -10,15 +10,15 @@ use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
 use crate::model::effect_equation::is_term;
+use crate::progress::OnProgress;
 use crate::wording::listed;
 
 impl Search<'_> {
     /// Adds effects until nothing is left above the noise.
-    pub fn grown(&self, before: &Fit, progress: &dyn Fn(&str)) -> Result<SearchState> {
+    pub fn grown(&self, before: &Fit, progress: &OnProgress) -> Result<SearchState> {
         let mut found = SearchState::from(before);
         while found.steps.len() < self.most {
-            progress(&format!("weighing {} candidates, {} chosen", self.size, found.steps.len()));
-            let ranked = self.ranked(&found.fit)?;
+            let ranked = self.ranked(&found.fit, found.steps.len(), progress)?;
             if found.steps.is_empty() {
                 found.candidates = ranked.single.iter().map(|(s, _)| s.clone()).collect();
             }

@@ -9,6 +9,7 @@ use crate::discrepancy::selection::search::still_open;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::effect_equation::is_term;
+use crate::progress::{OnProgress, Stage, begin};
 
 /// Most terms that are added: an equation of more is no explanation.
 const MOST: usize = 2;
@@ -25,12 +26,12 @@ pub(crate) fn search(
     selection: &Search,
     named: &SearchState,
     given_up: &[Applied],
-    progress: &dyn Fn(&str),
+    progress: &OnProgress,
 ) -> Result<Option<SearchState>> {
     if !is_wanted(&named.fit) {
         return Ok(None);
     }
-    progress("looking for an equation of what has no name");
+    begin(progress, Stage::UnnamedTerms)?;
     let model = &selection.before.model;
     let library = still_open(selection.library.iter().chain(&model.terms()?), given_up);
     let wider = Search {

@@ -5,13 +5,13 @@ use crate::effects::Effect;
 use crate::error::Result;
 use crate::extensions::formula_growth;
 use crate::extensions::test_vehicle::TestVehicle;
-use crate::files::OwnVehicle;
+use crate::files::UserVehicle;
 use crate::formula::{Expr, Symbol, Unit};
 use crate::vehicles;
 use crate::vehicles::Definition;
 
 /// That letters of the catalogue mean what they mean there, and formulas stay small whatever effects do to them.
-pub(crate) fn check(own: &OwnVehicle, test_vehicles: &[TestVehicle]) -> Result<()> {
+pub(crate) fn check(own: &UserVehicle, test_vehicles: &[TestVehicle]) -> Result<()> {
     for (symbol, definition) in &own.vehicle.define {
         let usual = of_catalogue(symbol).filter(|usual| is_spoken_of(symbol) && !alike(usual, definition));
         let Some(usual) = usual else { continue };

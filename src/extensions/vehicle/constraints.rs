@@ -3,14 +3,14 @@
 use crate::describe::universal;
 use crate::error::Result;
 use crate::extensions::units::{mixed, unlike};
-use crate::files::{OwnConstraint, OwnVehicle, advice, shown};
+use crate::files::{UserConstraint, UserVehicle, advice, shown};
 use crate::formula::{Symbol, Unit};
 use crate::mechanism::Constraint;
 use crate::model::mechanism;
 use std::collections::BTreeSet;
 
 /// That each constraint speaks of the vehicle's coordinates and has one unit.
-pub(crate) fn check(own: &OwnVehicle) -> Result<()> {
+pub(crate) fn check(own: &UserVehicle) -> Result<()> {
     coordinates(own)?;
     let coordinates = mechanism(&own.vehicle, 0).coordinates;
     let each = || own.vehicle.constraints.iter().zip(&own.constraints);
@@ -23,7 +23,7 @@ pub(crate) fn check(own: &OwnVehicle) -> Result<()> {
 }
 
 /// A coordinate is a place and a heading by the names that every model has, or has a name of its own.
-fn coordinates(own: &OwnVehicle) -> Result<()> {
+fn coordinates(own: &UserVehicle) -> Result<()> {
     for (c, spot) in own.vehicle.coordinates.iter().zip(&own.coordinates) {
         let (name, v) = (c.name.as_str(), &own.vehicle);
         let place = [("x", "m"), ("y", "m"), ("phi", "rad")].into_iter().find(|(n, _)| *n == name);
@@ -47,7 +47,7 @@ fn coordinates(own: &OwnVehicle) -> Result<()> {
     }
 }
 
-fn names(own: &OwnVehicle, places: &OwnConstraint, coordinates: &[Symbol]) -> Result<()> {
+fn names(own: &UserVehicle, places: &UserConstraint, coordinates: &[Symbol]) -> Result<()> {
     let moves = |s: &Symbol| coordinates.iter().any(|q| q == s || q.rate() == *s);
     let replaced =
         |s: &Symbol| own.vehicle.inputs.values().filter_map(|i| i.instead.as_ref()).any(|i| i.role == s.as_str());
@@ -64,7 +64,7 @@ fn names(own: &OwnVehicle, places: &OwnConstraint, coordinates: &[Symbol]) -> Re
     Ok(())
 }
 
-fn rates(c: &Constraint, places: &OwnConstraint, coordinates: &[Symbol]) -> Result<()> {
+fn rates(c: &Constraint, places: &UserConstraint, coordinates: &[Symbol]) -> Result<()> {
     let row = c.row();
     let Some(stray) = row.rates().find(|r| coordinates.iter().all(|q| q.rate() != **r)) else { return Ok(()) };
     let names: Vec<&str> = coordinates.iter().map(Symbol::as_str).collect();
@@ -74,7 +74,7 @@ fn rates(c: &Constraint, places: &OwnConstraint, coordinates: &[Symbol]) -> Resu
     Err(error.help("give the vehicle coordinates of its own, all of them, below [[vehicle.coordinates]]"))
 }
 
-fn units(own: &OwnVehicle, c: &Constraint, places: &OwnConstraint) -> Result<()> {
+fn units(own: &UserVehicle, c: &Constraint, places: &UserConstraint) -> Result<()> {
     let of = |s: &Symbol| unit_of(own, s);
     if let Some(f) = places.formulas.iter().find(|f| f.formula.eval(&of).is_none()) {
         return Err(mixed(f, &of, ""));
@@ -90,7 +90,7 @@ fn units(own: &OwnVehicle, c: &Constraint, places: &OwnConstraint) -> Result<()>
 }
 
 /// The unit of a declared name, of a coordinate, or of a rate.
-fn unit_of(own: &OwnVehicle, s: &Symbol) -> Unit {
+fn unit_of(own: &UserVehicle, s: &Symbol) -> Unit {
     let parse = |text: &str| Unit::parse(text).unwrap_or(Unit::number_unit());
     let v = &own.vehicle;
     let declared = v.define.get(s).map(|d| d.unit.as_str());
@@ -112,7 +112,7 @@ fn unit_of(own: &OwnVehicle, s: &Symbol) -> Unit {
 }
 
 /// A coefficient has a name of its own.
-fn coefficient(own: &OwnVehicle, c: &Constraint, places: &OwnConstraint) -> Result<()> {
+fn coefficient(own: &UserVehicle, c: &Constraint, places: &UserConstraint) -> Result<()> {
     let is = |s: &Option<Symbol>| s.as_ref() == Some(&c.creep);
     let on_wheel =
         |w: &crate::vehicles::Wheel| [&w.steering, &w.radius, &w.rotation_creep, &w.traverse_creep].into_iter().any(is);

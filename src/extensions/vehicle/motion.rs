@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::extensions::test_vehicle::{reached, visible};
-use crate::files::{OwnVehicle, advice};
+use crate::files::{UserVehicle, advice};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::Definitions;
 use crate::model::Model;
@@ -10,7 +10,7 @@ use crate::vehicles::Wheel;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// That the constraints determine the motion, or that the vehicle says what to use instead.
-pub(crate) fn check(own: &OwnVehicle) -> Result<()> {
+pub(crate) fn check(own: &UserVehicle) -> Result<()> {
     let model = Model::sample(&own.vehicle)?;
     held(own, &model)?;
     loose(own)?;
@@ -29,7 +29,7 @@ pub(crate) fn check(own: &OwnVehicle) -> Result<()> {
 }
 
 /// The error of constraints that are too few, at the vehicle, or too many, at a wheel that breaks.
-fn undetermined(own: &OwnVehicle, model: &Model, why: &Error) -> Error {
+fn undetermined(own: &UserVehicle, model: &Model, why: &Error) -> Error {
     let broken = model.contradictions().unwrap_or_default();
     let breaks = |name: &str| broken.iter().any(|b| b.strip_prefix(name).is_some_and(|rest| rest.starts_with(", ")));
     let wheel = own.vehicle.wheels.iter().zip(&own.wheels).find(|(w, _)| breaks(&w.name));
@@ -56,7 +56,7 @@ fn undetermined(own: &OwnVehicle, model: &Model, why: &Error) -> Error {
 }
 
 /// That no wheel which turns freely has a measured rate: it follows, and cannot be told to.
-fn loose(own: &OwnVehicle) -> Result<()> {
+fn loose(own: &UserVehicle) -> Result<()> {
     let free = |s: &Option<Symbol>| s.as_ref().is_some_and(|s| own.vehicle.is_free(s));
     let told = |w: &Wheel| free(&w.steering) && w.rate.is_some() && !free(&w.rate);
     match own.vehicle.wheels.iter().zip(&own.wheels).find(|(w, _)| told(w)) {
@@ -71,7 +71,7 @@ fn loose(own: &OwnVehicle) -> Result<()> {
 }
 
 /// That held names are names of the motion.
-fn held(own: &OwnVehicle, model: &Model) -> Result<()> {
+fn held(own: &UserVehicle, model: &Model) -> Result<()> {
     let definitions = model.bare_definitions();
     let names: Vec<&str> = definitions.iter().map(|(n, _)| n.as_str()).collect();
     // A name that only trailers behind it bring may be held too.
@@ -86,7 +86,7 @@ fn held(own: &OwnVehicle, model: &Model) -> Result<()> {
 }
 
 /// That the motion uses every input, and needs no parameter that may be left out.
-fn needed(own: &OwnVehicle, model: &Model, d: &Definitions) -> Result<()> {
+fn needed(own: &UserVehicle, model: &Model, d: &Definitions) -> Result<()> {
     let used = reached(d, &visible(model));
     if let Some(role) = own.vehicle.inputs.keys().map(|i| Symbol::new(i)).find(|i| !used.contains(i)) {
         let error = own.names[&role].error(format!("the motion does not depend on the input {role}"));
@@ -103,7 +103,7 @@ fn needed(own: &OwnVehicle, model: &Model, d: &Definitions) -> Result<()> {
 }
 
 /// That the equations of motion are closed.
-fn compiles(own: &OwnVehicle, model: &Model) -> Result<()> {
+fn compiles(own: &UserVehicle, model: &Model) -> Result<()> {
     let Err(why) = model.equations(&[]) else { return Ok(()) };
     let error = own.id.error(format!("the motion cannot be computed: {}", why.message()));
     let v = &own.vehicle;
@@ -121,7 +121,7 @@ fn compiles(own: &OwnVehicle, model: &Model) -> Result<()> {
 }
 
 /// That the motion is defined where the vehicle stands still with everything straight: most logs begin there.
-fn at_rest(own: &OwnVehicle, model: &Model, d: &Definitions) -> Result<()> {
+fn at_rest(own: &UserVehicle, model: &Model, d: &Definitions) -> Result<()> {
     let mut values: BTreeMap<Symbol, f64> = model.values();
     values.extend(model.states().into_iter().chain(model.inputs.iter().map(|i| Symbol::new(i))).map(|s| (s, 0.0)));
     let used: BTreeSet<Symbol> = reached(d, &visible(model));
@@ -135,7 +135,7 @@ fn at_rest(own: &OwnVehicle, model: &Model, d: &Definitions) -> Result<()> {
     Ok(())
 }
 
-fn undefined(own: &OwnVehicle, name: &Symbol, formula: &Expr) -> Error {
+fn undefined(own: &UserVehicle, name: &Symbol, formula: &Expr) -> Error {
     let message = format!("{name} is undefined where every input is 0 and every heading is along x");
     let error = own.define.get(name).map_or_else(|| own.id.error(&message), |f| f.error(&message));
     let formula = crate::files::shown(&formula.to_string());

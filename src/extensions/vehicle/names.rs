@@ -2,13 +2,13 @@
 
 use crate::describe::universal;
 use crate::error::Result;
-use crate::files::{FormulaText, OwnPart, OwnVehicle, Spot, advice, shown};
+use crate::files::{FormulaText, Spot, UserPart, UserVehicle, advice, shown};
 use crate::formula::Symbol;
 use crate::vehicles::Wheel;
 use std::collections::BTreeSet;
 
 /// That every name is declared, is not one that all models have, and stands for one thing.
-pub(crate) fn check(own: &OwnVehicle) -> Result<()> {
+pub(crate) fn check(own: &UserVehicle) -> Result<()> {
     for (symbol, spot) in &own.names {
         // A logged yaw rate is the one name of every model that a vehicle may define.
         let is_yaw_rate = symbol.as_str() == "phi'" && own.define.contains_key(symbol);
@@ -29,7 +29,7 @@ pub(crate) fn check(own: &OwnVehicle) -> Result<()> {
     circle(own)
 }
 
-fn is_replacement(own: &OwnVehicle, s: &Symbol) -> bool {
+fn is_replacement(own: &UserVehicle, s: &Symbol) -> bool {
     own.vehicle.inputs.values().filter_map(|i| i.instead.as_ref()).any(|i| i.role == s.as_str())
 }
 
@@ -42,7 +42,7 @@ fn free(symbol: &Symbol, spot: &Spot) -> Result<()> {
     }
 }
 
-fn formula(own: &OwnVehicle, f: &FormulaText, may: impl Fn(&Symbol) -> bool) -> Result<()> {
+fn formula(own: &UserVehicle, f: &FormulaText, may: impl Fn(&Symbol) -> bool) -> Result<()> {
     match f.formula.symbols().into_iter().find(|s| !may(s)) {
         None => Ok(()),
         Some(name) => {
@@ -53,7 +53,7 @@ fn formula(own: &OwnVehicle, f: &FormulaText, may: impl Fn(&Symbol) -> bool) -> 
 }
 
 /// The symbols of a wheel: some are defined, some are its own.
-fn symbols(own: &OwnVehicle, wheel: &Wheel, part: &OwnPart) -> Result<()> {
+fn symbols(own: &UserVehicle, wheel: &Wheel, part: &UserPart) -> Result<()> {
     let defined = |s: &Symbol| own.define.contains_key(s);
     let all = [
         ("steering", &wheel.steering),
@@ -90,13 +90,13 @@ fn symbols(own: &OwnVehicle, wheel: &Wheel, part: &OwnPart) -> Result<()> {
     Ok(())
 }
 
-fn unit(own: &OwnVehicle, s: &Symbol) -> String {
+fn unit(own: &UserVehicle, s: &Symbol) -> String {
     let parameter = own.vehicle.parameters.get(s.as_str()).map(|p| &p.unit);
     parameter.or(own.vehicle.inputs.get(s.as_str()).map(|i| &i.unit)).cloned().unwrap_or_else(|| "1".into())
 }
 
 /// A coefficient of creep is no other quantity, and of one kind.
-fn coefficient(own: &OwnVehicle, key: &str, symbol: &Symbol, spot: &Spot) -> Result<()> {
+fn coefficient(own: &UserVehicle, key: &str, symbol: &Symbol, spot: &Spot) -> Result<()> {
     free(symbol, spot)?;
     let refuse = |why: String| Err(spot.error(why).help("give the coefficient a name of its own, such as e_b"));
     if own.names.contains_key(symbol) {
@@ -116,7 +116,7 @@ fn coefficient(own: &OwnVehicle, key: &str, symbol: &Symbol, spot: &Spot) -> Res
 }
 
 /// That definitions lead from one to the next.
-fn circle(own: &OwnVehicle) -> Result<()> {
+fn circle(own: &UserVehicle) -> Result<()> {
     let mut open: BTreeSet<&Symbol> = own.define.keys().collect();
     loop {
         let ready: Vec<&Symbol> = open
@@ -136,7 +136,7 @@ fn circle(own: &OwnVehicle) -> Result<()> {
 }
 
 /// Advice for a name that the vehicle does not have.
-fn suggestion(own: &OwnVehicle, name: &Symbol, may: impl Fn(&Symbol) -> bool) -> String {
+fn suggestion(own: &UserVehicle, name: &Symbol, may: impl Fn(&Symbol) -> bool) -> String {
     let names: Vec<&str> = own.names.keys().filter(|s| may(s)).map(Symbol::as_str).collect();
     advice(name.as_str(), "it has", &names)
 }

@@ -1,16 +1,16 @@
 //! The check that wheels and hitches of a user's vehicle keep their places on the body.
 
 use crate::error::Result;
-use crate::files::{FormulaText, OwnVehicle};
+use crate::files::{FormulaText, UserVehicle};
 use crate::formula::Symbol;
 use std::collections::BTreeSet;
 
 /// That no length depends on an input: a place that moves on the body would have a velocity there.
-pub(crate) fn check(own: &OwnVehicle) -> Result<()> {
+pub(crate) fn check(own: &UserVehicle) -> Result<()> {
     own.wheels.iter().chain(&own.trailers).flat_map(|p| p.lengths.values()).try_for_each(|f| constant(own, f))
 }
 
-fn constant(own: &OwnVehicle, f: &FormulaText) -> Result<()> {
+fn constant(own: &UserVehicle, f: &FormulaText) -> Result<()> {
     let mut seen = BTreeSet::new();
     for part in f.formula.symbols() {
         let mut waiting = vec![part.clone()];

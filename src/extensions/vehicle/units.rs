@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::extensions::units::mixed;
-use crate::files::{FormulaText, OwnVehicle};
+use crate::files::{FormulaText, UserVehicle};
 use crate::formula::{Symbol, Unit};
 
 /// What a key of a wheel is measured in.
@@ -11,7 +11,7 @@ const SYMBOLS: [(&str, &str); 3] = [("steering", "rad"), ("radius", "m"), ("rate
 const CORRECT: &str = "correct the formula, or a unit";
 
 /// That each formula has the unit of what it stands for, and each part of a wheel its own.
-pub(crate) fn check(own: &OwnVehicle) -> Result<()> {
+pub(crate) fn check(own: &UserVehicle) -> Result<()> {
     let of = |s: &Symbol| unit_of(own, s);
     for (symbol, formula) in &own.define {
         let wanted = unit(&own.vehicle.define[symbol].unit);
@@ -46,7 +46,7 @@ fn unit(text: &str) -> Unit {
     Unit::parse(text).unwrap_or(Unit::number_unit())
 }
 
-fn unit_of(own: &OwnVehicle, s: &Symbol) -> Unit {
+fn unit_of(own: &UserVehicle, s: &Symbol) -> Unit {
     let (v, name) = (&own.vehicle, s.as_str());
     let replaced = v.inputs.values().filter_map(|i| i.instead.as_ref()).find(|i| i.role == name);
     let found = v.parameters.get(name).map(|p| &p.unit);
@@ -68,7 +68,7 @@ fn wrong(formula: &FormulaText, name: &str, found: &Unit, wanted: &Unit) -> Erro
     formula.error(format!("the formula for {name} is in {found}, but {name} is in {wanted}"))
 }
 
-fn yaw_rate(own: &OwnVehicle) -> Result<()> {
+fn yaw_rate(own: &UserVehicle) -> Result<()> {
     let symbol = Symbol::from("phi'");
     match own.vehicle.define.get(&symbol).filter(|d| !unit(&d.unit).fits(&unit("rad/s"))) {
         None => Ok(()),

@@ -3,7 +3,7 @@
 use super::{actions, constraints, motion, names, places, units};
 use crate::error::Result;
 use crate::extensions::test_vehicle::TestVehicle;
-use crate::files::{ModelFile, OwnVehicle, VehiclesFile};
+use crate::files::{ModelFile, UserVehicle, VehiclesFile};
 use crate::model::WITH_TRAILERS;
 use crate::vehicles;
 use crate::vehicles::Vehicle;
@@ -85,7 +85,7 @@ pub fn vehicles_of(model: impl AsRef<Path>, given: Option<&Path>) -> Result<Vec<
     Ok(all)
 }
 
-fn check(own: &OwnVehicle) -> Result<()> {
+fn check(own: &UserVehicle) -> Result<()> {
     distinct(own)?;
     names::check(own)?;
     units::check(own)?;
@@ -96,7 +96,7 @@ fn check(own: &OwnVehicle) -> Result<()> {
 }
 
 /// That the name of a vehicle is no other's.
-fn distinct(own: &OwnVehicle) -> Result<()> {
+fn distinct(own: &UserVehicle) -> Result<()> {
     let id = own.vehicle.id.as_str();
     match vehicles::named(id).is_some() || id == WITH_TRAILERS {
         true => Err(own.id.error(format!("the catalogue has a vehicle \"{id}\"")).help("give yours another id")),

@@ -1,4 +1,4 @@
-//! A user's own claims: equations of formulas, with what their author thinks is known of them.
+//! Files of a user's own claims (TOML): equations of formulas, each with the status its author gives it.
 
 use crate::error::{Error, Result};
 use crate::files::toml::formula_text::too_large;
@@ -7,10 +7,10 @@ use crate::files::toml::text::read_text;
 use crate::formula::Expr;
 use std::path::Path;
 
-/// The most trailers of a claim: the normal form of longer trains is out of reach in any case.
-const MOST_TRAILERS: usize = 20;
-/// The longest equation, in characters.
-const LONGEST: usize = 4000;
+/// The most trailers of a claim: the normal form of a longer train is out of reach of any machine.
+const MAX_TRAILERS: usize = 20;
+/// The longest equation, in characters: those of the paper have some hundreds, and a proof takes longer with each.
+const MAX_EQUATION_CHARACTERS: usize = 4000;
 
 /// A claim as it stands in a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,10 +83,10 @@ fn status(section: &Section) -> Result<String> {
 
 fn trailers(value: &Value) -> Result<usize> {
     match value.count()? {
-        n if n <= MOST_TRAILERS => Ok(n),
+        n if n <= MAX_TRAILERS => Ok(n),
         n => Err(value
             .error(format!("{n} trailers are more than a claim may have"))
-            .help(format!("give at most {MOST_TRAILERS}"))),
+            .help(format!("give at most {MAX_TRAILERS}"))),
     }
 }
 
@@ -107,8 +107,10 @@ fn equation(value: &Value) -> Result<(String, String)> {
     let text = value.text()?;
     let sides = text.split_once('=').filter(|(_, right)| !right.contains('='));
     let (left, right) = sides.ok_or_else(|| value.error("an equation has one =").help("write \"left = right\""))?;
-    if text.len() > LONGEST {
-        return Err(value.error(format!("an equation has at most {LONGEST} characters")).help("write a shorter one"));
+    if text.len() > MAX_EQUATION_CHARACTERS {
+        return Err(value
+            .error(format!("an equation has at most {MAX_EQUATION_CHARACTERS} characters"))
+            .help("write a shorter one"));
     }
     for side in [left, right] {
         let formula = Expr::parse(side.trim()).map_err(|e| misread(value, &e))?;

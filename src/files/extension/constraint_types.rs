@@ -1,4 +1,4 @@
-//! `type` of `[[vehicle.constraints]]`: one of the catalogue, or a table that says a new one.
+//! `type` of `[[vehicle.constraints]]`: a constraint type of the catalogue by its id, or a new one as a table.
 
 use super::effect_parameter::read_unit;
 use super::vehicle_quantities::check_symbol;

@@ -1,4 +1,4 @@
-//! `[effect.parameters.…]`: what a fit may vary, within bounds in which it can.
+//! `[effect.parameters.…]`: a parameter of an effect, with its unit, the range and the starts of its fit.
 
 use crate::effects::Parameter;
 use crate::error::{Error, Result};
@@ -6,8 +6,8 @@ use crate::files::toml::spanned_table::{Section, Value};
 use crate::formula::Unit;
 use std::f64::consts::PI;
 
-/// The values of a parameter that are tried as starts of a fit; each costs a pass over the data.
-const MOST_STARTS: usize = 8;
+/// The most starts of the fit of one parameter: each costs a pass over the data.
+const MAX_STARTS: usize = 8;
 
 /// Reads a parameter.
 pub(crate) fn read_parameter(value: &Value, heading: &str) -> Result<Parameter> {
@@ -74,8 +74,8 @@ fn starts(section: &Section) -> Result<Vec<f64>> {
     let Some(value) = section.get("start") else { return Ok(vec![0.0]) };
     let found = numbers(&value, "start = [0.1]")?;
     match found.len() {
-        1..=MOST_STARTS => Ok(found),
-        n => Err(value.error(format!("start has {n} numbers")).help(format!("give 1 to {MOST_STARTS}"))),
+        1..=MAX_STARTS => Ok(found),
+        n => Err(value.error(format!("start has {n} numbers")).help(format!("give 1 to {MAX_STARTS}"))),
     }
 }
 

@@ -1,4 +1,4 @@
-//! A user's own effects: definitions of a model rewritten by formulas.
+//! Files of a user's own effects (TOML): definitions of a model, rewritten by formulas.
 
 use super::effect_parameter::{read_parameter, read_unit};
 use crate::effects::{Effect, State};
@@ -7,31 +7,32 @@ use crate::files::toml::formula_text::FormulaText;
 use crate::files::toml::location::Spot;
 use crate::files::toml::spanned_table::{Section, Source, Value};
 use crate::files::toml::suggestions::shown;
-use crate::files::toml::user_file::{at_most, read_id, read_own};
+use crate::files::toml::user_file::{at_most, read_id, read_user_file};
 use crate::formula::Symbol;
 use crate::provenance::Origin;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The most effects of a file, and the most parameters, states or changes of one.
-const MOST_EFFECTS: usize = 50;
-const MOST_PARTS: usize = 12;
-/// The most combinations of starts of one effect; each costs a pass over the data.
-const MOST_STARTS: usize = 32;
-/// Names that mean something else: the definition as it was, and the keys of an entry of a model file.
+/// The most effects of a file: `discover` fits each of them.
+const MAX_EFFECTS: usize = 50;
+/// The most parameters, states or changes of an effect: no data tell more of them apart.
+const MAX_PARTS: usize = 12;
+/// The most combinations of starts of one effect: each costs a pass over the data.
+const MAX_STARTS: usize = 32;
+/// Names that have another meaning: `it`, the definition before the change, and the keys of an entry of a model file.
 const RESERVED: [&str; 3] = ["it", "id", "trailer"];
 
-/// The effects of a file, read but not yet held against the vehicles.
+/// The effects of a file, read but not yet validated against the vehicles.
 #[derive(Clone, Debug)]
 pub struct EffectsFile {
     /// The effects, in the order of the file.
-    pub effects: Vec<OwnEffect>,
+    pub effects: Vec<UserEffect>,
 }
 
 /// An effect and the places of its parts.
 #[derive(Clone, Debug)]
-pub struct OwnEffect {
+pub struct UserEffect {
     /// The effect.
     pub effect: Effect,
     /// Where its id stands.
@@ -55,7 +56,7 @@ impl EffectsFile {
     /// With file, line and column, inside a formula too: a file that cannot be read, a key that is missing or unknown,
     /// a formula that is malformed, a number that no fit can use, two effects of one name.
     pub fn read(path: &Path) -> Result<Self> {
-        Self::parse(&read_own(path, "effects")?)
+        Self::parse(&read_user_file(path, "effects")?)
     }
 
     fn parse(origin: &Arc<Origin>) -> Result<Self> {
@@ -69,8 +70,8 @@ impl EffectsFile {
         let example = "[[effect]], with double brackets, before each effect";
         let list = top.need("effect", example)?;
         let elements = list.list(example)?;
-        at_most(&list, elements.len(), MOST_EFFECTS)?;
-        let mut effects: Vec<OwnEffect> = Vec::new();
+        at_most(&list, elements.len(), MAX_EFFECTS)?;
+        let mut effects: Vec<UserEffect> = Vec::new();
         for element in elements {
             let own = read_effect(&element.section("[[effect]]".into())?, origin)?;
             if effects.iter().any(|e| e.effect.id == own.effect.id) {
@@ -86,7 +87,7 @@ impl EffectsFile {
 /// `sensor.a` is where the sensor sits.
 const SENSOR: &str = "sensor";
 
-fn read_effect(section: &Section, origin: &Arc<Origin>) -> Result<OwnEffect> {
+fn read_effect(section: &Section, origin: &Arc<Origin>) -> Result<UserEffect> {
     section.only(&[
         "id",
         "where",
@@ -103,7 +104,7 @@ fn read_effect(section: &Section, origin: &Arc<Origin>) -> Result<OwnEffect> {
     let text = |key: &str, example: &str| section.need(key, example)?.text().map(str::to_string);
     let id = section.need("id", "id = \"my-creep\"")?;
     let limit = section.get("limit");
-    let mut own = OwnEffect {
+    let mut own = UserEffect {
         effect: Effect {
             id: read_id(&id, "an effect", &[SENSOR])?,
             place: text("where", "where = \"traverse constraint\"")?,
@@ -130,11 +131,11 @@ fn read_effect(section: &Section, origin: &Arc<Origin>) -> Result<OwnEffect> {
     Ok(own)
 }
 
-impl OwnEffect {
+impl UserEffect {
     fn read_needs(&mut self, section: &Section) -> Result<()> {
         let Some(value) = section.get("needs") else { return Ok(()) };
         let list = value.list("needs = [\"yaw_rate\"]")?;
-        at_most(&value, list.len(), MOST_PARTS)?;
+        at_most(&value, list.len(), MAX_PARTS)?;
         for role in list {
             self.effect.needs.push(role.text()?.to_string());
             self.needs.push(Spot::at(section.source, role.span().start));
@@ -145,7 +146,7 @@ impl OwnEffect {
     fn read_parameters(&mut self, section: &Section) -> Result<()> {
         let value = section.need("parameters", "[effect.parameters.c] and below it unit, range and size")?;
         let entries = value.section("[effect.parameters]".into())?.entries();
-        at_most(&value, entries.len(), MOST_PARTS)?;
+        at_most(&value, entries.len(), MAX_PARTS)?;
         if entries.is_empty() {
             return Err(value.error("the effect has no parameter").help("write [effect.parameters.c] for one"));
         }
@@ -155,18 +156,18 @@ impl OwnEffect {
             self.effect.parameters.insert(entry.name.clone(), parameter);
         }
         let combinations: usize = self.effect.parameters.values().map(|p| p.start.len()).product();
-        match combinations <= MOST_STARTS {
+        match combinations <= MAX_STARTS {
             true => Ok(()),
             false => Err(value
                 .error(format!("the starts of the parameters have {combinations} combinations"))
-                .help(format!("leave at most {MOST_STARTS}; each costs a pass over the data"))),
+                .help(format!("leave at most {MAX_STARTS}; each costs a pass over the data"))),
         }
     }
 
     fn read_states(&mut self, section: &Section) -> Result<()> {
         let Some(value) = section.get("states") else { return Ok(()) };
         let entries = value.section("[effect.states]".into())?.entries();
-        at_most(&value, entries.len(), MOST_PARTS)?;
+        at_most(&value, entries.len(), MAX_PARTS)?;
         for entry in entries {
             self.name(&entry)?;
             let state = entry.section(format!("[effect.states.{}]", entry.name))?;
@@ -204,7 +205,7 @@ impl OwnEffect {
         let example = "[effect.changes] and below it lines like v_t = \"it + c*v_l\"";
         let value = section.need("changes", example)?;
         let entries = value.section("[effect.changes]".into())?.entries();
-        at_most(&value, entries.len(), MOST_PARTS)?;
+        at_most(&value, entries.len(), MAX_PARTS)?;
         if entries.is_empty() {
             return Err(value.error("the effect changes nothing").help(format!("write {example}")));
         }
@@ -238,7 +239,7 @@ impl OwnEffect {
         Ok(())
     }
 
-    /// That every parameter and state has a say in what the effect changes.
+    /// Checks that every parameter and every state occurs in a change or in the rate of a state that does.
     fn check_use(&self) -> Result<()> {
         let mut used: Vec<Symbol> = self.effect.changes.values().flat_map(|f| f.symbols()).collect();
         let mut seen = 0;

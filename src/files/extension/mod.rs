@@ -1,4 +1,4 @@
-//! A user's own effects, vehicles and claims.
+//! Files of a user's own effects, vehicles and claims (TOML), read and checked entry by entry.
 
 pub(crate) mod claims;
 pub(crate) mod constraint_types;

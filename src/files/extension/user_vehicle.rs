@@ -1,4 +1,4 @@
-//! A vehicle of a user's own with the places of its parts in the file, for errors that are found after it was read.
+//! `UserVehicle`: a vehicle of a user's own and the places of its parts in the file, for errors found after it was read.
 
 use crate::error::Result;
 use crate::files::toml::formula_text::FormulaText;
@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 /// A vehicle and the places of its parts.
 #[derive(Clone, Debug)]
-pub struct OwnVehicle {
+pub struct UserVehicle {
     /// The vehicle.
     pub vehicle: Vehicle,
     /// Where its id stands.
@@ -24,20 +24,20 @@ pub struct OwnVehicle {
     /// The formulas of inputs from the columns logged in their place, by input.
     pub replaced: BTreeMap<String, FormulaText>,
     /// The wheels.
-    pub wheels: Vec<OwnPart>,
+    pub wheels: Vec<UserPart>,
     /// The trailers.
-    pub trailers: Vec<OwnPart>,
+    pub trailers: Vec<UserPart>,
     /// Where each coordinate of its own is named.
     pub coordinates: Vec<Spot>,
     /// Its constraints beside those of wheels.
-    pub constraints: Vec<OwnConstraint>,
+    pub constraints: Vec<UserConstraint>,
     /// Where each held name stands.
     pub held: Vec<Spot>,
 }
 
 /// The places of a wheel or a trailer.
 #[derive(Clone, Debug)]
-pub struct OwnPart {
+pub struct UserPart {
     /// Where it is named.
     pub name: Spot,
     /// Its lengths by key.
@@ -48,7 +48,7 @@ pub struct OwnPart {
 
 /// The places of a constraint.
 #[derive(Clone, Debug)]
-pub struct OwnConstraint {
+pub struct UserConstraint {
     /// Where it is named.
     pub name: Spot,
     /// Where its coefficient stands.
@@ -57,8 +57,8 @@ pub struct OwnConstraint {
     pub formulas: Vec<FormulaText>,
 }
 
-impl OwnVehicle {
-    /// Takes down a name that a formula or a model file may use.
+impl UserVehicle {
+    /// Declares a name that a formula or a model file may use.
     pub(crate) fn declare(&mut self, symbol: Symbol, value: &Value) -> Result<()> {
         match self.names.insert(symbol.clone(), Spot::at(value.source, value.key_at)) {
             None => Ok(()),

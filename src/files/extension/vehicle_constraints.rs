@@ -1,9 +1,9 @@
-//! `[[vehicle.coordinates]]` and `[[vehicle.constraints]]`: what is no body with wheels.
+//! `[[vehicle.coordinates]]` and `[[vehicle.constraints]]`: a vehicle that is more than a body with wheels.
 
 use super::constraint_types::read_type;
 use super::effect_parameter::read_unit;
-use super::user_vehicle::{OwnConstraint, OwnVehicle};
-use super::vehicle_quantities::{MOST, check_symbol, read_meaning};
+use super::user_vehicle::{UserConstraint, UserVehicle};
+use super::vehicle_quantities::{MAX_NAMES, check_symbol, read_meaning};
 use crate::error::Result;
 use crate::files::toml::location::Spot;
 use crate::files::toml::spanned_table::{Section, Value};
@@ -15,10 +15,10 @@ use crate::vehicles::Coordinate;
 use std::sync::Arc;
 
 /// Reads the coordinates of its own, and which of them is its heading.
-pub(crate) fn read_coordinates(own: &mut OwnVehicle, section: &Section) -> Result<()> {
+pub(crate) fn read_coordinates(own: &mut UserVehicle, section: &Section) -> Result<()> {
     if let Some(value) = section.get("coordinates") {
         let list = value.list("[[vehicle.coordinates]], with double brackets, before each coordinate")?;
-        at_most(&value, list.len(), MOST)?;
+        at_most(&value, list.len(), MAX_NAMES)?;
         for element in list {
             let table = element.section("[[vehicle.coordinates]]".into())?;
             table.only(&["name", "unit", "meaning"])?;
@@ -54,10 +54,10 @@ fn plain(value: &Value) -> Result<Symbol> {
 }
 
 /// Reads the constraints.
-pub(crate) fn read_constraints(own: &mut OwnVehicle, section: &Section) -> Result<()> {
+pub(crate) fn read_constraints(own: &mut UserVehicle, section: &Section) -> Result<()> {
     let Some(value) = section.get("constraints") else { return Ok(()) };
     let list = value.list("[[vehicle.constraints]], with double brackets, before each constraint")?;
-    at_most(&value, list.len(), MOST)?;
+    at_most(&value, list.len(), MAX_NAMES)?;
     for element in list {
         let table = element.section("[[vehicle.constraints]]".into())?;
         let (constraint, places) = read_constraint(&table)?;
@@ -72,11 +72,11 @@ pub(crate) fn read_constraints(own: &mut OwnVehicle, section: &Section) -> Resul
     Ok(())
 }
 
-fn read_constraint(table: &Section) -> Result<(Constraint, OwnConstraint)> {
+fn read_constraint(table: &Section) -> Result<(Constraint, UserConstraint)> {
     table.only(&["name", "type", "creep", "slots", "energy", "generator"])?;
     let name = table.need("name", "name = \"rope\"")?;
     let creep = table.need("creep", "creep = \"e_c\", its coefficient")?;
-    let mut places = OwnConstraint {
+    let mut places = UserConstraint {
         name: Spot::at(table.source, name.span().start),
         creep: Spot::at(table.source, creep.span().start),
         formulas: vec![],
@@ -96,7 +96,7 @@ fn filled(
     name: &str,
     creep: &Symbol,
     kind: &Arc<ConstraintType>,
-    places: &mut OwnConstraint,
+    places: &mut UserConstraint,
 ) -> Result<Constraint> {
     let known: Vec<&str> = kind.slots.iter().filter(|s| s.formula.is_none()).map(|s| s.name.as_str()).collect();
     let example =
@@ -145,7 +145,7 @@ fn derived(
     name: &str,
     creep: &Symbol,
     kind: &Arc<ConstraintType>,
-    places: &mut OwnConstraint,
+    places: &mut UserConstraint,
 ) -> Result<Constraint> {
     if let Some(slots) = table.get("slots") {
         return Err(slots.key_error("the slots of a momentum with an energy are derived").help("remove them"));

@@ -1,6 +1,6 @@
-//! `[[vehicle.wheels]]` and `[[vehicle.trailers]]`.
+//! `[[vehicle.wheels]]` and `[[vehicle.trailers]]`: the parts of a vehicle with their lengths and symbols.
 
-use super::user_vehicle::{OwnPart, OwnVehicle};
+use super::user_vehicle::{UserPart, UserVehicle};
 use super::vehicle_quantities::check_symbol;
 use crate::error::Result;
 use crate::files::toml::formula_text::FormulaText;
@@ -12,11 +12,12 @@ use crate::formula::{Expr, Size, Symbol};
 use crate::vehicles::{Section as Trailer, Wheel};
 use std::collections::BTreeMap;
 
-/// The most wheels and the most trailers of a vehicle.
-const MOST_WHEELS: usize = 40;
-const MOST_TRAILERS: usize = 6;
-/// The most factors in a product of a length; constraints are expanded.
-const MOST_FACTORS: usize = 6;
+/// The most wheels of a vehicle: each is a constraint or two, which are solved as formulas.
+const MAX_WHEELS: usize = 40;
+/// The most trailers of a vehicle: the formulas of their rates grow with each.
+const MAX_TRAILERS: usize = 6;
+/// The most factors in a product of a length: constraints are multiplied out, and their terms grow with every factor.
+const MAX_FACTORS: usize = 6;
 /// What to do about a bare number.
 const NEEDS_UNIT: &str = "declare a parameter in m, as in [vehicle.parameters.wheelbase], and write a formula of such";
 
@@ -26,14 +27,14 @@ const KEYS: [&str; 10] =
 /// A part that is being read.
 struct Reader<'s, 'a, 'd> {
     section: &'s Section<'a, 'd>,
-    part: OwnPart,
+    part: UserPart,
 }
 
 impl<'s, 'a, 'd> Reader<'s, 'a, 'd> {
     fn new(section: &'s Section<'a, 'd>, example: &str) -> Result<(Self, String)> {
         let name = section.need("name", example)?;
         let spot = Spot::at(section.source, name.span().start);
-        let part = OwnPart { name: spot, lengths: BTreeMap::new(), symbols: BTreeMap::new() };
+        let part = UserPart { name: spot, lengths: BTreeMap::new(), symbols: BTreeMap::new() };
         Ok((Self { section, part }, name.text()?.to_string()))
     }
 
@@ -51,8 +52,8 @@ impl<'s, 'a, 'd> Reader<'s, 'a, 'd> {
         }
         let text = FormulaText::read(value)?;
         let formula = text.formula.clone();
-        if Size::of(&formula, &|_| Size::SYMBOL).degree > MOST_FACTORS {
-            let error = text.error(format!("a length has a product of more than {MOST_FACTORS} factors"));
+        if Size::of(&formula, &|_| Size::SYMBOL).degree > MAX_FACTORS {
+            let error = text.error(format!("a length has a product of more than {MAX_FACTORS} factors"));
             return Err(error.help("define a symbol for a part of it"));
         }
         self.part.lengths.insert(key, text);
@@ -78,10 +79,10 @@ impl<'s, 'a, 'd> Reader<'s, 'a, 'd> {
 }
 
 /// Reads the trailers.
-pub(crate) fn read_trailers(own: &mut OwnVehicle, section: &Section) -> Result<()> {
+pub(crate) fn read_trailers(own: &mut UserVehicle, section: &Section) -> Result<()> {
     let Some(value) = section.get("trailers") else { return Ok(()) };
     let list = value.list("[[vehicle.trailers]], with double brackets, before each trailer")?;
-    at_most(&value, list.len(), MOST_TRAILERS)?;
+    at_most(&value, list.len(), MAX_TRAILERS)?;
     for element in list {
         let table = element.section("[[vehicle.trailers]]".into())?;
         table.only(&["name", "length", "hitch"])?;
@@ -105,14 +106,14 @@ pub(crate) fn read_trailers(own: &mut OwnVehicle, section: &Section) -> Result<(
 }
 
 /// Reads the wheels.
-pub(crate) fn read_wheels(own: &mut OwnVehicle, section: &Section) -> Result<()> {
+pub(crate) fn read_wheels(own: &mut UserVehicle, section: &Section) -> Result<()> {
     let example = "[[vehicle.wheels]], with double brackets, before each wheel";
     let value = match section.get("wheels") {
         None if !own.vehicle.constraints.is_empty() => return Ok(()),
         _ => section.need("wheels", example)?,
     };
     let list = value.list(example)?;
-    at_most(&value, list.len(), MOST_WHEELS)?;
+    at_most(&value, list.len(), MAX_WHEELS)?;
     if list.is_empty() {
         return Err(value.error("the vehicle has no wheel").help(format!("write {example}")));
     }
@@ -129,11 +130,11 @@ pub(crate) fn read_wheels(own: &mut OwnVehicle, section: &Section) -> Result<()>
     Ok(())
 }
 
-fn twice(part: &OwnPart, what: &str, name: &str) -> crate::Error {
+fn twice(part: &UserPart, what: &str, name: &str) -> crate::Error {
     part.name.error(format!("two {what} are called \"{}\"", suggestions::shown(name))).help("give one another name")
 }
 
-fn read_wheel(table: &Section, own: &OwnVehicle) -> Result<(Wheel, OwnPart)> {
+fn read_wheel(table: &Section, own: &UserVehicle) -> Result<(Wheel, UserPart)> {
     table.only(&KEYS)?;
     let (mut reader, name) = Reader::new(table, "name = \"front axle\"")?;
     let wheel = Wheel {
@@ -151,7 +152,7 @@ fn read_wheel(table: &Section, own: &OwnVehicle) -> Result<(Wheel, OwnPart)> {
     Ok((wheel, reader.part))
 }
 
-fn read_on(value: &Value, own: &OwnVehicle) -> Result<String> {
+fn read_on(value: &Value, own: &UserVehicle) -> Result<String> {
     let name = value.text()?;
     let names: Vec<&str> = own.vehicle.trailers.iter().map(|t| t.name.as_str()).collect();
     match names.contains(&name) {
@@ -162,8 +163,8 @@ fn read_on(value: &Value, own: &OwnVehicle) -> Result<String> {
     }
 }
 
-/// That a wheel rolls, has a direction, or both, and says all that this takes.
-fn check_roles(wheel: &Wheel, part: &OwnPart) -> Result<()> {
+/// Checks that a wheel rolls, has a direction, or both, with all the keys that this takes.
+fn check_roles(wheel: &Wheel, part: &UserPart) -> Result<()> {
     let rolling = [
         ("radius", wheel.radius.is_some(), "radius = \"r\""),
         ("rate", wheel.rate.is_some(), "rate = \"theta'\""),

@@ -1,7 +1,7 @@
-//! `[vehicle.parameters.…]`, `[vehicle.inputs.…]` and `[vehicle.define]`: the names of a vehicle's formulas.
+//! `[vehicle.parameters.…]`, `[vehicle.inputs.…]` and `[vehicle.define]`: parameters, inputs and defined symbols.
 
 use super::effect_parameter::read_unit;
-use super::user_vehicle::OwnVehicle;
+use super::user_vehicle::UserVehicle;
 use crate::error::Result;
 use crate::files::toml::formula_text::FormulaText;
 use crate::files::toml::spanned_table::{Section, Value};
@@ -13,8 +13,9 @@ use serde::Deserialize;
 use serde::de::IntoDeserializer;
 use serde::de::value::StrDeserializer;
 
-/// The most parameters, inputs, defined symbols, coordinates or constraints of a vehicle.
-pub(crate) const MOST: usize = 60;
+/// The most parameters, inputs, defined symbols, coordinates or constraints of a vehicle: the constraints are
+/// solved as formulas, and the time for this grows faster than their number.
+pub(crate) const MAX_NAMES: usize = 60;
 /// Keys of a model file's `[parameters]` and `[columns]` that mean something of every vehicle, and `it` of effects.
 const TAKEN: [&str; 7] = ["tractor", "trailer_lengths", "hitch_offsets", "time", "heading", "trailer_headings", "it"];
 
@@ -22,12 +23,12 @@ const TAKEN: [&str; 7] = ["tractor", "trailer_lengths", "hitch_offsets", "time",
 fn tables<'a, 'd>(section: &Section<'a, 'd>, key: &str) -> Result<Vec<Value<'a, 'd>>> {
     let Some(value) = section.get(key) else { return Ok(vec![]) };
     let entries = value.section(format!("[vehicle.{key}]"))?.entries();
-    at_most(&value, entries.len(), MOST)?;
+    at_most(&value, entries.len(), MAX_NAMES)?;
     Ok(entries)
 }
 
 /// Reads the parameters.
-pub(crate) fn read_quantities(own: &mut OwnVehicle, section: &Section) -> Result<()> {
+pub(crate) fn read_quantities(own: &mut UserVehicle, section: &Section) -> Result<()> {
     for entry in tables(section, "parameters")? {
         check_role(&entry, &entry.name)?;
         own.declare(Symbol::new(&entry.name), &entry)?;
@@ -41,7 +42,7 @@ pub(crate) fn read_quantities(own: &mut OwnVehicle, section: &Section) -> Result
 }
 
 /// Reads the inputs.
-pub(crate) fn read_inputs(own: &mut OwnVehicle, section: &Section) -> Result<()> {
+pub(crate) fn read_inputs(own: &mut UserVehicle, section: &Section) -> Result<()> {
     for entry in tables(section, "inputs")? {
         check_role(&entry, &entry.name)?;
         own.declare(Symbol::new(&entry.name), &entry)?;
@@ -55,7 +56,7 @@ pub(crate) fn read_inputs(own: &mut OwnVehicle, section: &Section) -> Result<()>
     Ok(())
 }
 
-fn read_instead(own: &mut OwnVehicle, input: &str, value: &Value) -> Result<Instead> {
+fn read_instead(own: &mut UserVehicle, input: &str, value: &Value) -> Result<Instead> {
     let example = "instead = { role = \"speed\", unit = \"m/s\", formula = \"speed/wheel_radius\" }";
     let table = value.section_like("instead".into(), example)?;
     table.only(&["role", "unit", "formula", "moves"])?;
@@ -81,7 +82,7 @@ fn read_moves(section: &Section) -> Result<Option<Moves>> {
 }
 
 /// Reads the defined symbols.
-pub(crate) fn read_definitions(own: &mut OwnVehicle, section: &Section) -> Result<()> {
+pub(crate) fn read_definitions(own: &mut UserVehicle, section: &Section) -> Result<()> {
     let example = "r = { formula = \"wheel_radius\", unit = \"m\", meaning = \"rolling radius\" }";
     for entry in tables(section, "define")? {
         check_symbol(&entry, &entry.name)?;
@@ -98,7 +99,7 @@ pub(crate) fn read_definitions(own: &mut OwnVehicle, section: &Section) -> Resul
     Ok(())
 }
 
-/// Reads what something is.
+/// Reads `meaning`, one line on what a quantity is.
 pub(crate) fn read_meaning(section: &Section) -> Result<String> {
     Ok(section.need("meaning", "meaning = \"what it is, in a line\"")?.text()?.to_string())
 }

@@ -1,13 +1,13 @@
-//! A user's own vehicles: wheels, trailers, parameters and inputs, from which everything else is derived.
+//! Files of a user's own vehicles (TOML): wheels, trailers, parameters and inputs, from which the motion is derived.
 
-use super::user_vehicle::OwnVehicle;
+use super::user_vehicle::UserVehicle;
 use super::vehicle_constraints::{read_constraints, read_coordinates};
 use super::vehicle_parts::{read_trailers, read_wheels};
 use super::vehicle_quantities::{read_definitions, read_inputs, read_quantities};
 use crate::error::Result;
 use crate::files::toml::location::Spot;
 use crate::files::toml::spanned_table::{Section, Source};
-use crate::files::toml::user_file::{at_most, read_id, read_own};
+use crate::files::toml::user_file::{at_most, read_id, read_user_file};
 use crate::formula::Symbol;
 use crate::provenance::Origin;
 use crate::vehicles::Vehicle;
@@ -15,14 +15,16 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The most vehicles of a file; effects are held against each of them.
-const MOST_VEHICLES: usize = 20;
+/// The most vehicles of a file: every effect is validated against each of them.
+const MAX_VEHICLES: usize = 20;
+/// The most held names of a vehicle: as many as it may have wheels.
+const MAX_HELD: usize = 40;
 
-/// The vehicles of a file, read but not yet asked how they move.
+/// The vehicles of a file, read but not yet solved for their motion.
 #[derive(Clone, Debug)]
 pub struct VehiclesFile {
     /// The vehicles, in the order of the file.
-    pub vehicles: Vec<OwnVehicle>,
+    pub vehicles: Vec<UserVehicle>,
 }
 
 impl VehiclesFile {
@@ -32,7 +34,7 @@ impl VehiclesFile {
     /// With file, line and column, inside a formula too: a file that cannot be read, a key that is missing or unknown,
     /// a name or formula that is malformed, a wheel that constrains nothing, two parts of one name.
     pub fn read(path: &Path) -> Result<Self> {
-        Self::parse(&read_own(path, "vehicles")?)
+        Self::parse(&read_user_file(path, "vehicles")?)
     }
 
     fn parse(origin: &Arc<Origin>) -> Result<Self> {
@@ -46,11 +48,11 @@ impl VehiclesFile {
         let example = "[[vehicle]], with double brackets, before each vehicle";
         let list = top.need("vehicle", example)?;
         let elements = list.list(example)?;
-        at_most(&list, elements.len(), MOST_VEHICLES)?;
+        at_most(&list, elements.len(), MAX_VEHICLES)?;
         if elements.is_empty() {
             return Err(list.error("the file holds no vehicle").help(format!("write {example}")));
         }
-        let mut vehicles: Vec<OwnVehicle> = Vec::new();
+        let mut vehicles: Vec<UserVehicle> = Vec::new();
         for element in elements {
             let own = read_vehicle(&element.section("[[vehicle]]".into())?, origin)?;
             if vehicles.iter().any(|v| v.vehicle.id == own.vehicle.id) {
@@ -79,11 +81,11 @@ const KEYS: [&str; 13] = [
     "constraints",
 ];
 
-fn read_vehicle(section: &Section, origin: &Arc<Origin>) -> Result<OwnVehicle> {
+fn read_vehicle(section: &Section, origin: &Arc<Origin>) -> Result<UserVehicle> {
     section.only(&KEYS)?;
     let id = section.need("id", "id = \"my-robot\"")?;
     let instead = section.get("instead");
-    let mut own = OwnVehicle {
+    let mut own = UserVehicle {
         vehicle: Vehicle {
             id: read_id(&id, "a vehicle", &[])?,
             title: section.need("title", "title = \"what it is, in a line\"")?.text()?.into(),
@@ -114,10 +116,10 @@ fn read_vehicle(section: &Section, origin: &Arc<Origin>) -> Result<OwnVehicle> {
     Ok(own)
 }
 
-fn read_held(own: &mut OwnVehicle, section: &Section) -> Result<()> {
+fn read_held(own: &mut UserVehicle, section: &Section) -> Result<()> {
     let Some(value) = section.get("held") else { return Ok(()) };
     let list = value.list("held = [\"v_t\"]")?;
-    at_most(&value, list.len(), 40)?;
+    at_most(&value, list.len(), MAX_HELD)?;
     for name in list {
         own.vehicle.held.push(Symbol::new(name.text()?));
         own.held.push(Spot::at(section.source, name.span().start));

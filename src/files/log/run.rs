@@ -9,8 +9,8 @@ use crate::files::model::model_file::ModelFile;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Rows a run needs.
-const FEWEST: usize = 2;
+/// The fewest rows of a run: an interval has two ends.
+const MIN_ROWS: usize = 2;
 
 /// The usable rows of a log, in the order of time, each time once.
 #[derive(Clone, Debug, PartialEq)]
@@ -179,11 +179,11 @@ pub(crate) fn arrange(numbers: &mut Numbers) -> Vec<String> {
 
 pub(crate) fn enough(numbers: &Numbers) -> Result<()> {
     let usable = numbers.columns[0].len();
-    if usable >= FEWEST {
+    if usable >= MIN_ROWS {
         return Ok(());
     }
     let why: Vec<String> = numbers.dropped.iter().map(|(why, rows)| format!("{why}: {rows}")).collect();
     let why = if why.is_empty() { String::new() } else { format!(" (left out: {})", why.join(", ")) };
-    let message = format!("usable rows: {usable} of {}{why}, but at least {FEWEST} are needed", numbers.rows);
+    let message = format!("usable rows: {usable} of {}{why}, but at least {MIN_ROWS} are needed", numbers.rows);
     Err(Error::input(message).help("check the log, or give a longer one"))
 }

@@ -1,4 +1,4 @@
-//! `[dynamics]`: what a vehicle weighs, what drives it, and how its contacts give way.
+//! `[dynamics]`: masses and moments of inertia, forces and torques, and the laws of friction of the contacts.
 
 use super::known::{KnownDynamics, KnownLaw};
 use super::parameters::{Machine, Parameters, one_per_trailer};

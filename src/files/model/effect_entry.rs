@@ -1,4 +1,4 @@
-//! `[[effects]]`: what the model already includes.
+//! `[[effects]]`: the effects that a model already includes, with their values.
 
 use super::known::{Known, KnownEffect, KnownParameter};
 use crate::error::{Error, Result};

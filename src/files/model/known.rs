@@ -1,4 +1,4 @@
-//! What may stand in a model file.
+//! The vocabulary of a model file: the vehicles, effects and laws of contact that it may name.
 
 use crate::vehicles::Vehicle;
 

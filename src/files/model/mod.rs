@@ -1,8 +1,9 @@
-//! Model files and how a finding is written into them.
+//! Model files (TOML): read and checked, and patched by the effects that were found.
 
 pub(crate) mod dynamics;
 pub(crate) mod effect_entry;
 pub(crate) mod known;
+pub(crate) mod measurement;
 pub(crate) mod model_file;
 pub(crate) mod parameters;
 pub(crate) mod patch;

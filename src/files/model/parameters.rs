@@ -1,4 +1,4 @@
-//! `[parameters]`: what the vehicle measures, and what it pulls.
+//! `[parameters]`: the lengths and other constants of the vehicle, and of the trailers it pulls.
 
 use super::known::{Known, KnownVehicle};
 use crate::error::Result;

@@ -1,4 +1,4 @@
-//! `[grid]` and `[sample.of]`: what a sweep varies, and over which values.
+//! `[grid]` and `[sample.of]`: the axes of a sweep, as listed values, even steps or distributions.
 
 use crate::error::Result;
 use crate::files::toml::location::Spot;
@@ -6,8 +6,8 @@ use crate::files::toml::spanned_table::{Section, Value};
 use crate::files::toml::suggestions;
 use std::collections::BTreeSet;
 
-/// The most values of one axis.
-const MOST: usize = 10_000_000;
+/// The most values of one axis: they are held in memory, 80 MB of them.
+const MAX_VALUES: usize = 10_000_000;
 
 /// A quantity that takes each of some values.
 #[derive(Clone, Debug, PartialEq)]
@@ -147,7 +147,9 @@ fn axis(value: &Value) -> Result<AxisValues> {
         1 if from != to => {
             Err(count.error("one value cannot reach from one bound to the other").help("write count = 2"))
         }
-        n if n > MOST => Err(count.error(format!("count = {n} is more than {MOST}")).help("give fewer values")),
+        n if n > MAX_VALUES => {
+            Err(count.error(format!("count = {n} is more than {MAX_VALUES}")).help("give fewer values"))
+        }
         count => Ok(AxisValues::Even { from, to, count }),
     }
 }

@@ -1,4 +1,4 @@
-//! A sweep: one model, many cases.
+//! The sweep file (TOML): one model, its inputs, and many cases by grid and sample.
 
 use super::axis::{Axis, Sampled, read_grid, read_sampled};
 use crate::error::Result;
@@ -11,10 +11,10 @@ use crate::formula::Symbol;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// The most rows of one case.
-const MOST_ROWS: f64 = 1e6;
-/// The most cases; each has a number that a double holds exactly.
-const MOST_CASES: usize = 1 << 50;
+/// The most rows of one case: they are held in memory until the case is written.
+const MAX_ROWS: f64 = 1e6;
+/// The most cases: the number of each is written as a double, which holds it exactly.
+const MAX_CASES: usize = 1 << 50;
 
 /// The file of a sweep, read; its names are not yet held against the model.
 #[derive(Clone, Debug)]
@@ -120,7 +120,7 @@ impl SweepFile {
         let grid = top.section("grid")?.map_or(Ok(vec![]), |s| read_grid(&s))?;
         let (sampled, count, seed) = read_sample(&top)?;
         let cases = grid.iter().try_fold(count, |n, axis| n.checked_mul(axis.values.count()));
-        let cases = cases.filter(|n| *n <= MOST_CASES);
+        let cases = cases.filter(|n| *n <= MAX_CASES);
         let cases = cases.ok_or_else(|| top.error("there are more than 10^15 cases").help("give fewer values"))?;
         if let Some(twice) = sampled.iter().find(|s| grid.iter().any(|a| a.name == s.name)) {
             let error = twice.spot.error(format!("{} stands under [grid] and [sample.of]", twice.name));
@@ -240,7 +240,7 @@ impl SweepRows {
     pub fn times(self, start: f64, end: f64) -> Result<Vec<f64>> {
         let SweepRows::Every(every) = self else { return Ok(vec![end]) };
         let whole = ((end - start) / every * (1.0 - 1e-12)).ceil();
-        if whole >= MOST_ROWS {
+        if whole >= MAX_ROWS {
             let error = crate::Error::input(format!("every = {every:?} gives more than a million rows a case"));
             return Err(error.help("write a larger one"));
         }

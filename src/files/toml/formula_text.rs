@@ -1,4 +1,4 @@
-//! A formula of a file, every character with its place.
+//! A formula of a TOML file, every character of which has its line and column.
 
 use super::spanned_table::Value;
 use crate::error::{Error, Result};
@@ -6,15 +6,15 @@ use crate::formula::{Expr, Size, Symbol, caret, column_of};
 use std::ops::Range;
 use std::path::PathBuf;
 
-/// The longest formula of a file, in characters.
-const LONGEST: usize = 400;
-/// The most factors a product of it may have: larger powers of powers fill any memory with exact numbers.
-const MOST_FACTORS: usize = 64;
+/// The longest formula of a file, in characters: it stays on a few lines, and a caret below it can be seen.
+const MAX_CHARACTERS: usize = 400;
+/// The most factors in a product of a formula: larger powers of powers fill any memory with exact numbers.
+const MAX_FACTORS: usize = 64;
 
-/// What is wrong with a formula that would fill any memory with exact numbers.
+/// The complaint about a formula whose exact numbers would fill any memory.
 pub(crate) fn too_large(formula: &Expr) -> Option<String> {
     let degree = Size::of(formula, &|_| Size::SYMBOL).degree;
-    (degree > MOST_FACTORS).then(|| format!("the formula has a product of more than {MOST_FACTORS} factors"))
+    (degree > MAX_FACTORS).then(|| format!("the formula has a product of more than {MAX_FACTORS} factors"))
 }
 
 /// A formula, and where it stands in a file.
@@ -38,9 +38,9 @@ impl FormulaText {
     pub(crate) fn read(value: &Value) -> Result<Self> {
         let text = value.text()?;
         let length = text.chars().count();
-        if length > LONGEST {
+        if length > MAX_CHARACTERS {
             return Err(value
-                .error(format!("{} has {length} characters, and {LONGEST} are the most", value.name))
+                .error(format!("{} has {length} characters, and {MAX_CHARACTERS} are the most", value.name))
                 .help("write a shorter formula"));
         }
         let source = value.source;

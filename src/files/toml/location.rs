@@ -1,4 +1,4 @@
-//! A place in a file, for errors that are found after it was read.
+//! A place in a file: path, line and column, for errors that are found after the file was read.
 
 use super::spanned_table::Source;
 use crate::error::Error;

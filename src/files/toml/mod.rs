@@ -1,4 +1,4 @@
-//! TOML with the place of every key, for messages that name file, line and column.
+//! TOML files with the span of every key, for messages that name file, line and column.
 
 pub(crate) mod formula_text;
 pub(crate) mod location;

@@ -1,4 +1,4 @@
-//! TOML values that know their place, so that every complaint names line and column.
+//! TOML tables and values with their spans (`toml::Spanned`), so that every error names line and column.
 
 use super::suggestions;
 use super::text::place;

@@ -1,11 +1,11 @@
-//! "Did you mean": the name a slip of the fingers was aimed at.
+//! "Did you mean": the known name nearest to an unknown one, by edit distance (Levenshtein).
 
 /// Names listed in one piece of advice; a CSV may have hundreds of columns.
 const LISTED: usize = 16;
-/// Characters a message shows of a name.
-const SHOWN: usize = 40;
-/// Longer words are not compared: the distance takes quadratic time.
-const LONGEST: usize = 64;
+/// The most characters a message shows of a name: it stays on one line of a terminal.
+const MAX_SHOWN_CHARACTERS: usize = 40;
+/// The longest word that is compared, in characters: the distance takes quadratic time, and no id is longer.
+const MAX_COMPARED_CHARACTERS: usize = 64;
 
 /// Advice for an unknown `word`: the nearest candidate, and what there is.
 pub(crate) fn advice(word: &str, noun: &str, candidates: &[&str]) -> String {
@@ -28,19 +28,19 @@ pub(crate) fn list(names: &[&str]) -> String {
 /// A text from a file as a message may show it: one line, not too long, nothing that moves the cursor.
 pub(crate) fn shown(text: &str) -> String {
     let mut chars = text.chars().map(|c| if c.is_control() { ' ' } else { c });
-    let start: String = chars.by_ref().take(SHOWN).collect();
+    let start: String = chars.by_ref().take(MAX_SHOWN_CHARACTERS).collect();
     if chars.next().is_some() { start + "…" } else { start }
 }
 
 /// The candidate nearest to `word`, if one is near enough to be meant.
 pub(crate) fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
     let word = plain(word);
-    if word.is_empty() || word.len() > LONGEST {
+    if word.is_empty() || word.len() > MAX_COMPARED_CHARACTERS {
         return None;
     }
     let slips = |candidate: &&str| {
         let candidate = plain(candidate);
-        (candidate.len() <= LONGEST).then(|| strsim::generic_levenshtein(&word, &candidate))
+        (candidate.len() <= MAX_COMPARED_CHARACTERS).then(|| strsim::generic_levenshtein(&word, &candidate))
     };
     let close = candidates.iter().filter_map(|c| slips(c).map(|d| (d, *c))).min_by_key(|(d, _)| *d);
     match close {
@@ -59,13 +59,13 @@ fn shortens(short: &[char], long: &[char]) -> bool {
 /// One name is a part of the other, and long enough for that to mean something.
 fn holds(a: &[char], b: &[char]) -> bool {
     let (short, long) = if a.len() < b.len() { (a, b) } else { (b, a) };
-    short.len() >= 3 && long.len() <= LONGEST && long.windows(short.len()).any(|w| w == short)
+    short.len() >= 3 && long.len() <= MAX_COMPARED_CHARACTERS && long.windows(short.len()).any(|w| w == short)
 }
 
 /// Lower case, with every separator alike.
 fn plain(word: &str) -> Vec<char> {
     let same = |c: char| if matches!(c, '-' | ' ' | '.') { '_' } else { c };
-    word.chars().take(LONGEST + 1).flat_map(char::to_lowercase).map(same).collect()
+    word.chars().take(MAX_COMPARED_CHARACTERS + 1).flat_map(char::to_lowercase).map(same).collect()
 }
 
 #[cfg(test)]

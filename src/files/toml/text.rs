@@ -1,4 +1,4 @@
-//! Reading text files.
+//! Text files in UTF-8, read whole, with their SHA-256 and errors that say what is in the way.
 
 use crate::error::{Error, Result};
 use sha2::{Digest, Sha256};
@@ -6,8 +6,8 @@ use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
-/// Largest text file read whole: a model file has a few kilobytes, and a device may have no end.
-const LARGEST: u64 = 16 << 20;
+/// The largest text file, in bytes: a model file has a few kilobytes, and a device may have no end.
+const MAX_BYTES: u64 = 16 << 20;
 /// The byte order mark some editors put in front of UTF-8.
 pub(crate) const BOM: &str = "\u{feff}";
 
@@ -30,7 +30,7 @@ pub fn read_text(path: impl AsRef<Path>) -> Result<String> {
 /// The text of a file, and the SHA-256 of its bytes in hexadecimal.
 pub(crate) fn read_hashed(path: &Path) -> Result<(String, String)> {
     let mut bytes = Vec::new();
-    open(path)?.take(LARGEST + 1).read_to_end(&mut bytes).map_err(|e| unreadable(path, &e))?;
+    open(path)?.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(|e| unreadable(path, &e))?;
     let text = decode(&bytes).map_err(|e| e.at_file(path))?;
     Ok((text, hex(&Sha256::digest(&bytes))))
 }
@@ -69,7 +69,7 @@ pub(crate) fn not_text(bytes: &[u8]) -> Error {
 }
 
 fn decode(bytes: &[u8]) -> Result<String> {
-    if bytes.len() as u64 > LARGEST {
+    if bytes.len() as u64 > MAX_BYTES {
         return Err(Error::input("is larger than 16 MiB").help("check that this is the file you meant"));
     }
     if bytes.contains(&0) || bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
@@ -132,13 +132,13 @@ mod tests {
 
     #[test]
     fn a_text_may_be_as_large_as_is_said() {
-        let mut bytes = vec![b'a'; LARGEST as usize];
+        let mut bytes = vec![b'a'; MAX_BYTES as usize];
         assert!(decode(&bytes).is_ok());
         bytes.push(b'a');
         assert!(decode(&bytes).is_err());
     }
 
-    /// What stands in the way of a file is told by its kind; the administrator, who may read all, meets some of them never.
+    /// The error names what stands in the way of a file; the administrator, who may read all files, never meets some of them.
     #[test]
     fn what_cannot_be_read_is_told_by_its_kind() {
         for (kind, said) in [

@@ -1,4 +1,4 @@
-//! What files of a user's own effects and vehicles have in common.
+//! Files of a user's own effects and vehicles: their size, their ids, the number of entries and of factors they may have.
 
 use super::formula_text::FormulaText;
 use super::spanned_table::Value;
@@ -10,15 +10,16 @@ use crate::provenance::Origin;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The largest file, in bytes; a vehicle has some dozens of lines, an effect a few.
-const LARGEST: usize = 256 << 10;
-/// The most factors in a product of a formula of a constraint, which is multiplied out.
-const MOST_FACTORS: usize = 8;
+/// The largest file of a user's own, in bytes: a vehicle has some dozens of lines and an effect a few, so that a larger
+/// file is another one given by mistake.
+const MAX_BYTES: usize = 256 << 10;
+/// The most factors in a product of a formula of a constraint: it is multiplied out, and its terms grow with every factor.
+const MAX_FACTORS: usize = 8;
 
 /// A file's text, kept as the origin of what it defines.
-pub(crate) fn read_own(path: &Path, what: &str) -> Result<Arc<Origin>> {
+pub(crate) fn read_user_file(path: &Path, what: &str) -> Result<Arc<Origin>> {
     let (text, sha256) = read_hashed(path)?;
-    if text.len() > LARGEST {
+    if text.len() > MAX_BYTES {
         return Err(Error::input("is larger than 256 KiB")
             .at_file(path)
             .help(format!("check that this is the file of {what} you meant")));
@@ -40,7 +41,7 @@ pub(crate) fn read_id(value: &Value, of: &str, reserved: &[&str]) -> Result<Stri
     }
 }
 
-/// Refuses more entries than anything could be done with.
+/// Refuses a list of more than `most` entries.
 pub(crate) fn at_most(value: &Value, found: usize, most: usize) -> Result<()> {
     match found <= most {
         true => Ok(()),
@@ -48,16 +49,16 @@ pub(crate) fn at_most(value: &Value, found: usize, most: usize) -> Result<()> {
     }
 }
 
-/// A formula that may be multiplied out.
+/// Reads a formula that is small enough to be multiplied out.
 pub(crate) fn bounded(value: &Value) -> Result<FormulaText> {
     let text = FormulaText::read(value)?;
-    match Size::of(&text.formula, &|_| Size::SYMBOL).degree > MOST_FACTORS {
+    match Size::of(&text.formula, &|_| Size::SYMBOL).degree > MAX_FACTORS {
         true => Err(too_long(&text)),
         false => Ok(text),
     }
 }
 
 fn too_long(text: &FormulaText) -> Error {
-    let error = text.error(format!("a constraint has a product of more than {MOST_FACTORS} factors"));
+    let error = text.error(format!("a constraint has a product of more than {MAX_FACTORS} factors"));
     error.help("define a symbol for a part of it")
 }

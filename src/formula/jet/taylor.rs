@@ -1,6 +1,7 @@
 //! The Taylor coefficients of the functions of the language at an exact place.
 
 use crate::formula::{BigRational, Exact, Fun, Scalar};
+use dashu_base::Inverse;
 use num_traits::{One, Zero};
 
 /// f(c) and the coefficients of u, u², … up to the order in f(c + u); `None` where they are not exact or not known.
@@ -30,7 +31,7 @@ pub(super) fn taylor(f: Fun, c: &Exact, order: usize) -> Option<(Exact, Vec<BigR
 }
 
 fn whole(n: usize) -> BigRational {
-    BigRational::from_integer(n.into())
+    BigRational::from(n)
 }
 
 /// A function with f″ = −f, from its value and slope.
@@ -48,7 +49,7 @@ fn circular(value: &BigRational, slope: &BigRational, order: usize) -> Vec<BigRa
 fn riccati(value: BigRational, sign: &BigRational, order: usize) -> Vec<BigRational> {
     let mut a = vec![value];
     for k in 0..order {
-        let square: BigRational = (0..=k).map(|i| &a[i] * &a[k - i]).sum();
+        let square = (0..=k).fold(BigRational::zero(), |sum, i| sum + &a[i] * &a[k - i]);
         let one = if k == 0 { BigRational::one() } else { BigRational::zero() };
         a.push(sign * (one + square) / whole(k + 1));
     }
@@ -61,7 +62,7 @@ fn arc(c: &BigRational, order: usize) -> Vec<BigRational> {
     let mut slope: Vec<BigRational> = Vec::with_capacity(order);
     for k in 0..order {
         slope.push(match k {
-            0 => size.recip(),
+            0 => (&size).inv(),
             1 => -(whole(2) * c * &slope[0]) / &size,
             _ => -(whole(2) * c * &slope[k - 1] + &slope[k - 2]) / &size,
         });
@@ -71,7 +72,7 @@ fn arc(c: &BigRational, order: usize) -> Vec<BigRational> {
 
 /// The square root: the binomial series.
 fn root(value: BigRational, c: &BigRational, order: usize) -> Vec<BigRational> {
-    let half = BigRational::new(1.into(), 2.into());
+    let half = BigRational::from_parts_signed(1.into(), 2.into());
     let mut last = value;
     let coefficient = |k: usize| {
         last = &last * (&half - whole(k)) / (c * whole(k + 1));

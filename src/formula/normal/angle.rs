@@ -4,6 +4,7 @@ use super::atom::{Atom, Monomial};
 use super::fraction::Fraction;
 use crate::formula::exact::root;
 use crate::formula::{BigInt, BigRational};
+use dashu_base::Inverse;
 use num_traits::{One, Pow, ToPrimitive};
 use std::sync::Arc;
 
@@ -27,9 +28,9 @@ impl Angle {
         }
         let (size, p) = value.as_multiple()?;
         let part = |m: &Monomial, v: &BigInt| {
-            let times = size * BigRational::from_integer(v.clone());
-            let times = if times.is_integer() {
-                times.numer().to_i32().filter(|k| k.abs() <= MAX_TIMES)?
+            let times = size * BigRational::from(v.clone());
+            let times = if times.is_int() {
+                times.numerator().to_i32().filter(|k| k.abs() <= MAX_TIMES)?
             } else {
                 return None;
             };
@@ -53,7 +54,7 @@ impl Angle {
     /// (cos, sin) where the length of the direction is rational; its sign is known by then.
     pub fn cos_sin(&self) -> Option<(Fraction, Fraction)> {
         let Direction { x, y } = self.direction(of_known_length)?;
-        let scale = Fraction::constant(root(&self.constant_square())?.recip());
+        let scale = Fraction::constant(root(&self.constant_square())?.inv());
         Some((x.times(&scale)?, y.times(&scale)?))
     }
 
@@ -64,7 +65,7 @@ impl Angle {
     /// The square of the length that the arctangents of numbers bring in: Π(1 + u²)ᵏ.
     fn constant_square(&self) -> BigRational {
         let parts = self.0.iter().filter_map(|(atom, times)| match atom {
-            Atom::Arctan(u) => u.as_constant().map(|u| Pow::pow(BigRational::one() + u * u, times.abs())),
+            Atom::Arctan(u) => u.as_constant().map(|u| (BigRational::one() + u * u).pow(times.unsigned_abs() as isize)),
             _ => None,
         });
         parts.fold(BigRational::one(), |product, part| product * part)
@@ -72,7 +73,7 @@ impl Angle {
 }
 
 fn number(n: i64) -> Fraction {
-    Fraction::constant(BigRational::from_integer(n.into()))
+    Fraction::constant(BigRational::from(n))
 }
 
 /// (cos, sin) of a symbol, (1, u) of the arctangent of u.

@@ -79,12 +79,12 @@ impl Fraction {
         if n < 0 && !self.is_surely_nonzero() {
             return None;
         }
-        let bits = bits(self.coefficient.numer()).max(bits(self.coefficient.denom()));
+        let bits = bits(self.coefficient.numerator()).max(bits(self.coefficient.denominator().as_ibig()));
         if bits > 1 && bits.checked_mul(n.unsigned_abs().into())? > MAX_BITS {
             return None;
         }
         let raised = self.factors.iter().map(|(p, k)| Some((p.clone(), k.checked_mul(n)?)));
-        Some(Self { coefficient: num_traits::Pow::pow(&self.coefficient, n), factors: raised.collect::<Option<_>>()? })
+        Some(Self { coefficient: self.coefficient.pow(n as isize), factors: raised.collect::<Option<_>>()? })
     }
 
     /// x·y
@@ -108,25 +108,26 @@ impl Fraction {
         }
         let shared = shared(&self.factors, &other.factors);
         let (a, b) = (expanded(&self.factors, &shared)?, expanded(&other.factors, &shared)?);
-        let below = self.coefficient.denom().lcm(other.coefficient.denom());
-        let above = |v: &BigRational| v.numer() * (&below / v.denom());
+        let below = self.coefficient.denominator().as_ibig().lcm(other.coefficient.denominator().as_ibig());
+        let above = |v: &BigRational| v.numerator() * (&below / v.denominator().as_ibig());
         let sum = a.combined(&above(&self.coefficient), &above(&other.coefficient), &b)?;
         if sum.is_zero() {
             return Some(Self::constant(BigRational::zero()));
         }
-        let mut result = Self { coefficient: BigRational::new(BigInt::one(), below), factors: shared };
+        let mut result = Self { coefficient: BigRational::from_parts_signed(BigInt::one(), below), factors: shared };
         result.absorb_parts(&sum, 1)?;
         result.bounded()
     }
 
     fn bounded(self) -> Option<Self> {
-        (bits(self.coefficient.numer()).max(bits(self.coefficient.denom())) <= MAX_BITS).then_some(self)
+        (bits(self.coefficient.numerator()).max(bits(self.coefficient.denominator().as_ibig())) <= MAX_BITS)
+            .then_some(self)
     }
 
     /// Multiplies by a power of any polynomial but zero.
     fn absorb_parts(&mut self, p: &Poly, k: i32) -> Option<()> {
         let (content, shared, rest) = p.parts();
-        self.coefficient *= num_traits::Pow::pow(BigRational::from_integer(content), k);
+        self.coefficient *= BigRational::from(content).pow(k as isize);
         for (atom, l) in shared.powers() {
             self.absorb(&Arc::new(Poly::monomial(Monomial::of(atom.clone()))), k.checked_mul(l.to_i32()?)?)?;
         }
@@ -167,12 +168,12 @@ impl Fraction {
 
     /// What stands above the line.
     pub fn numerator(&self) -> Expr {
-        product(self.coefficient.numer(), self.factors.iter().map(|(p, k)| (p, *k)))
+        product(self.coefficient.numerator(), self.factors.iter().map(|(p, k)| (p, *k)))
     }
 
     /// What stands below the line.
     pub fn denominator(&self) -> Expr {
-        product(self.coefficient.denom(), self.factors.iter().map(|(p, k)| (p, k.saturating_neg())))
+        product(self.coefficient.denominator().as_ibig(), self.factors.iter().map(|(p, k)| (p, k.saturating_neg())))
     }
 
     /// The quotient as a formula.
@@ -219,6 +220,6 @@ fn expanded(factors: &Factors, shared: &Factors) -> Option<Poly> {
 
 /// A whole number times the positive powers.
 fn product<'a>(size: &BigInt, factors: impl Iterator<Item = (&'a Arc<Poly>, i32)>) -> Expr {
-    let number = Expr::number(&BigRational::from_integer(size.clone()));
+    let number = Expr::number(&BigRational::from(size.clone()));
     factors.filter(|(_, k)| *k > 0).fold(number, |product, (p, k)| &product * &p.expr().pow(k))
 }

@@ -195,7 +195,7 @@ impl Poly {
 fn term(m: &Monomial, size: &BigInt) -> Expr {
     let factors = m.powers().iter().map(|(a, k)| a.expr().pow(i32::try_from(*k).unwrap_or(i32::MAX)));
     // Not a fold from the number: 1·x and x·1 are x, but 2·(x·y) prints its parentheses.
-    factors.fold(Expr::number(&BigRational::from_integer(size.clone())), |product, factor| &product * &factor)
+    factors.fold(Expr::number(&BigRational::from(size.clone())), |product, factor| &product * &factor)
 }
 
 /// Short polynomials first, and of those the leading atom: products are printed in this order.

@@ -25,7 +25,7 @@ impl Estimate {
 }
 
 /// Units in the last place that rounding leaves of a number at best, as a share of one.
-const LEAST_ROUNDING: f64 = 4.0 * f64::EPSILON;
+const MIN_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// What rounding leaves of each lane at best, relative to the size of a state above one: units in the last place, and of
 /// the place on the plane what a heading that is rounded makes of the way there.
@@ -51,7 +51,7 @@ impl Floor {
 
     /// Of a lane.
     pub fn of(&self, l: usize) -> f64 {
-        LEAST_ROUNDING * (1.0 + self.turned_way[l])
+        MIN_ROUNDING * (1.0 + self.turned_way[l])
     }
 }
 
@@ -80,7 +80,7 @@ mod tests {
                 states.note_reach();
                 floor.see(&states, 3);
             }
-            floor.of(5) / LEAST_ROUNDING
+            floor.of(5) / MIN_ROUNDING
         };
         assert_eq!(of([0.0; 3], &[[0.0, 0.0, 0.0]]), 1.0);
         assert_eq!(of([0.0, 0.0, 3.0], &[[0.5, -2.0, -30.0]]), 1.0 + 2.0 * 36.0);

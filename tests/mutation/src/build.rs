@@ -13,8 +13,8 @@ use std::process::{Command, Output};
 const PROFILE: &str = "\n[profile.schemata]\ninherits = \"dev\"\nopt-level = 1\ndebug = false\nincremental = false\n\
                        \n[profile.schemata.package.\"*\"]\nopt-level = 3\n";
 
-/// Numbers that the switch can note.
-const MOST: usize = 8192;
+/// The most mutants of one build: the switch can note so many numbers.
+const MAX_MUTANTS: usize = 8192;
 
 /// What the mutants were found in is left out of the search for errors after this many rounds.
 const ROUNDS: usize = 25;
@@ -22,7 +22,7 @@ const ROUNDS: usize = 25;
 /// Copies, rewrites and builds; leaves `fates.tsv` with a line for every mutant.
 pub fn make(at: &Places) {
     let mutants = list(at);
-    assert!(mutants.len() <= MOST, "{} mutants are more than {MOST}: take a --shard of them", mutants.len());
+    assert!(mutants.len() <= MAX_MUTANTS, "{} mutants are more than {MAX_MUTANTS}: take a --shard of them", mutants.len());
     std::fs::create_dir_all(at.copy()).unwrap();
     copy(at);
     let mut fates: BTreeMap<usize, Fate> = BTreeMap::new();

@@ -73,7 +73,7 @@ const SHARES: [u32; 2] = [20, 1];
 const WORKERS: usize = 2;
 
 /// Processor time after which a test is left out, in seconds.
-const LONGEST: u64 = 60;
+const MAX_SECONDS: u64 = 60;
 
 /// The line of a test; nothing when it does not pass.
 fn line(at: &Places, [binary, path, name]: [&str; 3], met: &Path) -> Option<String> {
@@ -91,8 +91,8 @@ fn alone(at: &Places, path: &str, name: &str, one_in: u32, met: &Path) -> Option
     let note = |limit| run(("MUTANT_REACH", met.to_str().unwrap()), limit);
     // The switches of a shard are far between: noting them takes no time.
     let few = at.shard.1 > 1;
-    let (ended, took) = if few { note(LONGEST) } else { run(("MUTANT", "1000000"), LONGEST) };
-    if ended != End::Passed || !few && note(20 * LONGEST).0 != End::Passed {
+    let (ended, took) = if few { note(MAX_SECONDS) } else { run(("MUTANT", "1000000"), MAX_SECONDS) };
+    if ended != End::Passed || !few && note(20 * MAX_SECONDS).0 != End::Passed {
         return None;
     }
     let text = std::fs::read_to_string(met).unwrap_or_default();

@@ -104,12 +104,12 @@ fn file(test: &str) -> &str {
 /// Quick tests of a file run together, the others alone; many claims a few at a time.
 fn units<'a>(tests: &'a [Test], id: usize, from: f64, up_to: f64) -> Vec<Unit<'a>> {
     const TOGETHER: f64 = 0.1;
-    const MANY: usize = 20;
+    const MIN_GROUPED_CLAIMS: usize = 20;
     let mut made: BTreeMap<(String, u32), Unit> = BTreeMap::new();
     let met = |t: &&Test| from <= t.seconds && t.seconds < up_to && t.met.contains(&(id as u32));
     let claims = tests.iter().filter(met).filter(|t| t.binary == CLAIM).count();
     for (i, t) in tests.iter().filter(met).enumerate() {
-        let key = match t.binary == CLAIM && claims > MANY && t.seconds < 1.0 {
+        let key = match t.binary == CLAIM && claims > MIN_GROUPED_CLAIMS && t.seconds < 1.0 {
             true => format!("{CLAIM} {}", i / 10),
             false if t.seconds < TOGETHER => format!("{} {}", t.binary, file(&t.name)),
             false => format!("{} {}", t.binary, t.name),

@@ -18,10 +18,10 @@ use std::path::{Path, PathBuf};
 
 /// Names of the times of a message: of its header, and of its recording.
 const TIMES: [&str; 3] = ["time", "stamp", "log_time"];
-/// A record may be as large as the file, or so many bytes.
-const LARGEST_RECORD: u64 = 64 << 20;
-/// More columns than these are no log.
-const MOST_COLUMNS: usize = 20_000;
+/// The largest record, in bytes, of a file that is smaller than this; that of a larger one is as large as the file.
+const MAX_RECORD_BYTES: u64 = 64 << 20;
+/// The most columns: a file with more of them is no log.
+const MAX_COLUMNS: usize = 20_000;
 
 /// An MCAP file whose topics are known.
 pub(crate) struct Bag {
@@ -53,7 +53,7 @@ impl Bag {
                     columns += 1;
                 }
             }
-            if columns > MOST_COLUMNS {
+            if columns > MAX_COLUMNS {
                 return Err(Error::input("has too many fields").at_file(path).help("give a bag with fewer joints"));
             }
         }
@@ -134,7 +134,7 @@ impl Bag {
 fn messages(path: &Path) -> Result<MessageReader<BufReader<File>>> {
     let file = open(path)?;
     let size = file.metadata().map_or(0, |m| m.len());
-    let limit = usize::try_from(size.max(LARGEST_RECORD)).unwrap_or(usize::MAX);
+    let limit = usize::try_from(size.max(MAX_RECORD_BYTES)).unwrap_or(usize::MAX);
     let options = LinearReaderOptions::default().with_record_length_limit(limit);
     Ok(MessageReader::new_with_options(BufReader::new(file), options))
 }

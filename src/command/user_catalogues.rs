@@ -1,4 +1,4 @@
-//! `--vehicles FILE.toml` and `--effects FILE.toml`
+//! The options `--vehicles FILE.toml` and `--effects FILE.toml`: catalogues with a user's own vehicles and effects.
 
 use clap::Args;
 use creepage::effects::{self, Effect};
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 /// The user's own vehicles, beside those of the catalogue.
 #[derive(Args)]
-pub struct OwnVehicles {
+pub struct UserVehicles {
     /// Vehicles of your own, as in examples/bus/bus.toml; a model file may name them by vehicles = "FILE.toml" too
     #[arg(long, value_name = "FILE.toml")]
     vehicles: Option<PathBuf>,
@@ -17,15 +17,15 @@ pub struct OwnVehicles {
 
 /// The user's own vehicles and effects, beside those of the catalogues.
 #[derive(Args)]
-pub struct Own {
+pub struct UserCatalogues {
     #[command(flatten)]
-    vehicles: OwnVehicles,
+    vehicles: UserVehicles,
     /// Effects of your own, as in examples/effects/my_effects.toml; they join the library
     #[arg(long, value_name = "FILE.toml")]
     effects: Option<PathBuf>,
 }
 
-impl OwnVehicles {
+impl UserVehicles {
     /// The file, if one is given.
     pub fn file(&self) -> Option<&Path> {
         self.vehicles.as_deref()
@@ -40,7 +40,7 @@ impl OwnVehicles {
     }
 }
 
-impl Own {
+impl UserCatalogues {
     /// The vehicles, and the library of effects.
     pub fn catalogues(&self) -> Result<(Vec<Vehicle>, Vec<Effect>)> {
         let vehicles = self.vehicles.all()?;

@@ -1,0 +1,68 @@
+//! What a reader of a report has to know beside its answer, as data.
+
+use crate::discrepancy::preprocessing::dataset::DatasetNote;
+use crate::discrepancy::preprocessing::quantisation::CoarseInput;
+use crate::discrepancy::preprocessing::unit_errors::Slip;
+use crate::effects::Applied;
+
+/// A warning.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Warning {
+    /// What reading a run's file gave, in words of the reader.
+    Reading {
+        /// Name of the run.
+        run: String,
+        /// The words.
+        says: String,
+    },
+    /// How a run enters the data.
+    Dataset(DatasetNote),
+    /// No run is long enough for a horizon, s.
+    HorizonTooLong(f64),
+    /// Parts of the runs ask for other values of effects.
+    Inconsistent(Vec<Applied>),
+    /// Effects take other values where every second row of the inputs is left out.
+    SamplingSensitive(Vec<Applied>),
+    /// An effect of the model file that the runs ask for with other values.
+    Restated {
+        /// As the file has it.
+        old: Applied,
+        /// As it was fitted.
+        new: Applied,
+    },
+    /// A parameter far beyond its usual size.
+    Implausible {
+        /// The effect.
+        applied: Applied,
+        /// The parameter.
+        parameter: String,
+        /// Its value.
+        value: f64,
+        /// Its usual size.
+        usual: f64,
+        /// A slip of units that does the same.
+        slip: Option<Slip>,
+    },
+    /// The held-out gap grew.
+    HeldOutGapGrew {
+        /// s
+        horizon: f64,
+        /// m
+        before: f64,
+        /// m
+        after: f64,
+    },
+    /// An input in coarse steps.
+    CoarseInput(CoarseInput),
+    /// Another offset of a run's clocks, s, fits nearly as well as its own.
+    ClockOffsetInDoubt {
+        /// Name of the run.
+        run: String,
+        /// The offset that was taken.
+        own: f64,
+        /// The other one.
+        other: f64,
+    },
+    /// The model's delay of the inputs is left out: the offset of the clocks has it.
+    DelayLeftOut,
+}

@@ -1,0 +1,61 @@
+//! Findings of the state of the data in words.
+
+use super::{slip_text, warning_text};
+use crate::discrepancy::identifiability::check_report::Finding;
+use crate::discrepancy::identifiability::data_finding::{DataFinding, Side};
+use crate::number_format::significant;
+
+/// The components of unexplained motion.
+const COMPONENTS: [&str; 4] = ["along the vehicle", "across the vehicle", "in yaw", "of trailers"];
+
+/// A finding as the check lists it.
+pub fn finding(of: &DataFinding) -> Finding {
+    Finding { id: of.id().into(), says: says(of) }
+}
+
+fn says(of: &DataFinding) -> String {
+    match of {
+        DataFinding::RowsDropped { run, dropped, all, why } => {
+            let why: Vec<String> = why.iter().map(|(why, n)| format!("{why}: {n}")).collect();
+            format!("{run}: {dropped} of {all} rows are left out ({})", why.join(", "))
+        }
+        DataFinding::Interrupted { run, times, longest } => {
+            format!("{run}: the log is interrupted {times} times, by {} s at most", significant(*longest, 3))
+        }
+        DataFinding::TimeUnit { run, step } => {
+            format!("{run}: rows are {} s apart: is time in seconds?", significant(*step, 3))
+        }
+        DataFinding::UnevenTimes { run, jitter } => {
+            let percent = significant(100.0 * jitter, 2);
+            format!("{run}: times between rows scatter by {percent} %: are they those of measuring?")
+        }
+        DataFinding::Way { run, ratio, cause } => format!("{run}: {}", slip_text::way(*ratio, *cause)),
+        DataFinding::Turning { run, ratio, cause } => format!("{run}: {}", slip_text::turning(*ratio, *cause)),
+        DataFinding::NoTurns => "these runs hardly turn: what acts in turns does not show".into(),
+        DataFinding::OneTurnDirection(side) => {
+            let side = match side {
+                Side::Left => "left",
+                Side::Right => "right",
+            };
+            format!("these runs turn to the {side} only: a bias, a constant creep and a wrong scale look alike")
+        }
+        DataFinding::OneSpeed(speed) => {
+            let speed = significant(*speed, 2);
+            format!("these runs have one speed, {speed} m/s: what grows with speed looks like what does not")
+        }
+        DataFinding::NoHeading => {
+            "no heading is measured: it is told from the path, and small angles hide in it".into()
+        }
+        DataFinding::Reading { run, says } => format!("{run}: {says}"),
+        DataFinding::CoarseInput(input) => warning_text::coarse_input(input),
+        DataFinding::ColouredNoise(rows) => {
+            let n = significant(*rows, 2);
+            format!("the pose's noise is alike over {n} rows: a filtered or smoothed pose")
+        }
+        DataFinding::UnexplainedMotion(component) => format!(
+            "these runs hold motion that the model does not explain, most of it {}: `creepage discover` has something to find",
+            COMPONENTS[*component]
+        ),
+        DataFinding::Clock(warning) => warning_text::line(warning),
+    }
+}

@@ -1,0 +1,70 @@
+//! Warnings in words.
+
+use super::effect_names::{named, values};
+use super::slip_text;
+use crate::discrepancy::diagnosis::warning::Warning;
+use crate::discrepancy::preprocessing::dataset::DatasetNote;
+use crate::discrepancy::preprocessing::quantisation::CoarseInput;
+use crate::effects::Applied;
+use crate::number_format::significant;
+
+/// A warning as a line.
+pub fn line(warning: &Warning) -> String {
+    match warning {
+        Warning::Reading { run, says } => format!("{run}: {says}"),
+        Warning::Dataset(DatasetNote::Interrupted { run, pieces }) => {
+            format!("{run}: the log is interrupted; it is used in {pieces} pieces")
+        }
+        Warning::Dataset(DatasetNote::NotFitted { run }) => {
+            format!("{run}: too short for a window of one second; it is not fitted")
+        }
+        Warning::HorizonTooLong(h) => format!("the runs are too short for a gap after {h} s"),
+        Warning::Inconsistent(effects) => format!("{}, so that is not named", inconsistent(effects)),
+        Warning::SamplingSensitive(effects) => format!("{}, so that is not named", sampling_sensitive(effects)),
+        Warning::Restated { old, new } => {
+            let (label, old, new) = (new.label(), values(old), values(new));
+            format!("the model has {label} with {old}; these runs ask for {new} in its place")
+        }
+        Warning::Implausible { applied, parameter, value, usual, slip } => {
+            let doubt = slip.as_ref().map_or_else(
+                || ": check numbers and units of model file and log, or it imitates another effect".into(),
+                |slip| format!("; {}", slip_text::clause(slip)),
+            );
+            let [value, usual] = [(value, 3), (usual, 2)].map(|(x, digits)| significant(*x, digits));
+            format!("{} {parameter} = {value} is far beyond the usual {usual}{doubt}", applied.label())
+        }
+        Warning::HeldOutGapGrew { horizon, before, after } => {
+            let [before, after] = [before, after].map(|gap| significant(*gap, 3));
+            format!(
+                "the held-out gap after {horizon} s grows with what was found, from {before} to {after} m: those runs do \
+                 not bear it out"
+            )
+        }
+        Warning::CoarseInput(input) => coarse_input(input),
+        Warning::ClockOffsetInDoubt { run, own, other } => {
+            let [own, other] = [own, other].map(|offset| significant(*offset, 4));
+            format!(
+                "{run}: a clock offset of {other} s fits nearly as well as {own} s; give --clock-offset if you know it"
+            )
+        }
+        Warning::DelayLeftOut => {
+            "the model's input-delay is left out: it is one with the offset of the clocks, which has it".into()
+        }
+    }
+}
+
+/// That parts of the runs ask for effects differently.
+pub fn inconsistent(effects: &[Applied]) -> String {
+    format!("parts of these runs ask for other values of {}", named(effects))
+}
+
+/// That effects take other values where the inputs are logged half as often.
+pub fn sampling_sensitive(effects: &[Applied]) -> String {
+    format!("with every second row of the inputs left out these runs ask for other values of {}", named(effects))
+}
+
+/// An input that comes in steps.
+pub fn coarse_input(input: &CoarseInput) -> String {
+    let CoarseInput { run, role, step, unit } = input;
+    format!("{run}: {role} comes in steps of {} {unit}; what it does within one is not logged", significant(*step, 2))
+}

@@ -1,0 +1,160 @@
+//! The equations of motion of a model compiled: formulas and their exact derivatives to programs over lanes.
+
+use super::equations::Equations;
+use super::vehicle_model::Model;
+use super::{observation, state};
+use crate::error::{Error, Result};
+use crate::formula::{Changes, Expr, Graph, Lanes, NodeId, Program, Symbol};
+use std::collections::BTreeMap;
+
+impl Model {
+    /// Values of every fixed symbol of the model's formulas.
+    pub fn values(&self) -> BTreeMap<Symbol, f64> {
+        let mut values: BTreeMap<Symbol, f64> = self.parameters.iter().map(|(k, v)| (Symbol::new(k), *v)).collect();
+        for (i, t) in (self.vehicle.trailers.len() + 1..).zip(&self.trailers) {
+            values.insert(Symbol::new(&format!("trailer_length_{i}")), t.length);
+            values.insert(Symbol::new(&format!("hitch_offset_{i}")), t.hitch);
+        }
+        values.insert("sensor.a".into(), self.sensor.lever_arm[0]);
+        values.insert("sensor.b".into(), self.sensor.lever_arm[1]);
+        values.insert("sensor.heading_offset".into(), self.sensor.heading_offset);
+        for e in &self.effects {
+            values.extend(e.parameters().into_iter().zip(e.values.iter().copied()));
+        }
+        values
+    }
+
+    /// The symbols of the states: pose, trailer headings, hidden states: coordinates of its own, states of effects.
+    pub fn states(&self) -> Vec<Symbol> {
+        let mut states: Vec<Symbol> = state::node_symbols(self.trailer_count()).collect();
+        states.extend(self.own_states());
+        states.extend(self.effects.iter().flat_map(|e| e.states()).map(|(s, _)| s));
+        states
+    }
+
+    /// How many states are free at the start of every window.
+    fn nodes(&self) -> usize {
+        state::nodes(self.trailer_count()).len()
+    }
+
+    /// The rates of the states, in their order.
+    pub(crate) fn state_rates(&self) -> Vec<Expr> {
+        let states = self.states();
+        let hidden = self.effects.iter().flat_map(|e| e.states()).map(|(_, rate)| rate);
+        let of_effects = self.effects.iter().map(|e| e.states().len()).sum::<usize>();
+        let own = states[..states.len() - of_effects].iter().map(|s| Expr::sym(s.rate()));
+        own.chain(hidden).collect()
+    }
+
+    /// Compiles the equations of motion with the given symbols left free.
+    ///
+    /// # Errors
+    /// When a formula uses a name that nothing defines, or formulas refer to each other in a circle.
+    pub fn equations(&self, free: &[Symbol]) -> Result<Equations> {
+        let inputs: Vec<Symbol> = self.inputs.iter().map(|i| Symbol::new(i)).collect();
+        self.compiled(free, &[&self.states()[..], &inputs, free].concat())
+    }
+
+    /// The equations of motion with the derivatives of the rates by free symbols alone.
+    pub(crate) fn equations_by(&self, free: &[Symbol]) -> Result<Equations> {
+        self.compiled(free, free)
+    }
+
+    /// The equations of motion for a simulation: the rates have no derivatives where nothing asks for them. Those of a
+    /// train of N trailers are N² formulas.
+    pub(crate) fn equations_to_simulate(&self) -> Result<Equations> {
+        let hidden = self.states().len() > self.nodes();
+        if hidden { self.equations(&[]) } else { self.compiled(&[], &[]) }
+    }
+
+    /// The equations with the derivatives of the rates by some symbols.
+    fn compiled(&self, free: &[Symbol], by: &[Symbol]) -> Result<Equations> {
+        let definitions = self.definitions()?;
+        let mut graph = Graph::default();
+        definitions.insert_into(&mut graph)?;
+        let states = self.states();
+        let visible = self.nodes();
+        let rates: Vec<NodeId> = self.state_rates().iter().map(|rate| graph.insert(rate)).collect();
+        let inputs: Vec<Symbol> = self.inputs.iter().map(|i| Symbol::new(i)).collect();
+        let values: Vec<(Symbol, f64)> = self.values().into_iter().filter(|(s, _)| !free.contains(s)).collect();
+        let slots: Vec<Symbol> =
+            [&states[..], &inputs, free].concat().into_iter().chain(values.iter().map(|(s, _)| s.clone())).collect();
+        // Parameters are set once for a workspace; what hangs on them alone is computed then.
+        let moving = states.len() + inputs.len();
+        let changes: Vec<Changes> =
+            (0..slots.len()).map(|i| if i < moving { Changes::Lane } else { Changes::Case }).collect();
+        let compile = |graph: &Graph, nodes: &[NodeId]| {
+            let program = Program::compile(graph, &slots, nodes).map_err(|name| {
+                Error::input(format!("a formula uses {name}, which nothing defines"))
+                    .help("declare it as a parameter or a state, or correct the name")
+            })?;
+            Ok::<_, Error>(Lanes::new(&program, &changes))
+        };
+        let plain = compile(&graph, &rates)?;
+        let jacobian = with_derivatives(&mut graph, &rates, by);
+        let read = live(&graph, &jacobian, rates.len());
+        let carried = match visible < states.len() {
+            true => carried(&mut graph, &jacobian, &read, [visible, states.len(), by.len()]),
+            false => None,
+        };
+        let carried =
+            carried.map(|nodes| Ok::<_, Error>((live(&graph, &nodes, rates.len()), compile(&graph, &nodes)?)));
+        let carried = carried.transpose()?;
+        let jacobian = compile(&graph, &jacobian)?;
+        let outputs = observation::outputs(self.trailer_count());
+        let measured: Vec<NodeId> = outputs.map(|y| graph.insert(&Expr::sym(y.symbol()))).collect();
+        let measured = with_derivatives(&mut graph, &measured, &[&states[..visible], free].concat());
+        let outputs = compile(&graph, &measured)?;
+        let delay = graph.insert(&Expr::sym("delay"));
+        let delay = with_derivatives(&mut graph, &[delay], free);
+        let delay = compile(&graph, &delay)?;
+        let constants = values.into_iter().map(|(_, v)| v).collect();
+        let whole = Equations {
+            states,
+            visible,
+            inputs,
+            free: free.to_vec(),
+            constants,
+            rates: plain,
+            jacobian,
+            live: read,
+            outputs,
+            delay,
+            carried: None,
+        };
+        let carried = carried.map(|(live, jacobian)| Box::new(Equations { live, jacobian, ..whole.clone() }));
+        Ok(Equations { carried, ..whole })
+    }
+}
+
+/// The nodes followed, node by node, by their derivatives with respect to each symbol.
+fn with_derivatives(graph: &mut Graph, nodes: &[NodeId], by: &[Symbol]) -> Vec<NodeId> {
+    let columns: Vec<Vec<NodeId>> = by.iter().map(|s| graph.derivatives(nodes, s)).collect();
+    let row = |i: usize| columns.iter().map(move |c| c[i]);
+    nodes.iter().copied().chain((0..nodes.len()).flat_map(row)).collect()
+}
+
+/// Which of the derivatives that follow so many rates are not zero by their formula.
+fn live(graph: &Graph, nodes: &[NodeId], rates: usize) -> Vec<usize> {
+    (rates..nodes.len()).filter(|k| !graph.is_zero(nodes[*k])).collect()
+}
+
+/// Rates and derivatives without what only the pose is moved by; `None` where hidden states, or the steps that they
+/// are integrated in, ask for the pose.
+fn carried(
+    graph: &mut Graph,
+    nodes: &[NodeId],
+    live: &[usize],
+    [visible, n, width]: [usize; 3],
+) -> Option<Vec<NodeId>> {
+    let is_live = |i: usize, j: usize| live.binary_search(&(n + i * width + j)).is_ok();
+    let mut asked =
+        (0..n).filter(|i| *i == state::DIRECTION || *i >= visible).flat_map(|i| (0..visible).map(move |j| (i, j)));
+    let steps = (0..visible).any(|i| is_live(i, i));
+    if width < n || steps || asked.any(|(i, j)| is_live(i, j)) {
+        return None;
+    }
+    let zero = graph.insert(&Expr::int(0));
+    let kept = |k: usize| k == state::DIRECTION || (visible..n).contains(&k) || k >= n + visible * width;
+    Some(nodes.iter().enumerate().map(|(k, node)| if kept(k) { *node } else { zero }).collect())
+}

@@ -1,0 +1,16 @@
+//! What [`discover`](crate::discover()) and [`check`](crate::check()) say, part by part, as data.
+//!
+//! A [`Report`](crate::Report) is `report.json`; a [`Check`](crate::Check) is what `creepage check --format json` prints.
+//! Both are read and written by `serde`.
+//!
+//! ```
+//! use creepage::report::Estimate;
+//! let creep: Estimate = serde_json::from_str(r#"{"value": 0.05, "std": null, "unit": "1"}"#).unwrap();
+//! assert_eq!((creep.value, creep.std), (0.05, None));
+//! ```
+
+pub use crate::discrepancy::identifiability::{Finding, Health, Pair, Parameter, Prospect, RunHealth, Seen, Standing};
+pub use crate::discrepancy::report::{
+    BeforeAfter, DataSummary, Disagreement, Estimate, Evidence, Floor, Gap, Named, NextExperiment, Provenance,
+    Remaining, RemainingConstraint, Rival, RunClock, Step, Unnamed,
+};

@@ -1,0 +1,62 @@
+//! The stages of the crate in their order, and the stage of a file.
+
+/// The stages in their order, folders and files below `src`. Stages of one line are level: none of them imports another.
+const STAGES: [&[&str]; 47] = [
+    &["error"],
+    &["provenance", "wording", "number_format", "progress"],
+    &["formula"],
+    &["mechanism"],
+    &["vehicles"],
+    &["effects"],
+    &["files"],
+    &["model"],
+    &["motion"],
+    &["energy_rule"],
+    &["equivalence"],
+    &["describe"],
+    &["extensions"],
+    &["connection"],
+    &["dynamics"],
+    &["scaffold"],
+    &["sweep"],
+    &["picture"],
+    &["claims"],
+    &["discrepancy/report"],
+    &["discrepancy/request"],
+    &["discrepancy/record"],
+    &["discrepancy/initial_state"],
+    &["discrepancy/shooting"],
+    &["discrepancy/preprocessing"],
+    &["discrepancy/estimation"],
+    &["discrepancy/evidence"],
+    &["discrepancy/localisation"],
+    &["discrepancy/selection"],
+    &["discrepancy/diagnosis"],
+    &["discrepancy/experiment"],
+    &["discrepancy/clock_alignment"],
+    &["discrepancy/identifiability"],
+    &["discrepancy/rendering"],
+    &["discrepancy/discovery"],
+    &["discrepancy/pipeline"],
+    &["discrepancy/check", "discrepancy/discover"],
+    &["discrepancy/fleet"],
+    &["discrepancy/fixtures"],
+    &["discrepancy"],
+    &["figures"],
+    &["theory"],
+    &["report"],
+    &["front_door"],
+    &["lib"],
+    &["command"],
+    &["main"],
+];
+
+/// The place of a file's stage in the order, and its place within the line: the longest prefix that is one counts.
+pub fn stage(file: &str) -> Option<(usize, usize)> {
+    let places =
+        STAGES.iter().enumerate().flat_map(|(i, line)| line.iter().enumerate().map(move |(k, s)| ((i, k), *s)));
+    let inside = |s: &str| file == s || file.strip_prefix(s).is_some_and(|rest| rest.starts_with('/'));
+    // `discrepancy` itself is its mod.rs alone: what stands below it stands in a stage of its own.
+    let own = |s: &str| s != "discrepancy" || file == "discrepancy/mod";
+    places.filter(|(_, s)| inside(s) && own(s)).max_by_key(|(_, s)| s.len()).map(|(place, _)| place)
+}

@@ -2,10 +2,11 @@
 
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::unexplained;
-use crate::discrepancy::localisation::constraint_residuals::{CONSTRAINTS, ConstraintResiduals};
+use crate::discrepancy::localisation::constraint_residuals::ConstraintResiduals;
 use crate::discrepancy::localisation::driving_regimes::{DrivingRegime, Stretch, disagreements};
 use crate::discrepancy::localisation::unexplained_motion::disagrees;
 use crate::discrepancy::report::{Gap, judged, judged_alike};
+use crate::model::state::JUMPS;
 
 /// A gap beyond so many floors is not the noise.
 const ABOVE: f64 = 1.5;
@@ -37,7 +38,7 @@ pub(crate) fn rest(fit: &Fit, after: &[ConstraintResiduals], gaps: &[Gap]) -> Op
 fn everywhere(fit: &Fit, after: &[ConstraintResiduals]) -> Option<Stretch> {
     let most = unexplained::remaining(fit).max_by(|a, b| fit.unexplained[*a].total_cmp(&fit.unexplained[*b]))?;
     let run = after.iter().find(|v| v.span().is_some())?;
-    let (place, regime) = (CONSTRAINTS[most].0, DrivingRegime::Whole);
+    let (place, regime) = (JUMPS[most].place, DrivingRegime::Whole);
     Some(Stretch { run: run.run.clone(), place, span: run.span()?, regime, share: 1.0 })
 }
 
@@ -83,7 +84,7 @@ mod tests {
     fn where_nothing_is_left_unexplained_a_gap_above_its_floor_is_no_rest() {
         let missed = ConstraintResiduals::across("a.csv", &[0.2, -0.2, 0.2, 0.2, 0.2, -0.2]);
         let found = |unexplained: f64, after: f64| {
-            let fit = Fit { unexplained: [0.0, unexplained, 0.0, 0.0], ..fit_of(unicycle(&[])) };
+            let fit = Fit { unexplained: vec![0.0, unexplained, 0.0, 0.0], ..fit_of(unicycle(&[])) };
             rest(&fit, std::slice::from_ref(&missed), &[gap(5.0, [after, 0.01], true)])
         };
         let place = |unexplained| found(unexplained, 0.5).map(|r| r.most.place);

@@ -7,7 +7,7 @@ use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::estimation::unexplained;
 use crate::discrepancy::localisation::clock_drift::Drift;
-use crate::discrepancy::localisation::constraint_residuals::{CONSTRAINTS, ConstraintResiduals};
+use crate::discrepancy::localisation::constraint_residuals::ConstraintResiduals;
 use crate::discrepancy::localisation::unexplained_motion::{disagrees, is_random, visible};
 use crate::discrepancy::preprocessing::unit_errors::{self, Slip};
 use crate::discrepancy::report::Verdict;
@@ -17,6 +17,8 @@ use crate::discrepancy::selection::select::Candidate;
 use crate::error::Result;
 use crate::model::Model;
 use crate::model::effect_equation;
+use crate::model::observation::{HEADING, POSITION};
+use crate::model::state::JUMPS;
 
 /// A verdict, its reason and the next experiment.
 #[derive(Clone, Debug)]
@@ -89,15 +91,15 @@ pub fn unusable(slip: Slip) -> Outcome {
 
 /// Whether any run leaves its place by more than its noise.
 fn moves(problem: &Problem) -> bool {
-    let noise = problem.variances.measurement.map(f64::sqrt);
+    let noise = |k: usize| problem.variances.measurement()[k].variance.sqrt().max(1e-6);
     let span = |column: &[f64]| {
         let (low, high) = column.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(*x), h.max(*x)));
         high - low
     };
     problem.records.iter().any(|r| {
         let part = |c: usize| &r.columns[c][r.rows.clone()];
-        let moved = (0..2).any(|c| span(part(c)) > 20.0 * noise[0].max(1e-6));
-        moved || (r.has_heading && span(part(2)) > 20.0 * noise[1].max(1e-6))
+        let moved = (0..2).any(|c| span(part(c)) > 20.0 * noise(POSITION));
+        moved || (r.has_heading && span(part(2)) > 20.0 * noise(HEADING))
     })
 }
 
@@ -167,12 +169,12 @@ fn fitted(choice: &Selected, after: &[ConstraintResiduals], clocks: &[Drift]) ->
 
 /// The reason where what a model leaves is random.
 fn random(fit: &Fit, after: &[ConstraintResiduals]) -> Option<Reason> {
-    is_random(fit, after).then(|| Reason::RandomRest(visible(fit, after).map(|c| CONSTRAINTS[c].0).collect()))
+    is_random(fit, after).then(|| Reason::RandomRest(visible(fit, after).map(|c| JUMPS[c].place).collect()))
 }
 
 /// What a model leaves beyond chance without standing out of the noise to the eye; `None` where it leaves nothing.
 fn trace(after: &Fit) -> Option<Reason> {
-    let places: Vec<&str> = unexplained::remaining(after).map(|c| CONSTRAINTS[c].0).collect();
+    let places: Vec<&str> = unexplained::remaining(after).map(|c| JUMPS[c].place).collect();
     (!places.is_empty()).then_some(Reason::Trace(places))
 }
 

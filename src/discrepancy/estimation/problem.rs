@@ -1,16 +1,17 @@
 //! Runs cut into windows, and what is known of their noise.
 
-use crate::discrepancy::estimation::noise_model::Estimated;
-use crate::discrepancy::estimation::noise_model::NoiseModel;
+use crate::discrepancy::estimation::noise_model::{NoiseModel, Start};
 use crate::discrepancy::initial_state::heading_from_path;
 use crate::discrepancy::record::local_polynomial;
-use crate::discrepancy::record::run_record::{Channel, Record};
+use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::shooting::window_integration::linearise;
 use crate::discrepancy::shooting::windows;
 use crate::discrepancy::shooting::windows::has_windows;
 use crate::discrepancy::shooting::windows::{Segment, WindowStates};
 use crate::error::Result;
-use crate::model::Model;
+use crate::model::observation::POSITION;
+use crate::model::state::YAW;
+use crate::model::{Model, observation};
 
 /// Runs cut into windows, with what is known of their noise.
 #[derive(Clone, Debug)]
@@ -19,12 +20,8 @@ pub struct Problem {
     pub records: Vec<Record>,
     /// Their windows.
     pub plan: Vec<Segment>,
-    /// Which variances are free.
-    pub free: Estimated,
-    /// Where the variances start.
+    /// Where the variances start, and which of them are estimated.
     pub variances: NoiseModel,
-    /// Variances of the jumps, for each second, that the noise of the inputs makes: along, across, yaw, trailers.
-    pub(crate) input_jumps: [f64; 4],
 }
 
 impl Problem {
@@ -39,18 +36,22 @@ impl Problem {
             false => records,
         };
         let plan = windows::plan(&records);
-        let channels = [Channel::Position, Channel::Heading, Channel::Trailer];
-        let known = [position, heading, heading];
-        let present = channels.map(|c| records.iter().any(|r| r.channels().contains(&c)));
-        let noise = [0, 1, 2].map(|k| known[k].unwrap_or_else(|| noise_of(&records, channels[k])).powi(2));
-        let yaw = if present[1] { noise[1] } else { yaw_told(&records, &plan, noise[0]).unwrap_or(noise[1]) };
-        let jump = [noise[0], noise[0], yaw, noise[2]];
-        let free = Estimated {
-            measurement: [0, 1, 2].map(|k| present[k] && known[k].is_none()),
-            process: [true, true, true, present[2]],
-        };
-        let variances = NoiseModel { measurement: noise, process: jump };
-        Self { records, plan, free, variances, input_jumps: [0.0; 4] }
+        let trailers = records.first().map_or(0, |r| r.trailers);
+        let starts = observation::sensor_noise(trailers).iter().enumerate().map(|(k, noise)| {
+            let known = if noise.unit == "m" { position } else { heading };
+            Start {
+                variance: known.unwrap_or_else(|| noise_of(&records, k)).powi(2),
+                is_measured: records.iter().any(|r| r.channels().iter().any(|c| c.noise == k)),
+                is_known: known.is_some(),
+            }
+        });
+        let mut variances = NoiseModel::starting(trailers, starts);
+        if !records.iter().any(|r| r.has_heading)
+            && let Some(yaw) = yaw_told(&records, &plan, variances.measurement()[POSITION].variance)
+        {
+            variances.process_mut()[YAW].variance = yaw;
+        }
+        Self { records, plan, variances }
     }
 
     /// The same with what the noise of its inputs makes of a model's windows.
@@ -61,21 +62,18 @@ impl Problem {
         let (equations, starts) = (model.equations(&[])?, self.starts(model)?);
         let ends = |p: &Problem| linearise(&equations, &[], &p.records, &p.plan, &starts);
         let Some(quiet) = ends(&self) else { return Ok(self) };
-        let (mut squares, mut time) = ([0.0; 4], 0.0);
+        let mut squares = vec![0.0; self.variances.process().len()];
+        let mut time = 0.0;
         for draw in 0..INPUT_DRAWS {
             let Some(noisy) = ends(&self.with_noisier_inputs(draw)) else { return Ok(self) };
             for (a, b) in quiet.iter().flatten().zip(noisy.iter().flatten()).filter(|(a, _)| !a.mismatch.is_empty()) {
                 time += a.duration;
-                a.mismatch
-                    .iter()
-                    .zip(&b.mismatch)
-                    .take(4)
-                    .zip(&mut squares)
-                    .for_each(|((a, b), s)| *s += (a - b).powi(2));
+                let pairs = a.mismatch.iter().zip(&b.mismatch).zip(&mut squares);
+                pairs.for_each(|((a, b), square)| *square += (a - b).powi(2));
             }
         }
-        let input_jumps = squares.map(|s| if time > 0.0 { s / time } else { 0.0 });
-        Ok(Self { input_jumps, ..self })
+        let known = squares.into_iter().map(|square| if time > 0.0 { square / time } else { 0.0 });
+        Ok(Self { variances: self.variances.clone().knowing(known), ..self })
     }
 
     /// The same poses with inputs that are as noisy again.
@@ -93,7 +91,7 @@ impl Problem {
     pub fn noise_determinant(&self, v: &NoiseModel) -> f64 {
         let of_segment = |s: &Segment| {
             let rows: usize = s.windows.iter().map(std::ops::Range::len).sum();
-            let each = self.records[s.record].channels().into_iter().map(|c| v.measurement[c as usize].ln());
+            let each = self.records[s.record].channels().into_iter().map(|c| v.measurement()[c.noise].variance.ln());
             rows as f64 * each.sum::<f64>()
         };
         self.plan.iter().map(of_segment).sum()
@@ -127,11 +125,11 @@ fn yaw_told(records: &[Record], plan: &[Segment], variance: f64) -> Option<f64> 
     local_polynomial::median(&mut ways).map(|way| variance / (way * way))
 }
 
-/// The median noise of a channel over the runs.
-fn noise_of(records: &[Record], channel: Channel) -> f64 {
+/// The median over the runs of the noise of the columns that share a component.
+fn noise_of(records: &[Record], component: usize) -> f64 {
     let mut found: Vec<f64> = Vec::new();
     for r in records {
-        let columns = r.channels().into_iter().zip(&r.columns).filter(|(c, _)| *c == channel);
+        let columns = r.channels().into_iter().zip(&r.columns).filter(|(c, _)| c.noise == component);
         found.extend(columns.filter_map(|(_, y)| local_polynomial::noise(&r.time[r.rows.clone()], &y[r.rows.clone()])));
     }
     found.sort_by(f64::total_cmp);

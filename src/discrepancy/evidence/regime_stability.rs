@@ -164,7 +164,7 @@ fn widened(window: &LinearisedWindow, p: usize, own: Range<usize>, inside: bool)
     let n = last + own.len() + 1;
     let entry = |g: &DMatrix<f64>, i: usize, j: usize| from(i).zip(from(j)).map_or(0.0, |at| g[at]);
     LinearisedWindow {
-        gram: window.gram.each_ref().map(|g| DMatrix::from_fn(n, n, |i, j| entry(g, i, j))),
+        gram: window.gram.iter().map(|g| DMatrix::from_fn(n, n, |i, j| entry(g, i, j))).collect(),
         back: window.back.as_ref().map(|b| DMatrix::from_fn(poses, n, |i, j| from(j).map_or(0.0, |j| b[(i, j)]))),
         ..window.clone()
     }

@@ -12,8 +12,8 @@ use crate::discrepancy::diagnosis::equivalents::measured;
 use crate::discrepancy::diagnosis::reason::Reason;
 use crate::discrepancy::diagnosis::verdict;
 use crate::discrepancy::estimation::fit::Effort;
+use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::estimation::problem::Problem;
-use crate::discrepancy::estimation::variance_components::without_jump;
 use crate::discrepancy::experiment::next_step::NextStep;
 use crate::discrepancy::preprocessing::clock_jumps::{ClockJump, clock_jump};
 use crate::discrepancy::preprocessing::outliers::without_gross_errors;
@@ -102,12 +102,12 @@ pub(crate) fn assess(of: &Checked, progress: &OnProgress) -> Result<Assessment> 
     let starts = problem.starts(&model)?;
     let fit = problem.fit(&model, &starts, &problem.variances, Effort::FULL)?;
     let Some(fit) = fit else { return Ok(without_fit(data, findings, verdict::undefined_motion())) };
-    let data = data.with_fit(&problem.variances.measurement, &fit, problem.records[0].has_heading);
+    let data = data.with_fit(problem.variances.measurement(), &fit, problem.records[0].has_heading);
     findings.extend(of_fit(&fit));
     let all = candidates(&model, of.library);
     let counter = Counter::begin(progress, Stage::Detection, all.len())?;
-    let calm = (0..4).fold(fit.variances, |v, c| without_jump(v, c, 0.0));
-    let variances = [calm, fit.variances];
+    let calm = (0..fit.variances.process().len()).fold(fit.variances.clone(), NoiseModel::without_jump);
+    let variances = [calm.clone(), fit.variances.clone()];
     let variance_inflation = [fit.noise_correlation_time, fit.variance_inflation()];
     let bar = DetectionThreshold {
         sample_size: fit.sample_size,
@@ -116,7 +116,7 @@ pub(crate) fn assess(of: &Checked, progress: &OnProgress) -> Result<Assessment> 
     let driven =
         Driven { records: problem.records.clone(), plan: problem.plan.clone(), starts: fit.window_states.clone() };
     let table = Table::of(&model, &driven, &all, &groups(&all), &variances, variance_inflation)?;
-    let ground = Background { calm, free: problem.free, alike: fit.noise_correlation_time };
+    let ground = Background { calm, alike: fit.noise_correlation_time };
     let shown = |c: &Candidate| {
         let shown = ExpectedDetection::of(&model, &driven, c, &bar, &ground)?;
         counter.one().map(|()| shown)

@@ -79,7 +79,7 @@ impl Search<'_> {
         };
         let lost = bare.deviance - fit.deviance;
         let found = self.screen(
-            &Fit { variances: fit.variances, ..bare.clone() },
+            &Fit { variances: fit.variances.clone(), ..bare.clone() },
             &smaller,
             [bare.deviance, 0.3 * lost],
             None,

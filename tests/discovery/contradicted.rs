@@ -133,8 +133,12 @@ fn what_all_parts_share_has_an_equation() {
 fn runs_that_share_nothing_name_nothing() {
     let hidden = |scale| Hidden { scale, creep: 0.0, law: |_, _| 0.0 };
     let report = report([hidden(-0.05), hidden(0.04), hidden(0.01)]);
-    assert_eq!((report.verdict, report.effects.len()), (Verdict::NotIdentifiable, 0), "{}", report.summary);
-    assert!(report.summary.contains("nothing can be named") && report.next_experiment.is_some(), "{}", report.summary);
+    assert_eq!((report.verdict, report.effects.len()), (Verdict::Unexplained, 0), "{}", report.summary);
+    assert!(
+        report.summary.contains("disagree, but not alike") && report.next_experiment.is_some(),
+        "{}",
+        report.summary
+    );
 }
 
 /// A law in one of three runs: what stands in for it moves from part to part, and its deviations say so.

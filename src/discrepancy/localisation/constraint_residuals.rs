@@ -154,19 +154,6 @@ impl ConstraintResiduals {
         ]
     }
 
-    /// The violated rates of a constraint, each with what may drive it: speed v and yaw rate ω, v², vω, ω|ω|, v²ω, ω³, and
-    /// what v and ω change by.
-    pub(crate) fn with_motion(&self, c: usize) -> Vec<(Vec<f64>, f64)> {
-        let before = std::iter::once(None).chain(self.windows.iter().map(Some));
-        let of = |(w, before): (&Window, Option<&Window>)| {
-            let (v, yaw) = (w.speed, w.yaw);
-            let [dv, dyaw] = before.map_or([0.0; 2], |b| [v - b.speed, yaw - b.yaw]);
-            let features = vec![v, yaw, v * v, v * yaw, yaw * yaw.abs(), v * v * yaw, yaw.powi(3), dv, dyaw];
-            Some((features, *w.rates.get(c)?))
-        };
-        self.windows.iter().zip(before).filter_map(of).collect()
-    }
-
     /// Start of the first and end of the last window that is judged, s.
     pub(crate) fn span(&self) -> Option<[f64; 2]> {
         Some([self.windows.first()?.span[0], self.windows.last()?.span[1]])

@@ -5,12 +5,9 @@
 //! |---|---|
 //! | Ljung and Box (1978) | Q = n(n + 2)·Σₖ ρₖ²/(n − k) over the first lags: no window says anything of the next ones |
 //! | kurtosis | (m₄/m₂² − 3)/√(24/n): no few windows stand out |
-//! | F | of a regression on speed and yaw rate, their products, powers and changes: how the vehicle moves says nothing of it |
 
 use super::constraint_residuals::ConstraintResiduals;
 use crate::discrepancy::evidence::wald_test::tail;
-use nalgebra::{DMatrix, DVector};
-use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
 /// Lags that are looked at.
 const LAGS: usize = 5;
@@ -18,8 +15,6 @@ const LAGS: usize = 5;
 const FEWEST: usize = 30;
 /// Probability that white motion is not taken for white, by its correlation.
 const BY_CHANCE: f64 = 0.02;
-/// Probability that a regression on the motion explains so much of what does not follow it.
-const BY_MOTION: f64 = 1e-3;
 /// Deviations of the kurtosis beyond which few windows stand out.
 const HEAVY: f64 = 2.5;
 
@@ -27,28 +22,7 @@ const HEAVY: f64 = 2.5;
 pub(crate) fn is_white(violations: &[ConstraintResiduals], c: usize) -> bool {
     let series: Vec<Vec<f64>> = violations.iter().map(|v| v.rates(c)).collect();
     let n = series.iter().map(Vec::len).sum::<usize>();
-    n >= FEWEST
-        && tail(ljung_box(&series, n as f64), LAGS) > BY_CHANCE
-        && excess_kurtosis(&series, n as f64) < HEAVY
-        && !follows_motion(violations, c)
-}
-
-/// Whether a regression on the motion explains more of a rest than chance does.
-fn follows_motion(violations: &[ConstraintResiduals], c: usize) -> bool {
-    let rows: Vec<(Vec<f64>, f64)> = violations.iter().flat_map(|v| v.with_motion(c)).collect();
-    let k = rows.first().map_or(0, |(features, _)| features.len());
-    let x = DMatrix::from_fn(rows.len(), k + 1, |i, j| if j == 0 { 1.0 } else { rows[i].0[j - 1] });
-    let y = DVector::from_iterator(rows.len(), rows.iter().map(|(_, rate)| *rate));
-    let svd = x.clone().svd(true, true);
-    let rank = svd.rank(1e-9 * svd.singular_values.max());
-    let Ok(b) = svd.solve(&y, 1e-9 * svd.singular_values.max()) else { return false };
-    let (explained, free) = (rank.saturating_sub(1) as f64, rows.len() as f64 - rank as f64);
-    if explained < 1.0 || free < 1.0 {
-        return false;
-    }
-    let (left, all) = ((&y - &x * b).norm_squared(), y.add_scalar(-y.mean()).norm_squared());
-    let f = (all - left) / explained / (left / free);
-    FisherSnedecor::new(explained, free).is_ok_and(|d| d.sf(f) < BY_MOTION)
+    n >= FEWEST && tail(ljung_box(&series, n as f64), LAGS) > BY_CHANCE && excess_kurtosis(&series, n as f64) < HEAVY
 }
 
 fn moment(series: &[Vec<f64>], n: f64, power: i32) -> f64 {
@@ -92,12 +66,6 @@ mod tests {
         assert!(!told(&noise[..29]), "too few to tell");
         let beside =
             |f: &dyn Fn(f64) -> f64| -> Vec<f64> { noise.iter().enumerate().map(|(k, r)| r + f(k as f64)).collect() };
-        let mut turning = ConstraintResiduals::across("a.csv", &noise);
-        let yaw = |k: usize| (2.3 * k as f64).sin();
-        turning.windows.iter_mut().enumerate().for_each(|(k, w)| w.yaw = yaw(k));
-        assert!(is_white(std::slice::from_ref(&turning), 1), "the yaw rate says nothing of it");
-        turning.windows.iter_mut().enumerate().for_each(|(k, w)| w.rates[1] += 2.0 * yaw(k).powi(3));
-        assert!(follows_motion(&[turning], 1));
         assert!(!told(&beside(&|k| 2.0 * k / 80.0)));
         assert!(!told(&beside(&|k| (0.4 * k).sin())));
         assert!(!told(&beside(&|k| if k % 20.0 == 7.0 { 6.0 } else { 0.0 })));

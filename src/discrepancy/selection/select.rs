@@ -15,12 +15,10 @@ use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
 use crate::discrepancy::evidence::jackknife::Jackknife;
 use crate::discrepancy::evidence::parametric_bootstrap;
 use crate::discrepancy::evidence::wald_test::tail;
-use crate::discrepancy::localisation::unexplained_motion::disagrees;
 use crate::discrepancy::selection::choice::{Selected, SelectedEffect};
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::Model;
-use crate::model::effect_equation::is_term;
 use crate::progress::{OnProgress, Stage, begin, tell};
 
 pub use super::search::Candidate;
@@ -58,15 +56,7 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &O
     let InputSampling { dropped: sampling_sensitive, missed } = keep_sampled(&selection, &mut grown, progress)?;
     // Where something went, the values no longer stand where they stood.
     let scatter = scatter.filter(|_| sampling_sensitive.is_empty());
-    let mut standing = selection.keep_standing(&mut grown, scatter.as_ref(), missed, progress)?;
-    if selection.leaves_much_beside_names(&grown.fit)?
-        && let Some(laws) = unnamed_terms::in_place_of_names(&selection, &grown, progress)?
-    {
-        grown = laws;
-        let again = selection.keep_standing(&mut grown, None, vec![], progress)?;
-        standing = Standing { chosen: again.chosen, refused: [standing.refused, again.refused].concat() };
-    }
-    let Standing { chosen, refused } = standing;
+    let Standing { chosen, refused } = selection.keep_standing(&mut grown, scatter.as_ref(), missed, progress)?;
     let SearchState { fit: after, steps, candidates, .. } = grown;
     Ok(Some(Selected { before, after, chosen, steps, candidates, inconsistent, sampling_sensitive, refused }))
 }
@@ -85,12 +75,6 @@ pub(crate) fn forget(numbers: &mut Vec<f64>, fit: &Fit, effect: &Applied) {
 }
 
 impl Search<'_> {
-    /// Whether names were found, no law without one, and what they leave stands out of the noise.
-    fn leaves_much_beside_names(&self, fit: &Fit) -> Result<bool> {
-        let only_names = !fit.p.is_empty() && !fit.model.free_effects().any(is_term);
-        Ok(only_names && disagrees(fit, &self.problem.violations(&fit.model, &fit.noise())?))
-    }
-
     /// Evidence, deviations and rivals of every chosen effect.
     ///
     /// `missed` is what the interpolation of the inputs may make up of each value; an offset no rows average out.

@@ -63,21 +63,6 @@ pub(crate) fn search(
     Ok((better && predicts).then_some(found))
 }
 
-/// Terms in the place of all names, where they explain the data better: a name that leaves much unexplained may stand for
-/// a law that is none of the library.
-pub(crate) fn in_place_of_names(
-    selection: &Search,
-    named: &SearchState,
-    progress: &OnProgress,
-) -> Result<Option<SearchState>> {
-    let names: Vec<Applied> = named.fit.model.free_effects().cloned().collect();
-    let bare = SearchState { candidates: named.candidates.clone(), ..SearchState::from(selection.before) };
-    let Some(found) = search(selection, &bare, &names, progress)? else { return Ok(None) };
-    let n = named.fit.sample_size.max(found.fit.sample_size);
-    let better = bic(&found.fit, n) + 2.0 * selection.margin() < bic(&named.fit, n);
-    Ok((better && selection.problem.predicts_better(&found.fit, &named.fit)?).then_some(found))
-}
-
 fn named_effects(fit: &Fit) -> usize {
     fit.model.free_effects().filter(|e| !is_term(e)).count()
 }

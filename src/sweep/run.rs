@@ -130,3 +130,28 @@ fn append(journal: &mut Journal, rows: Vec<Result<Rows>>) -> Result<()> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::Kind;
+    use crate::progress::unheard;
+    use std::ops::ControlFlow;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    #[test]
+    fn a_stopped_sweep_keeps_what_is_done_and_goes_on() {
+        let sweep = Sweep::read("examples/sweeps/wheels.toml").unwrap();
+        let dir = tempfile::tempdir().unwrap();
+        let out = dir.path().join("wheels.csv");
+        let calls = AtomicUsize::new(0);
+        let once = |_| match calls.fetch_add(1, Ordering::Relaxed) {
+            0 => ControlFlow::Continue(()),
+            _ => ControlFlow::Break(()),
+        };
+        let stopped = sweep.write(Shard::WHOLE, &out, &once).unwrap_err();
+        assert_eq!((stopped.kind(), out.exists()), (Kind::Stopped, false));
+        let written = sweep.write(Shard::WHOLE, &out, &unheard).unwrap();
+        assert!(written.cases == sweep.cases() && written.found > 0, "{written:?}");
+    }
+}

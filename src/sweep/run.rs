@@ -70,6 +70,7 @@ impl Sweep {
         loop {
             if let Err(stopped) = tell(progress, Stage::Cases { found: journal.found }, journal.cases(), all) {
                 append(&mut journal, computed)?;
+                journal.note()?;
                 return Err(stopped);
             }
             let began = Instant::now();

@@ -11,6 +11,7 @@ mod trajectory;
 pub use catalogue_model::{Creep, assembled, driven};
 pub use ensemble::{Case, Ensemble, EnsembleInputs, Plan, Varied};
 pub use inputs::drive::{Drive, Formulas};
+pub(crate) use inputs::signals::timings;
 pub use inputs::signals::{Signals, Timing};
 pub use integrators::integrator::{Integrator, Method};
 pub use sensitivity::equilibrium::{initial_hidden, visible_state};

@@ -284,7 +284,7 @@ fn looked_at(
             "time" => sample.may_hold_numbers() || sample.holds_dates(),
             "heading" => sample.may_hold_numbers() && !sample.is_constant() && !of_quaternion(&header[c]),
             "x" | "y" => sample.may_hold_numbers() && !of_quaternion(&header[c]),
-            _ => sample.may_hold_numbers() && !sample.is_count(),
+            _ => sample.may_hold_numbers() && !sample.is_count() && !of_quaternion(&header[c]),
         }
     };
     let mut matches = matched(&names, stands, header, &may_hold);

@@ -194,7 +194,7 @@ fn an_outer_merge() {
 fn semicolons_without_a_header() {
     let scenario = drive(Tractor::Unicycle, Hidden::TraverseCreep { e_tc: 0.05 }, 17);
     let text = lines(&scenario.run(), "", |_, v| {
-        let cells = ["t", "v", "phi_dot", "x", "y", "phi"].map(|name| format!("{:.6}", v(name)).replace('.', ","));
+        let cells = ["t", "speed", "phi_dot", "x", "y", "phi"].map(|name| format!("{:.6}", v(name)).replace('.', ","));
         cells.join(";")
     });
     let named = |role: &str, column: u32| (format!("# {role} = \"…\""), format!("{role} = {column}"));

@@ -90,8 +90,8 @@ pub const BAD_LOGS: &[Case] = &[
     ),
     bad_csv(
         "date",
-        b"t,x,y,phi,wheel_rate,yaw_rate\n2026-01-31T10:00:00,0,0,0,1,0\n",
-        &["run.csv:2:1: \"2026-01-31T10:00:00\" in column \"t\"", "time in seconds"],
+        b"t,x,y,phi,wheel_rate,yaw_rate\n2026-01-31/10:00:00,0,0,0,1,0\n",
+        &["run.csv:2:1: \"2026-01-31/10:00:00\" in column \"t\"", "time in seconds"],
     ),
     bad_csv(
         "row of units",
@@ -234,7 +234,7 @@ pub const BAD_MODELS: &[Case] = &[
     bad_model(
         "a turn that is none",
         "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 1\n[columns]\nheading = { column = \"a\", turn = \"left\" }\n",
-        &["model.toml:5:33: unknown turn \"left\"", "it is one of: counter-clockwise, clockwise"],
+        &["model.toml:5:34: unknown turn \"left\"", "it is one of: counter-clockwise, clockwise"],
     ),
     bad_model(
         "position twice",

@@ -74,8 +74,8 @@ mod tests {
         let found = unwound(vec![3.0, -3.0, -2.0], TAU);
         assert!((found[1] - (TAU - 3.0)).abs() < 1e-12 && (found[2] - (TAU - 2.0)).abs() < 1e-12);
         assert_eq!(unwound(vec![0.0, 4.0, 8.0], TAU), [0.0, 4.0, 8.0], "cumulative positions");
-        let turns = unwound(vec![0.0, 0.75, 0.25], 1.0);
-        assert!((turns[1] + 0.25).abs() < 1e-12 && (turns[2] - 0.25).abs() < 1e-12, "turns: {turns:?}");
+        let turns = unwound(vec![0.0, 0.75, 0.65], 1.0);
+        assert!((turns[1] + 0.25).abs() < 1e-12 && (turns[2] + 0.35).abs() < 1e-12, "turns: {turns:?}");
     }
 
     #[test]

@@ -46,6 +46,8 @@ pub(crate) fn unwound(positions: Vec<f64>, turn: f64) -> Vec<f64> {
 /// The mean rate since the row before; the first row has that of the second.
 pub(crate) fn mean_rates(time: &[f64], position: &[f64]) -> Vec<f64> {
     let rates = time.windows(2).zip(position.windows(2)).map(|(t, p)| (p[1] - p[0]) / (t[1] - t[0]));
+    // What floating point cannot hold is no motion.
+    let rates = rates.map(|rate| if rate.is_finite() { rate } else { 0.0 });
     let mut found: Vec<f64> = rates.collect();
     found.insert(0, found.first().copied().unwrap_or(0.0));
     found.truncate(time.len());
@@ -81,6 +83,7 @@ mod tests {
     #[test]
     fn rates_are_means_since_the_row_before() {
         assert_eq!(mean_rates(&[0.0, 0.5, 2.5], &[1.0, 2.0, 4.0]), [2.0, 2.0, 1.0]);
+        assert_eq!(mean_rates(&[0.0, 1e-300], &[0.0, 1e300]), [0.0, 0.0]);
         assert_eq!((mean_rates(&[1.0], &[2.0]), mean_rates(&[], &[])), (vec![0.0], vec![]));
     }
 }

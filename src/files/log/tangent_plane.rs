@@ -52,6 +52,14 @@ mod tests {
         assert!((x[2] - parallel).abs() < 1e-4 && y[2].abs() < 1e-4, "{} {parallel}", x[2]);
     }
 
+    /// Lengths of a degree at the equator, from tables of WGS 84: 110.574 km and 111.320 km.
+    #[test]
+    fn a_degree_has_the_length_of_the_tables() {
+        let step = 1e-3f64.to_radians();
+        let (x, y) = tangent_plane(&[0.0, step, 0.0], &[0.0, 0.0, step]);
+        assert!((y[1] - 110.574).abs() < 1e-3 && (x[2] - 111.320).abs() < 1e-3, "{} {}", y[1], x[2]);
+    }
+
     #[test]
     fn the_plane_touches_at_the_first_fix_with_numbers() {
         let (x, y) = tangent_plane(&[f64::NAN, 0.1, 0.1], &[0.0, 0.2, 0.2]);

@@ -80,7 +80,7 @@ mod tests {
             (Length, "ft", 0.3048),
             (Angle, "deg", 0.017453292519943295),
             (Rate, "rpm", 0.10471975511965977),
-            (Rate, "turns/s", 6.283185307179586),
+            (Rate, "turns/s", TAU),
             (Speed, "km/h", 0.2777777777777778),
             (Speed, "mph", 0.44704),
             (Time, "us", 1e-6),

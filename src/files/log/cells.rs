@@ -2,7 +2,7 @@
 
 use super::column_entry::{ColumnEntry, Kind, Reading};
 use super::csv_table::Numbers;
-use super::log_file::Log;
+use super::place::{Form, Place};
 use super::quaternion::yaw;
 use super::{counts, row_order};
 use crate::error::{Error, Result};
@@ -15,25 +15,6 @@ pub struct Cells {
     pub places: Vec<usize>,
     /// How the quantity follows from them.
     pub reading: Reading,
-}
-
-/// A cell to read.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Place {
-    /// Its place in the header, from zero.
-    pub index: usize,
-    pub form: Form,
-}
-
-/// How the text of a cell becomes a number.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Form {
-    /// As it stands.
-    Number,
-    /// As it stands, or a date.
-    Time,
-    /// Units of 10 to this negative power of a second.
-    Stamp(u32),
 }
 
 /// A standard deviation that a row does not have, among finite numbers.
@@ -54,7 +35,7 @@ impl Cells {
         Ok(Self { places, reading: entry.reading })
     }
 
-    fn places(&self) -> impl Iterator<Item = Place> {
+    pub(crate) fn places(&self) -> impl Iterator<Item = Place> {
         let kind = self.reading.kind;
         self.places.iter().enumerate().map(move |(i, &index)| {
             let form = match (kind, i) {
@@ -105,30 +86,6 @@ impl Cells {
     }
 }
 
-/// Reads quantities, the time first; a row that lacks one of `more` stays, and has NaN there.
-pub(crate) fn read(log: Log, needed: &[&Cells], more: &[&Cells]) -> Result<Numbers> {
-    let log = match log {
-        Log::Folder(folder) => return folder.read(&[needed, more].concat()),
-        log => log,
-    };
-    let places = |cells: &[&Cells]| cells.iter().flat_map(|c| c.places()).collect::<Vec<Place>>();
-    let names: Vec<String> = needed.iter().map(|c| log.header()[c.places[0]].clone()).collect();
-    let numbers = match log.has_topics() {
-        true => log.numbers_and(&places(&[needed, more].concat()), &[])?,
-        false => log.numbers_and(&places(needed), &places(more))?,
-    };
-    let mut numbers = joined(numbers, &[needed, more].concat());
-    drop_rows_without(&mut numbers, &names);
-    Ok(numbers)
-}
-
-/// As [`read`], with NaN for whatever a row lacks but its time.
-pub(crate) fn read_all_rows(log: Log, time: &Cells, more: &[&Cells]) -> Result<Numbers> {
-    let places = |cells: &[&Cells]| cells.iter().flat_map(|c| c.places()).collect::<Vec<Place>>();
-    let numbers = log.numbers_and(&places(&[time]), &places(more))?;
-    Ok(joined(numbers, &[&[time], more].concat()))
-}
-
 /// A column for every quantity.
 pub(crate) fn joined(numbers: Numbers, all: &[&Cells]) -> Numbers {
     let mut at = 0;
@@ -141,7 +98,7 @@ pub(crate) fn joined(numbers: Numbers, all: &[&Cells]) -> Numbers {
 }
 
 /// Drops rows in which a quantity cannot be made of finite cells: a quaternion of zeros is no heading.
-fn drop_rows_without(numbers: &mut Numbers, names: &[String]) {
+pub(crate) fn drop_rows_without(numbers: &mut Numbers, names: &[String]) {
     let rows = numbers.columns.first().map_or(0, Vec::len);
     let lacks = |i: usize| numbers.columns.iter().take(names.len()).position(|c| !c[i].is_finite());
     let found: Vec<(usize, usize)> = (0..rows).filter_map(|i| Some((i, lacks(i)?))).collect();

@@ -1,9 +1,9 @@
 //! Some columns of a CSV file as numbers, in one pass.
 
-use super::cells::{Form, Place};
 use super::csv_cell::{Cell, advice};
 use super::csv_dialect::{Beginning, Dialect, decimal};
 use super::csv_records::Records;
+use super::place::{Form, Place};
 use super::stream::{Bytes, Hash, unpacked};
 use super::time_stamp::{Origin, iso_8601, nanoseconds};
 use crate::error::{Error, Result};

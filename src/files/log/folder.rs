@@ -4,9 +4,9 @@
 //! without the name of a file.
 
 use super::cells::{self, Cells};
-use super::csv_table::Numbers;
-use super::log_file::Log;
+use super::csv_table::{Numbers, Sheet};
 use super::own_times::at_times;
+use super::place::Place;
 use super::row_order;
 use super::time_stamp::Origin;
 use crate::error::{Error, Result};
@@ -46,7 +46,7 @@ impl Folder {
         }
         let files: Vec<(PathBuf, Vec<String>)> = found
             .into_iter()
-            .map(|file| Log::open(&file).map(|log| (file, log.header().to_vec())))
+            .map(|file| Sheet::open(&file).map(|sheet| (file, sheet.header)))
             .collect::<Result<_>>()?;
         let mut times: BTreeMap<&String, usize> = BTreeMap::new();
         files.iter().flat_map(|(_, header)| header).for_each(|name| *times.entry(name).or_default() += 1);
@@ -83,10 +83,13 @@ impl Folder {
         for (file, mine) in of_file {
             let own: Vec<Cells> = mine.iter().map(|q| self.own_cells(quantities[*q])).collect();
             let time = self.time_in(file, time)?;
-            let mut log = Log::open(&self.files[file].0)?;
-            log.counted_from(self.origin);
+            let mut sheet = Sheet::open(&self.files[file].0)?;
+            sheet.origin = self.origin;
             let needed: Vec<&Cells> = std::iter::once(&time).chain(&own).collect();
-            let mut numbers = cells::read(log, &needed, &[])?;
+            let places: Vec<Place> = needed.iter().flat_map(|c| c.places()).collect();
+            let names: Vec<String> = needed.iter().map(|c| sheet.header[c.places[0]].clone()).collect();
+            let mut numbers = cells::joined(sheet.numbers_and(&places, &[])?, &needed);
+            cells::drop_rows_without(&mut numbers, &names);
             self.origin = numbers.origin;
             row_order::sort(&mut numbers.columns);
             row_order::merge(&mut numbers.columns);

@@ -1,9 +1,10 @@
 //! The inputs of a simulation: times, inputs, and perhaps the pose it begins with.
 
-use super::cells::{self, Cells};
+use super::cells::Cells;
 use super::columns::Resolved;
 use super::csv_table::Numbers;
 use super::log_file::Log;
+use super::reading;
 use super::run::{self, arrange, enough};
 use super::tangent_plane::tangent_plane;
 use crate::error::Result;
@@ -57,7 +58,7 @@ impl Inputs {
         let (time, inputs) = columns.resolve_inputs(sheet.header()).map_err(|e| sheet.at_header(e))?;
         let driven: Vec<&Cells> = std::iter::once(&time).chain(inputs.iter().map(|i| &i.cells)).collect();
         let measured: Vec<&Cells> = whole.iter().flat_map(Resolved::pose).collect();
-        let mut numbers = cells::read(sheet, &driven, &measured)?;
+        let mut numbers = reading::read(sheet, &driven, &measured)?;
         let mut poses = numbers.columns.split_off(driven.len());
         if let (true, [x, y, ..]) = (columns.geographic, poses.as_mut_slice()) {
             (*x, *y) = tangent_plane(y, x);

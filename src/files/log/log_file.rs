@@ -1,12 +1,12 @@
 //! A log of whatever format: columns by name, rows of numbers.
 
-use super::cells::Place;
 use super::csv_table::{Numbers, Sheet};
 use super::folder::Folder;
 #[cfg(feature = "mcap")]
 use super::mcap::bag::Bag;
 #[cfg(feature = "parquet")]
 use super::parquet::ParquetLog;
+use super::place::Place;
 use super::time_stamp::Origin;
 use crate::error::{Error, Result};
 use crate::files::toml::text::{is_folder, open};

@@ -18,7 +18,9 @@ mod outer_join;
 pub(crate) mod own_times;
 #[cfg(feature = "parquet")]
 pub(crate) mod parquet;
+pub(crate) mod place;
 pub(crate) mod quaternion;
+mod reading;
 pub(crate) mod row_order;
 pub(crate) mod run;
 pub(crate) mod stream;

@@ -1,7 +1,7 @@
 //! Logs in Apache Parquet files: flat columns of numbers.
 
-use super::cells::{Form, Place};
 use super::csv_table::Numbers;
+use super::place::{Form, Place};
 use super::time_stamp::{Origin, of_number};
 use super::usable_rows::{hash, usable};
 use crate::error::{Error, Result};

@@ -4,8 +4,9 @@ use super::cells::{self, Cells};
 use super::columns::Resolved;
 use super::csv_table::{Numbers, Sheet};
 use super::log_file::Log;
+use super::reading;
+use super::row_order;
 use super::tangent_plane::tangent_plane;
-use super::{outer_join, row_order};
 use crate::error::{Error, Result};
 use crate::files::model::model_file::ModelFile;
 use std::collections::BTreeMap;
@@ -100,11 +101,11 @@ impl Run {
 
     fn of(path: &Path, log: Log, again: &dyn Fn() -> Result<Log>, model: &ModelFile) -> Result<Self> {
         let found = model.columns.resolve(log.header()).map_err(|e| log.at_header(e))?;
-        let mut numbers = cells::read(log, &found.needed(), &found.spare())?;
+        let mut numbers = reading::read(log, &found.needed(), &found.spare())?;
         cells::mark_absent(&mut numbers, found.needed().len());
         let whole = numbers.columns[0].len();
         if 2 * whole < numbers.rows
-            && let Some(run) = outer_join::read(path, again()?, &found, whole)?
+            && let Some(run) = Self::read_outer_join(path, again()?, &found, whole)?
         {
             return Ok(run);
         }
@@ -116,7 +117,7 @@ impl Run {
             return Ok(run);
         }
         let driven: Vec<&Cells> = driven.iter().collect();
-        Ok(run.with_inputs(cells::read(again()?, &driven, &[])?, &driven))
+        Ok(run.with_inputs(reading::read(again()?, &driven, &[])?, &driven))
     }
 
     /// Whether rows were left out for what a cell of them holds.

@@ -1,10 +1,11 @@
 //! Measured poses in the files of benchmarks: TUM, EuRoC and KITTI.
 
-use super::cells::{self, Cells};
+use super::cells::Cells;
 use super::column_entry::{Kind, Reading};
 use super::columns::Resolved;
 use super::csv_table::Numbers;
 use super::log_file::Log;
+use super::reading;
 use super::time_stamp::Origin;
 use crate::error::{Error, Result};
 use std::path::Path;
@@ -68,7 +69,7 @@ pub(crate) fn kitti(log: Log, path: &Path) -> Result<(Resolved, Numbers)> {
     let places: Vec<Cells> =
         (0..KITTI).map(|i| Cells { places: vec![i], reading: Reading::plain(Kind::Number) }).collect();
     let wanted: Vec<&Cells> = places.iter().collect();
-    let numbers = cells::read(log, &wanted, &[])?;
+    let numbers = reading::read(log, &wanted, &[])?;
     let beside = path.with_file_name("times.txt");
     if !beside.is_file() {
         return Err(Error::input("has poses of KITTI without times")

@@ -4,6 +4,7 @@ use super::cells::{self, Cells};
 use super::columns::Resolved;
 use super::csv_table::Numbers;
 use super::log_file::Log;
+use super::reading;
 use super::run::{self, Apart, Deviations, Run, arrange, difference, enough};
 use super::time_stamp::Origin;
 use super::trajectories;
@@ -164,7 +165,7 @@ fn poses(truth: &Path, origin: Origin, model: &ModelFile) -> Result<(Resolved, N
 }
 
 fn read(sheet: Log, needed: &[&Cells], more: &[&Cells], path: &Path) -> Result<(Numbers, Vec<String>)> {
-    let mut numbers = cells::read(sheet, needed, more)?;
+    let mut numbers = reading::read(sheet, needed, more)?;
     cells::mark_absent(&mut numbers, needed.len());
     let warnings = arrange(&mut numbers);
     enough(&numbers).map_err(|e| e.at_file(path))?;

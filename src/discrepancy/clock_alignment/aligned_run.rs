@@ -102,7 +102,9 @@ fn aligned_one(
     if let Some(slip) = too_sparse(model, [run])? {
         return Ok(Err(unusable(slip)));
     }
-    let driven = Driven::of(model, run, request.file.input_timing.into())?;
+    let timings = crate::motion::timings(&run.differences, request.file.input_timing);
+    let timing = timings.first().copied().unwrap_or(request.file.input_timing.into());
+    let driven = Driven::of(model, run, timing)?;
     let laid = |part: &Run| {
         let poses = [part.time[0], part.time[part.time.len() - 1]];
         search(&driven, &Measured::of(part, GRID), poses, near).filter(|f| f.correlation > ALIKE)

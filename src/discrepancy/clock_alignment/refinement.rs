@@ -149,8 +149,8 @@ impl<'a> Round<'a> {
         let clock = Clock { drift: self.clock.drift + rate, ..self.clock };
         let time: Vec<f64> = apart.time.iter().map(|t| clock.of(*t)).collect();
         let mut problem = self.problem.clone();
-        let timing = self.file.input_timing.into();
-        problem.records[0].signals = crate::motion::Signals::new(&time, &self.run.inputs, timing);
+        let timings = crate::motion::timings(&self.run.differences, self.file.input_timing);
+        problem.records[0].signals = crate::motion::Signals::mixed(&time, &self.run.inputs, &timings);
         let fit = problem.fit(&self.fit.model, &self.fit.window_states, &self.fit.variances, EFFORT)?;
         Ok(fit.map_or(f64::INFINITY, |f| f.deviance))
     }

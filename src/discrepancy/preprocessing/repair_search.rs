@@ -350,6 +350,8 @@ mod tests {
         }
         let [x, y, heading] = pose;
         let run = Run {
+            deviations: Default::default(),
+            differences: Default::default(),
             name: "run.csv".into(),
             path: "run.csv".into(),
             sha256: String::new(),

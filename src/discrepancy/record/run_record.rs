@@ -86,7 +86,7 @@ impl Record {
         let mut columns = vec![run.x.clone(), run.y.clone()];
         columns.extend(run.heading.clone());
         columns.extend(run.trailer_headings.iter().cloned());
-        let signals = Signals::new(run.input_time(), &run.inputs, timing.into());
+        let signals = Signals::of_run(run, timing);
         let input_noise = Arc::new(InputNoise::of(run.input_time(), &run.inputs, timing.into()));
         let (rows, has_heading) = (0..run.time.len(), run.heading.is_some());
         let (name, time) = (run.name.clone(), run.time.clone());

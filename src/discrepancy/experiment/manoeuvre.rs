@@ -179,7 +179,7 @@ pub(crate) mod samples {
             has_heading: false,
             signals,
             trailers: 0,
-            input_noise: InputNoise::of(&[], &[], Timing::Sample).into(),
+            input_noise: InputNoise::of(&[], &[], &[]).into(),
             known: Known::default(),
         };
         Envelope::of(&model, &[record]).unwrap()

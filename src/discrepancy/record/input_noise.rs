@@ -32,7 +32,7 @@ pub(crate) enum ChannelNoise {
 #[derive(Clone, Debug)]
 pub(crate) struct InputNoise {
     time: Vec<f64>,
-    timing: Timing,
+    timings: Vec<Timing>,
     channels: Vec<ChannelNoise>,
     /// Whether a rounded value is another than the row before.
     changes: Vec<Vec<bool>>,
@@ -45,10 +45,10 @@ const WHITE: f64 = -0.6;
 
 impl InputNoise {
     /// The noise that columns of inputs show.
-    pub fn of(time: &[f64], columns: &[Vec<f64>], timing: Timing) -> Self {
-        let channels = columns.iter().map(|c| of_column(time, c, timing)).collect();
+    pub fn of(time: &[f64], columns: &[Vec<f64>], timings: &[Timing]) -> Self {
+        let channels = columns.iter().zip(timings).map(|(c, timing)| of_column(time, c, *timing)).collect();
         let changes = columns.iter().map(|c| (0..c.len()).map(|i| i == 0 || c[i] != c[i - 1]).collect()).collect();
-        Self { time: time.to_vec(), timing, channels, changes }
+        Self { time: time.to_vec(), timings: timings.to_vec(), channels, changes }
     }
 
     /// Whether any input shows noise.
@@ -61,7 +61,7 @@ impl InputNoise {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let columns: Vec<Vec<f64>> =
             self.channels.iter().zip(&self.changes).map(|(c, changes)| c.drawn(changes, &mut random)).collect();
-        Signals::new(&self.time, &columns, self.timing)
+        Signals::mixed(&self.time, &columns, &self.timings)
     }
 }
 

@@ -5,7 +5,7 @@ use super::input_noise::InputNoise;
 use super::local_polynomial;
 use crate::files::{InputTiming, Run};
 use crate::model::observation::{self, BODY_HEADING, PLACE};
-use crate::motion::{Signals, Timing};
+use crate::motion::{Signals, Timing, timings};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
@@ -74,7 +74,7 @@ impl Record {
         timing: Timing,
     ) -> Self {
         let signals = Signals::new(&time, inputs, timing);
-        let input_noise = Arc::new(InputNoise::of(&time, inputs, timing));
+        let input_noise = Arc::new(InputNoise::of(&time, inputs, &vec![timing; inputs.len()]));
         let rows = 0..time.len();
         let trailers = columns.len() - PLACE.len() - usize::from(has_heading);
         let (name, known) = (name.to_string(), Known::default());
@@ -87,7 +87,7 @@ impl Record {
         columns.extend(run.heading.clone());
         columns.extend(run.trailer_headings.iter().cloned());
         let signals = Signals::of_run(run, timing);
-        let input_noise = Arc::new(InputNoise::of(run.input_time(), &run.inputs, timing.into()));
+        let input_noise = Arc::new(InputNoise::of(run.input_time(), &run.inputs, &timings(&run.differences, timing)));
         let (rows, has_heading) = (0..run.time.len(), run.heading.is_some());
         let (name, time) = (run.name.clone(), run.time.clone());
         Self { name, time, columns, has_heading, signals, trailers, input_noise, rows, known: Known::default() }

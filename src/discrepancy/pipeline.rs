@@ -45,13 +45,18 @@ pub fn discover(request: &Request, progress: &OnProgress) -> Result<Discovery> {
 pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &OnProgress) -> Result<Discovery> {
     let roles = common_roles(request.runs, request.held_out)?;
     let model = Model::from_file(request.file, request.library, &roles)?;
-    if let Some(slip) = slips::any(request.file, &model, request.runs.iter().chain(request.held_out))? {
-        return Ok(unfitted(request, clocks, verdict::unusable(slip)));
-    }
-    if let Some(slip) = unit_errors::too_sparse(&model, request.runs.iter().chain(request.held_out))? {
-        return Ok(unfitted(request, clocks, verdict::unusable(slip)));
+    let all = || request.runs.iter().chain(request.held_out);
+    let slip = slips::any(request.file, &model, all())?;
+    if let Some(sparse) = unit_errors::too_sparse(&model, all())? {
+        return Ok(unfitted(request, clocks, verdict::unusable(slip.unwrap_or(sparse))));
     }
     let data = Data::of(request, &model)?;
+    if let Some(slip) = slip {
+        let given = |r| figure_data::path_as_given(r, &model);
+        let paths = data.fitted.iter().map(given).collect::<Result<_>>()?;
+        // What follows from the slip is not told beside it.
+        return Ok(early(request, &Data::default(), clocks, paths, verdict::unusable(slip)));
+    }
     let problem = Problem::new(data.fitted.clone(), request.file.noise.position, request.file.noise.heading)
         .knowing_its_inputs(&model)?;
     if let Some(outcome) = verdict::before_fitting(&problem, &model)? {
@@ -150,8 +155,7 @@ fn next(
 
 /// The answer for runs that are not even put to the model.
 pub(crate) fn unfitted(request: &Request, clocks: Clocks, outcome: Outcome) -> Discovery {
-    let none = Data { fitted: vec![], held_out: vec![], gross: 0, jumps: vec![], clocks: vec![] };
-    early(request, &none, clocks, vec![], outcome)
+    early(request, &Data::default(), clocks, vec![], outcome)
 }
 
 /// The answer for runs that are not fitted.

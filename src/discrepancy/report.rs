@@ -1,6 +1,5 @@
 //! What `discover` says, as data: the contract's `report.json` and the pictures of `report.html`.
 
-use crate::discrepancy::identifiability::check_report::Finding;
 use crate::error::{Error, Result};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -437,6 +436,26 @@ pub struct DataSummary {
     /// What is wrong with the data, and how it is mended.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub findings: Vec<Finding>,
+}
+
+/// Something to know of the data.
+///
+/// ```
+/// use creepage::report::Finding;
+/// fn is_one_sided(findings: &[Finding]) -> bool {
+///     findings.iter().any(|finding| finding.id == "one-turn-direction")
+/// }
+/// assert!(!is_one_sided(&[]));
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Finding {
+    /// Its kind, for scripts, such as `one-turn-direction`.
+    pub id: String,
+    /// In words.
+    pub says: String,
+    /// The lines of the model file that mend it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mend: Option<String>,
 }
 
 /// The clock of a run whose inputs and poses were logged apart: time of the poses = time of the inputs + offset +

@@ -73,7 +73,7 @@ fn the_car_creeps_at_its_rear_axle() {
     {
         let report = report(Body::Car, law, &[friction]);
         let found = report.effects.iter().find(|e| ids.contains(&e.id.as_str()));
-        let found = found.unwrap_or_else(|| panic!("{law}: {}", report.summary));
+        let found = found.unwrap_or_else(|| panic!("{law}: {} {:?}", report.summary, report.refuted));
         let value = found.parameters.values().next().unwrap();
         assert!((value.value * friction / share - 1.0).abs() < 0.05, "{law}: {found:?}");
         assert!(value.std.unwrap() < 0.02 * value.value, "{law}: {found:?}");

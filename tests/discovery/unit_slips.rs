@@ -78,7 +78,7 @@ fn times_that_are_no_seconds() {
 fn inputs_in_other_units() {
     let wheels = |row: &mut [f64]| row[INPUT..].iter_mut().for_each(|u| *u /= DEGREE);
     is_told_at_once(Tractor::DifferentialDrive, &wheels, "are in degrees per second");
-    is_told_at_once(Tractor::Unicycle, &|row| row[INPUT + 1] /= DEGREE, "yaw_rate is in degrees per second");
+    is_told_at_once(Tractor::Unicycle, &|row| row[INPUT + 1] /= DEGREE, "in degrees");
     is_told_at_once(Tractor::Car, &|row| row[INPUT] *= 1e3, "are the inputs in SI units?");
     is_told_at_once(Tractor::Unicycle, &|row| row[INPUT] *= 1e3, "is a speed in millimetres per second");
 }
@@ -93,7 +93,7 @@ fn poses_in_other_units() {
         row[Y] = 48.7 + row[Y] / 111e3;
     };
     is_told_at_once(Tractor::DifferentialDrive, &globe, "degrees of latitude and longitude");
-    is_told_at_once(Tractor::Car, &|row| row[HEADING] /= DEGREE, "the heading is in degrees");
+    is_told_at_once(Tractor::Car, &|row| row[HEADING] /= DEGREE, "heading in degrees");
 }
 
 #[test]

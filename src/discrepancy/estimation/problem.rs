@@ -113,15 +113,15 @@ pub(crate) fn starts(model: &Model, records: &[Record], plan: &[Segment]) -> Res
 /// Times the noise of inputs is drawn.
 const INPUT_DRAWS: u64 = 3;
 
-/// The variance of a heading that positions of a variance tell over the way of a window, (σ/(v·W))²; `None` where nothing
-/// moves.
+/// The variance of a heading that positions of a variance tell over the way of a window, (σ/(v·W))², by the windows whose
+/// way is longer than that σ; `None` where nothing moves.
 fn yaw_told(records: &[Record], plan: &[Segment], variance: f64) -> Option<f64> {
     let way = |(r, a, b): (&Record, usize, usize)| {
         let (a, b) = (r.smoothed(a), r.smoothed(b));
         (b[0] - a[0]).hypot(b[1] - a[1])
     };
     let steps = plan.iter().flat_map(|s| s.windows.windows(2).map(|w| (&records[s.record], w[0].start, w[1].start)));
-    let mut ways: Vec<f64> = steps.map(way).filter(|way| *way > 0.0).collect();
+    let mut ways: Vec<f64> = steps.map(way).filter(|way| way * way > variance).collect();
     local_polynomial::median(&mut ways).map(|way| variance / (way * way))
 }
 

@@ -15,6 +15,7 @@ use rayon::prelude::*;
 pub(crate) const FITTED_SHARE: f64 = 0.75;
 
 /// Runs cut into what is fitted and what is held out.
+#[derive(Default)]
 pub(crate) struct Data {
     pub fitted: Vec<Record>,
     pub held_out: Vec<Record>,

@@ -8,6 +8,7 @@ pub mod outliers;
 pub(crate) mod quantisation;
 pub(crate) mod reference_jumps;
 pub(crate) mod repair_search;
+pub(crate) mod repair_trial;
 pub(crate) mod repairs;
 pub(crate) mod servo_line;
 pub(crate) mod signed_ratios;

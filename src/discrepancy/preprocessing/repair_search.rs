@@ -1,9 +1,10 @@
 //! The search for the one repair of the data that brings model and measurement together.
 
 use super::dead_reckoning::DeadReckoning;
-use super::repairs::{Change, InputRepair, PoseRepair, Repair, Repaired, Unit, inputs};
+use super::repair_trial::{FAILS, REPAIRED, RIGHT, Trial, accepts};
+use super::repairs::{Change, InputRepair, PoseRepair, Repair, Repaired, Unit};
 use super::servo_line;
-use super::signed_ratios::{Motion, Ratio, SignedRatios, Windows};
+use super::signed_ratios::{Motion, SignedRatios, Windows};
 use super::unit_errors::{SPARSE, Slip, SlipKind};
 use crate::discrepancy::record::run_record::Record;
 use crate::error::Result;
@@ -11,20 +12,6 @@ use crate::files::{ModelFile, Run};
 use crate::model::Model;
 use rayon::prelude::*;
 
-/// A model that leaves more of the way, or of the turning, unexplained fails; an ordinary effect leaves less.
-const FAILS: f64 = 0.15;
-/// Repaired data leave less than this share unexplained.
-const REPAIRED: f64 = 0.04;
-/// A repair takes away all but this share of what was unexplained.
-const LEFT: f64 = 0.25;
-/// Ratios after a repair.
-const RIGHT: [f64; 2] = [0.85, 1.18];
-/// Slopes about the means after a repair: an offset makes no ratio.
-const RIGHT_ABOUT_MEAN: [f64; 2] = [0.75, 1.33];
-/// Motions whose share about their means is less hardly vary.
-const VARIES: f64 = 0.03;
-/// Ratios within this factor may be an offset's where nothing varies.
-const LARGE: f64 = 5.0;
 /// Repairs that leave up to so many times as much as the best one, or so much more, are not told apart.
 const ALIKE: [f64; 2] = [1.5, 0.004];
 /// More far-fetched repairs beside a simple one are not listed.
@@ -33,15 +20,6 @@ const FAR_FETCHED: u32 = 2;
 const LISTED: usize = 2;
 /// Turning of its own that no unequal wheels make: a share of all, and rad/s.
 const OF_ITS_OWN: [f64; 2] = [0.3, 0.1];
-
-/// Inputs and pose of one run, to try repairs on.
-pub(crate) struct Trial<'a> {
-    pub file: &'a ModelFile,
-    pub run: &'a Run,
-    pub reckoning: DeadReckoning<'a>,
-    pub windows: Windows,
-    pub measured: Vec<Motion>,
-}
 
 /// A repair with what it leaves.
 struct Accepted {
@@ -108,25 +86,6 @@ impl Trial<'_> {
     /// The motions of the model as it is.
     fn given(&self) -> Vec<Motion> {
         self.reckoned(&self.run.inputs)
-    }
-
-    /// The motions that inputs reckon.
-    pub fn reckoned(&self, inputs: &[Vec<f64>]) -> Vec<Motion> {
-        let [x, y, heading] = self.reckoning.path(inputs);
-        self.windows.motions([&x, &y], self.run.heading.as_ref().map(|_| &heading[..]))
-    }
-
-    /// The ratios after some inputs were repaired.
-    pub fn with(&self, repairs: &[InputRepair]) -> SignedRatios {
-        let inputs = inputs(self.run, self.file.input_timing, repairs);
-        self.windows.ratios(&self.reckoned(&inputs), &self.measured)
-    }
-
-    /// The reading of one input's column as another.
-    pub fn repair(&self, role: &str, source: &str, change: Change) -> InputRepair {
-        let named = self.file.columns.inputs.iter().find(|c| c.role == source);
-        let column = named.map_or(source, |c| &c.column).to_string();
-        InputRepair { role: role.into(), source: source.into(), column, change }
     }
 
     fn input_repairs(&self, model: &Model, before: &SignedRatios) -> Vec<Accepted> {
@@ -216,7 +175,8 @@ impl Trial<'_> {
         let run = self.run;
         let tried = PoseRepair::all(run.heading.is_some()).into_par_iter().filter_map(|(repair, cost)| {
             let ([x, y], heading) = repair.applied([&run.x, &run.y], run.heading.as_deref());
-            let after = self.windows.ratios(given, &self.windows.motions([&x, &y], heading.as_deref()));
+            let windows = self.windows.in_unit(repair.metres());
+            let after = windows.ratios(given, &windows.motions([&x, &y], heading.as_deref()));
             let is_scale = matches!(repair, PoseRepair::PositionUnit(..) | PoseRepair::HeadingInDegrees);
             let accepted = accepts(before, &after, is_scale);
             accepted.then(|| Accepted { repair: Repair::Pose(repair), cost, unexplained: after.unexplained() })
@@ -251,29 +211,6 @@ fn turns_by(role: &str) -> bool {
 
 fn fails(ratios: &SignedRatios) -> bool {
     ratios.each().any(|r| r.unexplained > FAILS)
-}
-
-/// Whether data are right after a repair, where before they were grossly wrong.
-pub(crate) fn accepts(before: &SignedRatios, after: &SignedRatios, is_scale: bool) -> bool {
-    let within = |[low, high]: [f64; 2], x: f64| (low..high).contains(&x);
-    let is_right = |r: Ratio| {
-        let [slope, share] = r.varied;
-        r.unexplained < REPAIRED && within(RIGHT, r.slope) && (share < VARIES || within(RIGHT_ABOUT_MEAN, slope))
-    };
-    // Where the motion hardly varies an offset of the input makes a ratio as well.
-    let told = |b: Option<Ratio>, a: Option<Ratio>| match (b, a) {
-        (Some(b), Some(a)) if is_scale && b.unexplained > FAILS => {
-            a.varied[1] > VARIES || !within([1.0 / LARGE, LARGE], b.size)
-        }
-        _ => true,
-    };
-    let has_all = before.way.is_some() == after.way.is_some() && before.turn.is_some() <= after.turn.is_some();
-    has_all
-        && after.each().count() > 0
-        && after.each().all(is_right)
-        && told(before.way, after.way)
-        && told(before.turn, after.turn)
-        && after.unexplained() < LEFT * before.unexplained()
 }
 
 /// The simplest of the repairs that leave least, and others like it.
@@ -351,7 +288,7 @@ mod tests {
         let [x, y, heading] = pose;
         let run = Run {
             deviations: Default::default(),
-            differences: Default::default(),
+            differences: vec![None; inputs.len()],
             name: "run.csv".into(),
             path: "run.csv".into(),
             sha256: String::new(),

@@ -109,6 +109,11 @@ impl PoseRepair {
         found
     }
 
+    /// What a unit of the positions is, m.
+    pub fn metres(self) -> f64 {
+        if let Self::PositionUnit(_, metres) = self { metres } else { 1.0 }
+    }
+
     /// The pose as it is meant.
     pub fn applied(self, [x, y]: [&[f64]; 2], heading: Option<&[f64]>) -> ([Vec<f64>; 2], Option<Vec<f64>>) {
         let times = |column: &[f64], factor: f64| column.iter().map(|v| factor * v).collect::<Vec<f64>>();

@@ -1,6 +1,6 @@
 //! An angle that was logged as the command of a servo: a straight line of what is wanted.
 
-use super::repair_search::{Trial, accepts};
+use super::repair_trial::{Trial, accepts};
 use super::repairs::{Change, InputRepair, Repair};
 use super::signed_ratios::{Motion, SignedRatios};
 use crate::model::Model;

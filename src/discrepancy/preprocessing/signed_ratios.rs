@@ -100,6 +100,11 @@ impl Windows {
         self.rows.iter().enumerate().map(one).collect()
     }
 
+    /// The same of positions in another unit, of so many metres each.
+    pub fn in_unit(&self, metres: f64) -> Self {
+        Self { rows: self.rows.clone(), noise: metres * self.noise, ..*self }
+    }
+
     /// Measured beside reckoned.
     pub fn ratios(&self, reckoned: &[Motion], measured: &[Motion]) -> SignedRatios {
         let mut sizes: Vec<f64> = measured.iter().map(|m| m.moved.norm()).collect();

@@ -1,9 +1,9 @@
 //! Findings of the state of the data in words.
 
 use super::{slip_text, warning_text};
-use crate::discrepancy::identifiability::check_report::Finding;
 use crate::discrepancy::identifiability::data_finding::{DataFinding, Side};
 use crate::discrepancy::preprocessing::unit_errors::Slip;
+use crate::discrepancy::report::Finding;
 use crate::number_format::significant;
 
 /// The components of unexplained motion.

@@ -1,8 +1,7 @@
 //! Names that were found and do not stand: what a fit asks for is no finding by that alone.
 
 use super::input_noise;
-use super::search::{Search, SearchState, find};
-use super::select::forget;
+use super::search::{Search, SearchState, find, forget};
 use crate::discrepancy::estimation::bounds::is_possible;
 use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::evidence::jackknife::Jackknife;

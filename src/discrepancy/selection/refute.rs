@@ -76,9 +76,10 @@ fn next(
     Ok(smaller.map(|smaller| (least.applied.clone(), Refusal::HeldOut(growth), smaller)))
 }
 
-/// The gap that grows most, of those that do.
+/// The gap that grows most, of those that do: what shrinks the gap of the same quantity at another horizon is not refuted.
 fn most_grown(gaps: &[Growth]) -> Option<Growth> {
-    gaps.iter().filter(|g| g.is_real()).max_by(|a, b| a.factor().total_cmp(&b.factor())).copied()
+    let is_one_way = |g: &&Growth| !gaps.iter().any(|other| other.of_heading == g.of_heading && other.shrinks());
+    gaps.iter().filter(|g| g.is_real()).filter(is_one_way).max_by(|a, b| a.factor().total_cmp(&b.factor())).copied()
 }
 
 #[cfg(test)]
@@ -89,8 +90,12 @@ mod tests {
     fn a_gap_grows_beyond_its_floor_and_the_largest_counts() {
         let gap = |gap: [f64; 2], floor: f64| Growth { horizon_s: 1.0, of_heading: false, gap, floor };
         assert_eq!(most_grown(&[gap([0.1, 0.12], 0.01), gap([0.01, 0.02], 0.02)]), None);
-        let most = most_grown(&[gap([0.1, 0.2], 0.01), gap([0.1, 0.3], 0.01), gap([0.1, 0.05], 0.01)]).unwrap();
-        assert!((most.factor() - 3.0).abs() < 1e-12);
+        let grown = [gap([0.1, 0.2], 0.01), gap([0.1, 0.3], 0.01)];
+        assert!((most_grown(&grown).unwrap().factor() - 3.0).abs() < 1e-12);
+        // What helps at another horizon is not refuted, what helps the heading alone is.
+        let shrunk = gap([0.1, 0.05], 0.01);
+        assert_eq!(most_grown(&[grown[0], grown[1], shrunk]), None);
+        assert!(most_grown(&[grown[0], Growth { of_heading: true, ..shrunk }]).is_some());
         assert!(gap([0.1, 0.08], 0.01).shrinks() && !gap([0.1, 0.095], 0.01).shrinks());
     }
 }

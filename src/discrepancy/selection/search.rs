@@ -98,3 +98,16 @@ pub(crate) fn still_open<'e>(library: impl IntoIterator<Item = &'e Effect>, give
     let is_open = |e: &&Effect| given_up.iter().all(|g| g.effect.id != e.id);
     library.into_iter().filter(is_open).cloned().collect()
 }
+
+/// Numbers that stand for the free values of a fit, without those of an effect.
+pub(crate) fn forget(numbers: &mut Vec<f64>, fit: &Fit, effect: &Applied) {
+    let mut at = 0;
+    for e in fit.model.free_effects() {
+        let values = e.values.len();
+        if e.same_as(effect) && at + values <= numbers.len() {
+            numbers.drain(at..at + values);
+            return;
+        }
+        at += values;
+    }
+}

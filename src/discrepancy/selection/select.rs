@@ -61,19 +61,6 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &O
     Ok(Some(Selected { before, after, chosen, steps, candidates, inconsistent, sampling_sensitive, refused }))
 }
 
-/// Numbers that stand for the free values of a fit, without those of an effect.
-pub(crate) fn forget(numbers: &mut Vec<f64>, fit: &Fit, effect: &Applied) {
-    let mut at = 0;
-    for e in fit.model.free_effects() {
-        let values = e.values.len();
-        if e.same_as(effect) && at + values <= numbers.len() {
-            numbers.drain(at..at + values);
-            return;
-        }
-        at += values;
-    }
-}
-
 impl Search<'_> {
     /// Evidence, deviations and rivals of every chosen effect.
     ///

@@ -128,6 +128,7 @@ impl Search<'_> {
 mod tests {
     use super::*;
     use crate::discrepancy::fixtures::{KNOWN, applied, fit_of, unicycle};
+    use crate::discrepancy::selection::search::forget;
 
     #[test]
     fn the_numbers_of_one_effect_are_forgotten() {

@@ -90,7 +90,7 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
         warnings.extend(refuted(&selected));
         warnings.extend(grown(&gap));
     }
-    warnings.extend(too_long(&horizons, &gap));
+    warnings.extend(too_long(request.horizons, &gap));
     if usable {
         warnings.extend(contradictions::warnings(&selected));
         warnings.extend(verdict::restated(&selected));

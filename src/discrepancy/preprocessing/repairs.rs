@@ -87,7 +87,7 @@ pub enum PoseRepair {
 impl PoseRepair {
     /// Every one, and how far-fetched it is; without a heading those that the path alone shows.
     pub fn all(has_heading: bool) -> Vec<(Self, u32)> {
-        let units = [("mm", 1e-3), ("cm", 1e-2), ("km", 1e3), ("ft", 0.3048)];
+        let units = [("mm", 1e-3), ("cm", 1e-2), ("ft", 0.3048)];
         let mut found: Vec<(Self, u32)> = units.map(|(name, metres)| (Self::PositionUnit(name, metres), 12)).to_vec();
         found.push((Self::FromBelow, 11));
         if has_heading {

@@ -33,9 +33,6 @@ pub fn says(refused: &Refused, roles: &[String]) -> String {
             let place = place(*regime, roles);
             format!("{label} is {there} {place} and {elsewhere} elsewhere, so that is not named")
         }
-        Refusal::NotShown => {
-            format!("beside what remains held-out runs are predicted no better with {label}, so that is not named")
-        }
         Refusal::InputNoise => {
             format!("the steps or the noise of the inputs alone make such a {label}, so that is not named")
         }
@@ -80,7 +77,7 @@ mod tests {
             "traverse-creep is −0.020 at large wheel_rate and 0.10 elsewhere, so that is not named"
         );
         let reasons = [Refusal::Impossible, Refusal::NoDeviation, Refusal::BelowBar, Refusal::LeansOnLaw];
-        let others = [Refusal::InputNoise, Refusal::NotShown, Refusal::Ridge(applied("lever-arm").into())];
+        let others = [Refusal::InputNoise, Refusal::Ridge(applied("lever-arm").into())];
         for why in reasons.into_iter().chain(others) {
             let line = said(why);
             assert!(line.contains("traverse-creep") && line.ends_with("is not named"), "{line}");

@@ -41,8 +41,6 @@ pub enum Refusal {
         /// Its values elsewhere and there.
         values: [f64; 2],
     },
-    /// Motion remains, and no held-out gap is smaller for it.
-    NotShown,
     /// The noise of the inputs makes as much of nothing.
     InputNoise,
     /// Held-out runs are predicted worse with it.

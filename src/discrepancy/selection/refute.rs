@@ -4,12 +4,10 @@ use super::search::{MOST, Search, SearchState};
 use super::transients;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
-use crate::discrepancy::localisation::unexplained_motion::visible;
 use crate::discrepancy::selection::choice::{Growth, Refusal, Refused, Selected, SelectedEffect};
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::Model;
-use crate::model::effect_equation::is_term;
 use crate::progress::OnProgress;
 
 /// Held-out runs.
@@ -19,7 +17,7 @@ pub(crate) trait HeldOut {
 }
 
 /// Takes out of a choice what held-out runs are predicted worse with, an effect beside all others or what was found as a
-/// whole; and, where motion remains that has no name, the names with which they are predicted no better.
+/// whole.
 pub(crate) fn refute(
     problem: &Problem,
     library: &[Effect],
@@ -53,14 +51,11 @@ fn next(
     held_out: &dyn HeldOut,
 ) -> Result<Option<(Applied, Refusal, Fit)>> {
     let mut worst: Option<(f64, Applied, Refusal, Fit)> = None;
-    let left = search.problem.violations(&fit.model, &fit.noise())?;
-    let rest = visible(fit, &left).next().is_some();
     for c in chosen {
         let Some(smaller) = search.without(fit, &c.applied)? else { continue };
         let gaps = held_out.gaps(&fit.model, &smaller.model)?;
-        let unseen = rest && !is_term(&c.applied) && !gaps.is_empty() && !gaps.iter().any(Growth::shrinks);
-        let refusal = most_grown(&gaps).map(|g| (g.factor(), Refusal::HeldOut(g)));
-        let Some((factor, why)) = refusal.or(unseen.then_some((1.0, Refusal::NotShown))) else { continue };
+        let Some(growth) = most_grown(&gaps) else { continue };
+        let (factor, why) = (growth.factor(), Refusal::HeldOut(growth));
         if worst.as_ref().is_none_or(|(f, ..)| factor > *f) {
             worst = Some((factor, c.applied.clone(), why, smaller));
         }

@@ -26,6 +26,8 @@ pub enum Kind {
     Input,
     /// A run that failed although its input was good: exit code 1.
     Run,
+    /// An answer that was asked to end the command: exit code 3.
+    Verdict,
     /// Work that its listener stopped: exit code 1.
     Stopped,
 }
@@ -62,6 +64,11 @@ impl Error {
     /// A run that failed on good input.
     pub fn run(message: impl Into<String>) -> Self {
         Self::new(Kind::Run, message.into())
+    }
+
+    /// An answer that was asked to end the command.
+    pub fn verdict(message: impl Into<String>) -> Self {
+        Self::new(Kind::Verdict, message.into())
     }
 
     /// Work that its listener stopped.
@@ -118,11 +125,12 @@ impl Error {
         self.0.kind
     }
 
-    /// The exit code the contract gives this error: 2 for input, 1 for a failed run.
+    /// The exit code the contract gives this error: 2 for input, 1 for a failed run, 3 for an answer asked to fail.
     pub fn exit_code(&self) -> u8 {
         match self.0.kind {
             Kind::Input => 2,
             Kind::Run | Kind::Stopped => 1,
+            Kind::Verdict => 3,
         }
     }
 }

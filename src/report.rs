@@ -9,8 +9,8 @@
 //! assert_eq!((creep.value, creep.std), (0.05, None));
 //! ```
 
-pub use crate::discrepancy::identifiability::{Finding, Health, Pair, Parameter, Prospect, RunHealth, Seen, Standing};
+pub use crate::discrepancy::identifiability::{Health, Pair, Parameter, Prospect, RunHealth, Seen, Standing};
 pub use crate::discrepancy::report::{
-    BeforeAfter, DataSummary, Disagreement, Estimate, Evidence, Floor, Gap, Named, NextExperiment, Provenance,
-    Remaining, RemainingConstraint, Rival, RunClock, Step, Unnamed,
+    BeforeAfter, Covariance, DataSummary, Disagreement, Estimate, Evidence, Finding, Floor, Gap, Named, NextExperiment,
+    Provenance, Refuted, Remaining, RemainingConstraint, Remains, Rival, RunClock, Step, Unnamed,
 };

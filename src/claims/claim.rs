@@ -12,8 +12,9 @@ use std::sync::Arc;
 ///     .at("section 4, (24)")
 ///     .under("the wheel rate is measured")
 ///     .proof("the derived row gives it", &[("v_l", "r*theta'*(1 - e_rc)")], |s, _| prove(&DerivedFormulas::of("unicycle"), s));
-/// let ledger = verify(&[claim], &Options::default(), &|_| ());
+/// let ledger = verify(&[claim], &Options::default(), &|_| std::ops::ControlFlow::Continue(()))?;
 /// assert!(ledger.all_earned());
+/// # Ok::<(), creepage::Error>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Claim {

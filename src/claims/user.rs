@@ -20,8 +20,13 @@ use std::path::Path;
 ///
 /// ```
 /// use creepage::{claims, vehicles};
-/// let own = claims::read("examples/bus/claims.toml".as_ref(), vehicles::all());
-/// assert!(own.is_ok_and(|claims| !claims.is_empty()));
+/// let file = std::env::temp_dir().join(format!("creepage-claims-{}.toml", std::process::id()));
+/// let text = "[[claim]]\nid = \"square\"\nsays = \"a product\"\nstatus = \"proved\"\nequations = [\"x^2 = x*x\"]\n";
+/// std::fs::write(&file, text).unwrap();
+/// let own = claims::read(&file, vehicles::all())?;
+/// assert_eq!(own[0].id, "square");
+/// # std::fs::remove_file(file).unwrap();
+/// # Ok::<(), creepage::Error>(())
 /// ```
 ///
 /// # Errors

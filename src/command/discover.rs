@@ -9,6 +9,7 @@ use creepage::discrepancy::discover::discover_aligned;
 use creepage::discrepancy::discovery::Discovery;
 use creepage::discrepancy::rendering::html::{gap_svg, html};
 use creepage::discrepancy::rendering::summary::summary_text;
+use creepage::discrepancy::report::Verdict;
 use creepage::discrepancy::request::Request;
 use creepage::files::{ModelFile, VEHICLES_FILE, write_all_or_nothing};
 use creepage::model::Model;
@@ -25,9 +26,9 @@ Example:
   creepage discover INPUTS.csv --truth POSES.csv --model MODEL.toml --out report
   creepage discover RUN.csv --model MODEL.toml --effects examples/effects/my_effects.toml --out report
 
-Writes report.json, report.html, gap.svg and model.patched.toml into the output folder, and the file of a vehicle of
-your own beside them, so that the patched model runs again.
-Exit code 0 whatever the verdict, 2 for unusable input, 1 for a failed run.")]
+Writes report.json, report.html, gap.svg and, but for unusable data, model.patched.toml into the output folder, and the
+file of a vehicle of your own beside them, so that the patched model runs again.
+Exit code 0 whatever the verdict, but 3 for one of --fail-on; 2 for unusable input, 1 for a failed run.")]
 pub struct Arguments {
     /// Measured runs, CSV
     #[arg(required = true, value_name = "RUN.csv")]
@@ -56,11 +57,20 @@ pub struct Arguments {
     /// What to print: the summary, or the report as JSON
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    /// Verdicts that end the command with exit code 3, after everything is written, such as missing-effect,unexplained
+    #[arg(long, value_name = "VERDICT", value_delimiter = ',', value_parser = verdict)]
+    fail_on: Vec<Verdict>,
     /// Seed of the noise floor's random numbers
     #[arg(long, allow_negative_numbers = true, default_value_t = 0)]
     seed: u64,
     #[command(flatten)]
     own: UserCatalogues,
+}
+
+fn verdict(text: &str) -> std::result::Result<Verdict, String> {
+    let known: Vec<&str> = Verdict::ALL.iter().map(|v| v.id()).collect();
+    let found = Verdict::ALL.into_iter().find(|v| v.id() == text);
+    found.ok_or_else(|| format!("no such verdict; the verdicts are {}", known.join(", ")))
 }
 
 fn horizon(text: &str) -> std::result::Result<f64, String> {
@@ -106,7 +116,11 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
         Format::Text if !quiet => print(&screen(&found, &arguments.out))?,
         Format::Text => {}
     }
-    Ok(())
+    let verdict = found.report.verdict;
+    match arguments.fail_on.contains(&verdict) {
+        true => Err(Error::verdict(format!("the verdict is {}", verdict.id()))),
+        false => Ok(()),
+    }
 }
 
 fn write(found: &Discovery, file: &ModelFile, out: &Path) -> Result<()> {
@@ -114,14 +128,25 @@ fn write(found: &Discovery, file: &ModelFile, out: &Path) -> Result<()> {
         ("report.json", found.report.json()?),
         ("report.html", html(&found.report, &found.pictures)),
         ("gap.svg", gap_svg(&found.report, &found.pictures)),
-        ("model.patched.toml", found.patched(file)),
     ];
+    if is_patched(found) {
+        files.push(("model.patched.toml", found.patched(file)));
+    }
     files.extend(file.vehicle_origin().map(|o| (VEHICLES_FILE, o.text.clone())));
     let bytes: Vec<(&str, &[u8])> = files.iter().map(|(name, text)| (*name, text.as_bytes())).collect();
     write_all_or_nothing(out, &bytes)
 }
 
+/// Whether there is a model to write: of data that cannot be put to one there is none.
+fn is_patched(found: &Discovery) -> bool {
+    found.report.verdict != Verdict::UnusableData
+}
+
 fn screen(found: &Discovery, out: &Path) -> String {
-    let written = format!("report.html, report.json, gap.svg and model.patched.toml are in {}\n", out.display());
+    let files = match is_patched(found) {
+        true => "report.html, report.json, gap.svg and model.patched.toml",
+        false => "report.html, report.json and gap.svg",
+    };
+    let written = format!("{files} are in {}\n", out.display());
     format!("{}{written}", summary_text(&found.report))
 }

@@ -3,8 +3,8 @@
 use super::output::print;
 use super::user_catalogues::UserVehicles;
 use clap::Args;
-use creepage::files::{ModelFile, read_header, write_whole};
-use creepage::scaffold::{Starter, Wanted};
+use creepage::files::{ModelFile, read_header, read_texts, write_whole};
+use creepage::scaffold::{Measures, Starter, Wanted};
 use creepage::{Error, Result, effects, model};
 use std::path::{Path, PathBuf};
 
@@ -15,11 +15,12 @@ Examples:
   creepage init differential-drive --from RUN.csv
   creepage init unicycle --from examples/runs/cornering/eights.csv --out model.toml
   creepage init unicycle --from INPUTS.csv --truth POSES.csv
+  creepage init differential-drive --from RUN.csv --urdf robot.urdf
   creepage init n-trailer --tractor car --trailers 2 --out truck.toml
   creepage init articulated-bus --vehicles examples/bus/bus.toml --out bus.toml
 
-The file is valid at once: parameters are placeholders with unit and meaning, columns are those of RUN.csv that the
-roles are likely to mean. An older file is kept unless --force is given. `creepage vehicles` lists vehicles.")]
+Parameters are placeholders with unit and meaning, columns are those of RUN.csv that the roles are likely to mean, with
+the units that their names and values speak for; what is not found is to be named. An older file is kept unless --force is given. `creepage vehicles` lists vehicles.")]
 pub struct Arguments {
     /// The vehicle
     #[arg(value_name = "VEHICLE")]
@@ -33,6 +34,9 @@ pub struct Arguments {
     /// A file of poses, where they are not in the log
     #[arg(long, value_name = "POSE.csv", requires = "from")]
     truth: Option<PathBuf>,
+    /// A robot's description, whose wheels give radius, track and wheelbase
+    #[arg(long, value_name = "ROBOT.urdf")]
+    urdf: Option<PathBuf>,
     /// The vehicle in front of trailers [default: car]
     #[arg(long, value_name = "VEHICLE")]
     tractor: Option<String>,
@@ -46,11 +50,15 @@ pub struct Arguments {
     own: UserVehicles,
 }
 
+/// Rows of a log that are looked at.
+const LOOKED_AT: usize = 2000;
+
 /// Carries out the command.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let read = |path: &PathBuf| Ok((path.display().to_string(), read_header(path)?));
     let log = arguments.from.as_ref().map(read).transpose()?;
     let truth = arguments.truth.as_ref().map(read).transpose()?;
+    let rows = |path: &Option<PathBuf>| path.as_ref().map_or(Ok(vec![]), |path| read_texts(path, LOOKED_AT));
     let vehicles = arguments.own.all()?;
     let is_own = |id: &Option<String>| vehicles.iter().any(|v| Some(&v.id) == id.as_ref() && v.origin.is_some());
     let named = is_own(&Some(arguments.vehicle.clone())) || is_own(&arguments.tractor);
@@ -63,6 +71,9 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
             trailers: arguments.trailers.map(usize::from),
             log,
             truth,
+            rows: rows(&arguments.from)?,
+            truth_rows: rows(&arguments.truth)?,
+            measures: arguments.urdf.as_ref().map(Measures::read).transpose()?,
             own,
         },
     )?;
@@ -92,12 +103,19 @@ fn from_folder_of(out: &Path, file: &Path) -> String {
 }
 
 fn screen(starter: &Starter, arguments: &Arguments) -> String {
-    let mut text = format!("{} is written; it is valid as it stands.\n", arguments.out.display());
+    let state = match starter.missing.as_slice() {
+        [] => "it is valid as it stands".into(),
+        missing => format!("not complete: name {}", missing.join(", ")),
+    };
+    let mut text = format!("{} is written; {state}.\n", arguments.out.display());
     if !starter.placeholders.is_empty() {
         text += &format!("  put your values for: {}\n", starter.placeholders.join(", "));
     }
     for (role, column) in &starter.found {
-        text += &format!("  {role:<18} column \"{column}\"\n");
+        text += &match column.starts_with(['{', '[']) {
+            true => format!("  {role:<18} {column}\n"),
+            false => format!("  {role:<18} column \"{column}\"\n"),
+        };
     }
     if !starter.missing.is_empty() {
         text += &format!("  name under [columns]: {}\n", starter.missing.join(", "));

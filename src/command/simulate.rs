@@ -85,7 +85,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
 
 /// The inputs as signals, and the pose to begin with.
 fn begun(file: &ModelFile, inputs: &Inputs) -> (Signals, Initial) {
-    let signals = Signals::new(&inputs.time, &inputs.columns, file.input_timing.into());
+    let signals = Signals::of_inputs(inputs, file.input_timing);
     let start = file.initial.clone().or_else(|| inputs.pose.clone());
     (signals, start.unwrap_or_else(|| at_origin(file)))
 }

@@ -4,7 +4,6 @@ use super::clock_alignment::aligned_run::{Aligned, aligned};
 use super::identifiability::check::{Assessment, assess};
 use super::identifiability::data_finding::DataFinding;
 use super::identifiability::{Check, Checked};
-use super::localisation::clock_drift::DELAY;
 use super::rendering::experiment_text::next_experiment;
 use super::rendering::{check_text, finding_text};
 use crate::discrepancy::clock_alignment::aligned_run::{is_aligned, without_delay};
@@ -54,7 +53,7 @@ pub fn check_aligned(of: &Checked, near: Option<f64>, progress: &OnProgress) -> 
         Ok(by_one) => by_one,
         Err(outcome) => return Ok(told(Assessment::cut_short(outcome), vec![])),
     };
-    let library: Vec<Effect> = library.iter().filter(|e| e.id != DELAY).cloned().collect();
+    let library: Vec<Effect> = library.iter().filter(|e| !e.is_of_clock()).cloned().collect();
     let runs: Vec<Run> = by_one.iter().map(|a| a.run.clone()).collect();
     let mut found = assess(&Checked { file, runs: &runs, library: &library }, progress)?;
     found.findings.extend(by_one.iter().filter_map(Aligned::doubt).chain(delay).map(Box::new).map(DataFinding::Clock));

@@ -3,7 +3,6 @@
 use super::clock_alignment::aligned_run::{Aligned, aligned};
 use super::clock_alignment::refinement::refined;
 use super::estimation::problem::Problem;
-use super::localisation::clock_drift::DELAY;
 use super::pipeline::{discover, discover_by_clocks, unfitted};
 use super::preprocessing::dataset::{Data, FITTED_SHARE};
 use super::selection::select::choose;
@@ -58,7 +57,7 @@ pub fn discover_aligned(request: &Request, near: Option<f64>, progress: &OnProgr
         Ok(held_out) => held_out,
         Err(outcome) => return Ok(unfitted(request, Clocks::default(), outcome)),
     };
-    let library: Vec<Effect> = request.library.iter().filter(|e| e.id != DELAY).cloned().collect();
+    let library: Vec<Effect> = request.library.iter().filter(|e| !e.is_of_clock()).cloned().collect();
     let runs = |all: &[Aligned]| all.iter().map(|a| a.run.clone()).collect::<Vec<Run>>();
     let (by_one, judged) = (runs(&fitted), runs(&held_out));
     let request = Request { runs: &by_one, held_out: &judged, library: &library, ..*request };
@@ -81,7 +80,7 @@ fn with_effects(request: &Request, model: &Model, first: &[Aligned], progress: &
     }
     let Some(choice) = choose(&problem, model, request.library, progress)? else { return Ok(model.clone()) };
     let mut chosen = choice.after.model;
-    chosen.effects.retain(|e| e.effect.id != DELAY || !e.free);
+    chosen.effects.retain(|e| !e.effect.is_of_clock() || !e.free);
     Ok(chosen)
 }
 

@@ -1,13 +1,17 @@
 //! The outcome of a discovery: its report, put together once, its pictures and the patched model.
 
-use super::rendering::{experiment_text, reason_text, regime_text, summary, warning_text};
+use super::rendering::{
+    experiment_text, finding_text, reason_text, refusal_text, regime_text, rest_text, summary, warning_text,
+};
 use super::report::*;
 use crate::discrepancy::diagnosis::reason::Reason;
+use crate::discrepancy::diagnosis::rest::Rest;
 use crate::discrepancy::diagnosis::warning::Warning;
 use crate::discrepancy::experiment::next_step::NextStep;
 use crate::discrepancy::localisation::driving_regimes::Stretch;
 use crate::discrepancy::preprocessing::dataset::Data;
 use crate::discrepancy::request::Request;
+use crate::discrepancy::selection::choice::Refused;
 use crate::files::{EffectEntry, ModelFile};
 use crate::wording::GROSS;
 use std::collections::BTreeMap;
@@ -44,6 +48,9 @@ pub(crate) struct Findings {
     pub effects: Vec<Named>,
     pub unnamed: Vec<Unnamed>,
     pub disagreement: Vec<Stretch>,
+    pub refused: Vec<Refused>,
+    pub rest: Option<Rest>,
+    pub covariance: Option<Covariance>,
     pub remaining: Option<Remaining>,
     pub gap: Vec<Gap>,
     pub steps: Vec<Step>,
@@ -58,13 +65,18 @@ pub(crate) fn report(request: &Request, data: &Data, verdict: Verdict, found: Fi
     let of_data = data.notes().into_iter().map(Warning::Dataset);
     let warnings = reading.chain(of_data).chain(found.warnings).chain(clocks.warnings);
     let composed = || summary::composed_sentence(verdict, &found.effects, &found.unnamed);
+    let sentence = found.reason.as_ref().map_or_else(composed, reason_text::sentence);
+    let roles = request.runs.first().map_or(&[][..], |r| &r.roles);
     Report {
-        schema: 1,
+        schema: 2,
         verdict,
-        summary: found.reason.as_ref().map_or_else(composed, reason_text::sentence),
+        summary: rest_text::admitted(&sentence, verdict, found.rest.as_ref()),
         effects: found.effects,
         unnamed: found.unnamed,
         disagreement: found.disagreement.iter().map(regime_text::disagreement).collect(),
+        refuted: found.refused.iter().map(|r| refusal_text::refuted(r, roles)).collect(),
+        remains: found.rest.as_ref().map(rest_text::remains),
+        covariance: found.covariance,
         remaining: found.remaining,
         gap: found.gap,
         next_experiment: found.next.as_ref().map(experiment_text::next_experiment),
@@ -76,6 +88,10 @@ pub(crate) fn report(request: &Request, data: &Data, verdict: Verdict, found: Fi
             why_dropped: why_dropped(request, data),
             warnings: warnings.map(|w| warning_text::line(&w)).collect(),
             clocks: clocks.clocks,
+            findings: match &found.reason {
+                Some(Reason::Slip(slip)) => vec![finding_text::slip(slip)],
+                _ => vec![],
+            },
         },
         provenance: provenance(request),
     }

@@ -2,7 +2,7 @@
 
 use super::estimation::fit::Fit;
 use super::record::run_record::Record;
-use crate::discrepancy::estimation::noise_model::NoiseModel;
+use crate::discrepancy::estimation::noise_model::{NoiseModel, Start};
 use crate::effects::{Applied, all, named};
 use crate::files::ModelFile;
 use crate::model::{Equations, Model, known};
@@ -36,6 +36,14 @@ pub fn unicycle(known: &[(&str, &[f64])]) -> Model {
     known.iter().fold(Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap(), with)
 }
 
+/// The noise of a vehicle with so many trailers, of the variances of the sensor and of the jumps.
+pub fn noise_of<const N: usize>(trailers: usize, sensor: [f64; N], jumps: &[f64]) -> NoiseModel {
+    let start = |variance: f64| Start { variance, is_measured: true, is_known: false };
+    let mut noise = NoiseModel::starting(trailers, sensor.map(start));
+    noise.process_mut().iter_mut().zip(jumps).for_each(|(c, v)| c.variance = *v);
+    noise
+}
+
 /// A fit that came to the values of a model; nothing else is said of it.
 pub fn fit_of(model: Model) -> Fit {
     let p = model.free_values();
@@ -46,11 +54,11 @@ pub fn fit_of(model: Model) -> Fit {
         covariance: None,
         between_runs: None,
         runs: 1,
-        variances: NoiseModel { measurement: [1e-6; 3], process: [1e-6; 4] },
+        variances: noise_of(0, [1e-6; 2], &[1e-6; 3]),
         deviance: 0.0,
         window_states: vec![],
         sample_size: 1000.0,
-        unexplained: [0.0; 4],
+        unexplained: vec![0.0; 3],
         residual_correlation_time: 1.0,
         noise_correlation_time: 1.0,
         initial_state_dof: 0.0,

@@ -3,7 +3,10 @@
 use super::diagnosis::advice::Advice;
 use super::diagnosis::before_after::{ModelComparison, grown, too_long};
 use super::diagnosis::equivalents::{EquivalentEffect, measured, relatives};
-use super::diagnosis::findings::{named, without_name};
+use super::diagnosis::findings::{covariance, named, without_name};
+use super::diagnosis::held_out::{Judge, refuted};
+use super::diagnosis::reason::Reason;
+use super::diagnosis::rest::rest;
 use super::diagnosis::verdict::{self, Outcome};
 use super::diagnosis::warning::Warning;
 use super::diagnosis::{contradictions, plausibility};
@@ -16,11 +19,12 @@ use super::localisation::driving_regimes;
 use super::localisation::unexplained_motion::remaining;
 use super::preprocessing::dataset::Data;
 use super::preprocessing::quantisation::{CoarseInput, coarse_inputs};
-use super::preprocessing::unit_errors;
+use super::preprocessing::{slips, unit_errors};
 use super::rendering::figure_data;
 use super::report::{Named, PathPicture, Pictures, Unnamed, Verdict};
 use super::request::{Request, common_roles, horizons};
 use super::selection::choice::{Selected, SelectedEffect};
+use super::selection::refute::refute;
 use super::selection::select::choose;
 use crate::error::Result;
 use crate::model::Model;
@@ -41,11 +45,20 @@ pub fn discover(request: &Request, progress: &OnProgress) -> Result<Discovery> {
 pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &OnProgress) -> Result<Discovery> {
     let roles = common_roles(request.runs, request.held_out)?;
     let model = Model::from_file(request.file, request.library, &roles)?;
-    if let Some(slip) = unit_errors::too_sparse(&model, request.runs.iter().chain(request.held_out))? {
-        return Ok(unfitted(request, clocks, verdict::unusable(slip)));
+    let all = || request.runs.iter().chain(request.held_out);
+    let slip = slips::any(request.file, &model, all())?;
+    if let Some(sparse) = unit_errors::too_sparse(&model, all())? {
+        return Ok(unfitted(request, clocks, verdict::unusable(slip.unwrap_or(sparse))));
     }
     let data = Data::of(request, &model)?;
-    let problem = Problem::new(data.fitted.clone(), request.file.noise.position, request.file.noise.heading);
+    if let Some(slip) = slip {
+        let given = |r| figure_data::path_as_given(r, &model);
+        let paths = data.fitted.iter().map(given).collect::<Result<_>>()?;
+        // What follows from the slip is not told beside it.
+        return Ok(early(request, &Data::default(), clocks, paths, verdict::unusable(slip)));
+    }
+    let problem = Problem::new(data.fitted.clone(), request.file.noise.position, request.file.noise.heading)
+        .knowing_its_inputs(&model)?;
     if let Some(outcome) = verdict::before_fitting(&problem, &model)? {
         let given = |r| figure_data::path_as_given(r, &model);
         let paths = data.fitted.iter().map(given).collect::<Result<_>>()?;
@@ -56,6 +69,10 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
         return Ok(early(request, &data, clocks, paths, verdict::undefined_motion()));
     };
     begin(progress, Stage::HeldOut)?;
+    let horizons = horizons(request);
+    let judge =
+        Judge { records: &data.held_out, horizons: &horizons, noise: selected.after.noise(), seed: request.seed };
+    let selected = refute(&problem, request.library, selected, &judge, progress)?;
     let noise = selected.after.noise();
     let before = problem.violations(&model, &noise)?;
     let after = problem.violations(&selected.after.model, &noise)?;
@@ -67,26 +84,34 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
     let usable = outcome.verdict != Verdict::UnusableData;
     let (effects, unnamed) = if usable { chosen(&selected, &relatives, &data, &model)? } else { (vec![], vec![]) };
     let comparison = ModelComparison::of(&data, &model, &selected, request.seed)?;
-    let horizons = horizons(request);
     let gap = comparison.gaps(&horizons);
-    let mut warnings = too_long(&horizons, &gap);
+    let mut warnings = vec![];
+    if usable {
+        warnings.extend(refuted(&selected));
+        warnings.extend(grown(&gap));
+    }
+    warnings.extend(too_long(request.horizons, &gap));
     if usable {
         warnings.extend(contradictions::warnings(&selected));
         warnings.extend(verdict::restated(&selected));
         warnings.extend(plausibility::warnings(&selected, &problem.records)?);
-        warnings.extend(grown(&gap));
     }
     let steps = |run| if remains { coarse_inputs(&model, run) } else { vec![] };
     let coarse: Vec<CoarseInput> = request.runs.iter().flat_map(steps).collect();
     begin(progress, Stage::Experiment)?;
     let next = next(&problem, &selected, &relatives, &outcome, coarse.first())?;
     warnings.extend(coarse.into_iter().map(Warning::CoarseInput));
+    // What is random and all that is left has been said.
+    let is_noise = matches!(outcome.reason, Some(Reason::RandomRest(_)));
     let found = Findings {
         reason: outcome.reason,
         next,
         effects,
         unnamed,
         disagreement: driving_regimes::disagreements(&before),
+        rest: rest(&selected.after, &after, &gap).filter(|_| usable && !is_noise),
+        covariance: covariance(&selected.after).filter(|_| usable),
+        refused: selected.refused.iter().filter(|_| usable).cloned().collect(),
         remaining: Some(remaining(&selected.after, data.fitted[0].has_heading, &after)),
         steps: comparison.steps(&selected, &gap)?,
         gap,
@@ -120,7 +145,8 @@ fn next(
     outcome: &Outcome,
     coarse: Option<&CoarseInput>,
 ) -> Result<Option<NextStep>> {
-    let open = outcome.verdict == Verdict::NotIdentifiable && !contradictions::is_contested(selected);
+    let open = matches!(outcome.verdict, Verdict::NotIdentifiable | Verdict::Unexplained)
+        && !contradictions::is_contested(selected);
     match coarse.filter(|_| open) {
         Some(input) => Ok(Some(NextStep::Advice(Advice::FinerInputs(input.clone())))),
         None => design::next(problem, selected, relatives, outcome),
@@ -129,8 +155,7 @@ fn next(
 
 /// The answer for runs that are not even put to the model.
 pub(crate) fn unfitted(request: &Request, clocks: Clocks, outcome: Outcome) -> Discovery {
-    let none = Data { fitted: vec![], held_out: vec![], gross: 0 };
-    early(request, &none, clocks, vec![], outcome)
+    early(request, &Data::default(), clocks, vec![], outcome)
 }
 
 /// The answer for runs that are not fitted.

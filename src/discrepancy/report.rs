@@ -29,6 +29,15 @@ pub struct Report {
     pub unnamed: Vec<Unnamed>,
     /// Where model and measurement disagree before anything is added.
     pub disagreement: Vec<Disagreement>,
+    /// What the fit asks for and is not named, and why.
+    #[serde(default)]
+    pub refuted: Vec<Refuted>,
+    /// What remains above the noise floor; null at the floor.
+    #[serde(default)]
+    pub remains: Option<Remains>,
+    /// Covariance of all fitted values.
+    #[serde(default)]
+    pub covariance: Option<Covariance>,
     /// What the last model leaves of each constraint.
     #[serde(default)]
     pub remaining: Option<Remaining>,
@@ -44,7 +53,7 @@ pub struct Report {
     pub provenance: Provenance,
 }
 
-/// The five verdicts of the contract.
+/// The verdicts of the contract.
 ///
 /// ```
 /// use creepage::Verdict;
@@ -57,12 +66,43 @@ pub enum Verdict {
     UnusableData,
     /// Nothing significant found, and a plausible effect would have been missed.
     NotIdentifiable,
+    /// A significant disagreement that has neither a name nor an equation.
+    Unexplained,
     /// A repeatable disagreement that no effect explains.
     UnnamedEffect,
     /// One or more effects named.
     MissingEffect,
     /// The model explains the data to its noise.
     NoMissingEffect,
+}
+
+impl Verdict {
+    /// All of them.
+    pub const ALL: [Self; 6] = [
+        Self::UnusableData,
+        Self::NotIdentifiable,
+        Self::Unexplained,
+        Self::UnnamedEffect,
+        Self::MissingEffect,
+        Self::NoMissingEffect,
+    ];
+
+    /// Its name in files.
+    ///
+    /// ```
+    /// use creepage::discrepancy::report::Verdict;
+    /// assert!(Verdict::ALL.iter().all(|v| serde_json::to_value(v).unwrap() == v.id()));
+    /// ```
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::UnusableData => "unusable-data",
+            Self::NotIdentifiable => "not-identifiable",
+            Self::Unexplained => "unexplained",
+            Self::UnnamedEffect => "unnamed-effect",
+            Self::MissingEffect => "missing-effect",
+            Self::NoMissingEffect => "no-missing-effect",
+        }
+    }
 }
 
 /// An effect that was found.
@@ -166,6 +206,44 @@ pub struct Unnamed {
     /// Its coefficient by name.
     #[serde(default)]
     pub parameters: BTreeMap<String, Estimate>,
+}
+
+/// What the fit asks for, and is neither named nor in the patched model.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Refuted {
+    /// Its id in the library.
+    pub id: String,
+    /// Its fitted parameters by name.
+    pub parameters: BTreeMap<String, Estimate>,
+    /// Why, in words.
+    pub says: String,
+}
+
+/// What remains above the noise floor.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Remains {
+    /// The error over the noise floor, where that is largest.
+    pub ratio: f64,
+    /// The constraint that is violated most.
+    #[serde(rename = "where")]
+    pub place: String,
+    /// Start of the stretch in which it is, s.
+    pub from: f64,
+    /// End of the stretch, s.
+    pub to: f64,
+    /// What the vehicle does where it is violated most.
+    pub regime: String,
+    /// All this in words.
+    pub says: String,
+}
+
+/// The covariance of fitted values.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Covariance {
+    /// Effect and parameter of each row, such as `lever-arm a`.
+    pub names: Vec<String>,
+    /// Its rows.
+    pub matrix: Vec<Vec<f64>>,
 }
 
 /// A stretch of a run in which a constraint is violated.
@@ -355,6 +433,29 @@ pub struct DataSummary {
     /// The clocks of runs whose inputs and poses stand in files of their own.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub clocks: Vec<RunClock>,
+    /// What is wrong with the data, and how it is mended.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub findings: Vec<Finding>,
+}
+
+/// Something to know of the data.
+///
+/// ```
+/// use creepage::report::Finding;
+/// fn is_one_sided(findings: &[Finding]) -> bool {
+///     findings.iter().any(|finding| finding.id == "one-turn-direction")
+/// }
+/// assert!(!is_one_sided(&[]));
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Finding {
+    /// Its kind, for scripts, such as `one-turn-direction`.
+    pub id: String,
+    /// In words.
+    pub says: String,
+    /// The lines of the model file that mend it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mend: Option<String>,
 }
 
 /// The clock of a run whose inputs and poses were logged apart: time of the poses = time of the inputs + offset +
@@ -490,9 +591,16 @@ impl Report {
     }
 }
 
-/// The gap at the middle horizon; of two horizons the longer.
+/// The gaps that are judged on the same runs: held-out ones where there are such.
+pub fn judged_alike(gaps: &[Gap]) -> Vec<&Gap> {
+    let is_held_out = gaps.iter().any(|g| g.held_out.is_some());
+    gaps.iter().filter(|g| g.held_out.is_some() == is_held_out).collect()
+}
+
+/// The gap at the middle horizon of those that are judged alike; of two horizons the longer.
 pub fn middle(gaps: &[Gap]) -> Option<&Gap> {
-    gaps.get(gaps.len() / 2)
+    let alike = judged_alike(gaps);
+    alike.get(alike.len() / 2).copied()
 }
 
 /// The numbers a gap is judged by, held out where there are such, and what they are called.

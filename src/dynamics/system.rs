@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector};
 /// | symbol | meaning |
 /// |---|---|
 /// | z | coordinates q, their rates q̇, states of the laws of contact, steering angles that are given by their rates |
-/// | u | inputs of [`Dynamics::inputs`]; a steering angle with its slope |
+/// | u | inputs of [`Dynamics::inputs`](super::Dynamics::inputs); a steering angle with its slope |
 ///
 /// The accelerations solve [M, −Aᵀ; A, 0]·(q̈, λ) = (Q − h, −Ȧq̇) with A = ∂slip/∂q̇ of the ideal contacts. Contacts
 /// that say the same twice share their force; the accelerations do not depend on how.

@@ -108,7 +108,15 @@ fn neutral_start() -> Vec<f64> {
     vec![0.0]
 }
 
+/// Where an effect stands that shifts the inputs in time.
+const CLOCK: &str = "clock";
+
 impl Effect {
+    /// Whether it is of the clocks: it shifts the inputs in time.
+    pub fn is_of_clock(&self) -> bool {
+        self.place == CLOCK
+    }
+
     /// An effect with one change and no parameters.
     pub(crate) fn of_change(key: &str, formula: &Expr) -> Self {
         Self { changes: [(key.to_string(), formula.clone())].into(), ..Self::default() }

@@ -132,7 +132,7 @@ pub fn describe(model: &Model) -> Result<Description> {
 pub fn simulate(model: &Model, run: &Run) -> Result<Table> {
     model.file.no_forces("simulate")?;
     let vehicle = VehicleModel::from_file(&model.file, &model.library, &run.roles)?;
-    let signals = Signals::new(run.input_time(), &run.inputs, model.file.input_timing.into());
+    let signals = Signals::of_run(run, model.file.input_timing);
     let heading = run.heading.as_ref().map_or(0.0, |h| h[0]);
     let measured = run.trailer_headings.iter().map(|h| h[0]);
     let trailers: Vec<f64> = measured.chain(std::iter::repeat(heading)).take(vehicle.trailer_count()).collect();

@@ -2,7 +2,7 @@
 
 use super::model::Model;
 use crate::error::{Error, Result};
-use crate::files::Run;
+use crate::files::{Deviations, Run};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -62,8 +62,10 @@ impl Run {
             y: pose.y,
             heading: pose.heading,
             trailer_headings: pose.trailer_headings,
+            differences: vec![None; roles.len()],
             roles,
             inputs,
+            deviations: Deviations::default(),
             rows_dropped: 0,
             why_dropped: BTreeMap::new(),
             warnings: vec![],

@@ -1,8 +1,8 @@
 //! The equations of motion of a model compiled: formulas and their exact derivatives to programs over lanes.
 
 use super::equations::Equations;
-use super::trailer::trailer_heading;
 use super::vehicle_model::Model;
+use super::{observation, state};
 use crate::error::{Error, Result};
 use crate::formula::{Changes, Expr, Graph, Lanes, NodeId, Program, Symbol};
 use std::collections::BTreeMap;
@@ -26,11 +26,15 @@ impl Model {
 
     /// The symbols of the states: pose, trailer headings, hidden states: coordinates of its own, states of effects.
     pub fn states(&self) -> Vec<Symbol> {
-        let mut states: Vec<Symbol> = ["x", "y", "phi"].map(Symbol::from).to_vec();
-        states.extend((1..=self.trailer_count()).map(trailer_heading));
+        let mut states: Vec<Symbol> = state::node_symbols(self.trailer_count()).collect();
         states.extend(self.own_states());
         states.extend(self.effects.iter().flat_map(|e| e.states()).map(|(s, _)| s));
         states
+    }
+
+    /// How many states are free at the start of every window.
+    fn nodes(&self) -> usize {
+        state::nodes(self.trailer_count()).len()
     }
 
     /// The rates of the states, in their order.
@@ -59,7 +63,7 @@ impl Model {
     /// The equations of motion for a simulation: the rates have no derivatives where nothing asks for them. Those of a
     /// train of N trailers are N² formulas.
     pub(crate) fn equations_to_simulate(&self) -> Result<Equations> {
-        let hidden = self.states().len() > 3 + self.trailer_count();
+        let hidden = self.states().len() > self.nodes();
         if hidden { self.equations(&[]) } else { self.compiled(&[], &[]) }
     }
 
@@ -69,7 +73,7 @@ impl Model {
         let mut graph = Graph::default();
         definitions.insert_into(&mut graph)?;
         let states = self.states();
-        let visible = 3 + self.trailer_count();
+        let visible = self.nodes();
         let rates: Vec<NodeId> = self.state_rates().iter().map(|rate| graph.insert(rate)).collect();
         let inputs: Vec<Symbol> = self.inputs.iter().map(|i| Symbol::new(i)).collect();
         let values: Vec<(Symbol, f64)> = self.values().into_iter().filter(|(s, _)| !free.contains(s)).collect();
@@ -97,8 +101,8 @@ impl Model {
             carried.map(|nodes| Ok::<_, Error>((live(&graph, &nodes, rates.len()), compile(&graph, &nodes)?)));
         let carried = carried.transpose()?;
         let jacobian = compile(&graph, &jacobian)?;
-        let mut measured: Vec<NodeId> = ["x_m", "y_m", "heading_m"].map(|s| graph.insert(&Expr::sym(s))).to_vec();
-        measured.extend((1..=self.trailer_count()).map(|i| graph.insert(&Expr::sym(trailer_heading(i)))));
+        let outputs = observation::outputs(self.trailer_count());
+        let measured: Vec<NodeId> = outputs.map(|y| graph.insert(&Expr::sym(y.symbol()))).collect();
         let measured = with_derivatives(&mut graph, &measured, &[&states[..visible], free].concat());
         let outputs = compile(&graph, &measured)?;
         let delay = graph.insert(&Expr::sym("delay"));
@@ -144,12 +148,13 @@ fn carried(
     [visible, n, width]: [usize; 3],
 ) -> Option<Vec<NodeId>> {
     let is_live = |i: usize, j: usize| live.binary_search(&(n + i * width + j)).is_ok();
-    let mut asked = (2..n).filter(|i| *i == 2 || *i >= visible).flat_map(|i| (0..visible).map(move |j| (i, j)));
+    let mut asked =
+        (0..n).filter(|i| *i == state::DIRECTION || *i >= visible).flat_map(|i| (0..visible).map(move |j| (i, j)));
     let steps = (0..visible).any(|i| is_live(i, i));
     if width < n || steps || asked.any(|(i, j)| is_live(i, j)) {
         return None;
     }
     let zero = graph.insert(&Expr::int(0));
-    let kept = |k: usize| k == 2 || (visible..n).contains(&k) || k >= n + visible * width;
+    let kept = |k: usize| k == state::DIRECTION || (visible..n).contains(&k) || k >= n + visible * width;
     Some(nodes.iter().enumerate().map(|(k, node)| if kept(k) { *node } else { zero }).collect())
 }

@@ -47,6 +47,8 @@ fn known_vehicle(v: &Vehicle) -> KnownVehicle {
     let input = |(role, i): (&String, &vehicles::Input)| KnownInput {
         role: role.clone(),
         instead: i.instead.as_ref().map(|i| i.role.clone()),
+        unit: i.unit.clone(),
+        instead_unit: i.instead.as_ref().map(|i| i.unit.clone()).unwrap_or_default(),
     };
     KnownVehicle {
         id: v.id.clone(),

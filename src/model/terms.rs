@@ -131,6 +131,21 @@ impl Model {
 /// The steering input; what it misses shows in the yaw rate.
 const STEERED: Target = Target { definition: "delta", name: "steering", place: "yaw rate", metres: 0, seconds: 0 };
 
+/// What a term adds, for people: `it` and the coefficient times the factors in v and the yaw rate, not written out.
+pub(crate) fn shown(term: &Effect) -> Option<Expr> {
+    let steered = STEERING.iter().map(|power| (&STEERED, vec![power]));
+    let others = TARGETS.iter().flat_map(|target| products().map(move |f| (target, f.to_vec())));
+    let (target, factors) = others.chain(steered).find(|(target, factors)| id(target, factors) == term.id)?;
+    let speed = if target.definition == "v_l" { "v_d" } else { "v_l" };
+    Some(added(&factors, &Symbols { v: Expr::sym(speed), w: Expr::sym("phi'") }))
+}
+
+/// `it` and the coefficient times some factors.
+fn added(factors: &[&Factor], symbols: &Symbols) -> Expr {
+    let factors = factors.iter().map(|f| formula(f.formula, symbols)).filter(|f| !f.is_one());
+    &Expr::sym("it") + &factors.fold(Expr::sym(COEFFICIENT), |product, f| &product * &f)
+}
+
 /// The id of every term that some vehicle has.
 pub fn ids() -> Vec<String> {
     let steering = STEERING.iter().map(|power| id(&STEERED, &[power]));
@@ -232,8 +247,6 @@ fn term(target: &Target, factors: &[&Factor], symbols: &Symbols, model: &Model) 
     if taken && !model.vehicle.stays() {
         return None;
     }
-    let product = factors.iter().map(|f| formula(f.formula, symbols)).filter(|f| !f.is_one());
-    let product = product.fold(Expr::sym(COEFFICIENT), |p, f| &p * &f);
     let metres = target.metres - factors.iter().map(|f| f.metres).sum::<i32>();
     let seconds = target.seconds - factors.iter().map(|f| f.seconds).sum::<i32>();
     let parameter = Parameter {
@@ -254,7 +267,7 @@ fn term(target: &Target, factors: &[&Factor], symbols: &Symbols, model: &Model) 
         needs: vec![],
         parameters: BTreeMap::from([(COEFFICIENT.to_string(), parameter)]),
         states: BTreeMap::new(),
-        changes: BTreeMap::from([(target.definition.to_string(), &Expr::sym("it") + &product)]),
+        changes: BTreeMap::from([(target.definition.to_string(), added(factors, symbols))]),
         limit: None,
         order: 0,
         origin: None,

@@ -21,6 +21,7 @@ pub use inputs::drive::Formulas;
 pub use inputs::signals::Signals;
 #[doc(hidden)]
 pub use inputs::signals::Timing;
+pub(crate) use inputs::signals::timings;
 pub use integrators::integrator::Integrator;
 #[doc(hidden)]
 pub use integrators::integrator::Method;

@@ -18,12 +18,19 @@ const MENTIONED_COLUMNS: usize = 4;
 
 /// A column for every role, each column once: the likeliest pair of all first.
 ///
-/// Of two roles that stand for each other only one gets a column.
-pub(crate) fn matched(roles: &[String], instead: &[(String, String)], header: &[String]) -> Vec<Match> {
+/// Of two roles that stand for each other only one gets a column; `may_hold` says whether the values of a column can be those
+/// of a role.
+pub(crate) fn matched(
+    roles: &[String],
+    instead: &[(String, String)],
+    header: &[String],
+    may_hold: &dyn Fn(&str, usize) -> bool,
+) -> Vec<Match> {
     let all = roles.iter().enumerate().flat_map(|(r, role)| {
         header.iter().enumerate().filter_map(move |(c, column)| rank(role, column).map(|rank| (rank, r, c)))
     });
-    let mut all: Vec<(usize, usize, usize)> = all.filter(|(_, _, c)| only(header, *c)).collect();
+    let mut all: Vec<(usize, usize, usize)> =
+        all.filter(|(_, r, c)| only(header, *c) && may_hold(&roles[*r], *c)).collect();
     all.sort_unstable();
     let mut taken: Vec<Option<usize>> = vec![None; roles.len()];
     let rival = |r: usize| -> Option<usize> {
@@ -65,7 +72,7 @@ mod tests {
     fn columns(roles: &str, header: &str) -> Vec<Option<String>> {
         let split = |s: &str| s.split(',').map(str::to_string).collect::<Vec<_>>();
         let instead = [("wheel_rate".to_string(), "speed".to_string())];
-        matched(&split(roles), &instead, &split(header)).into_iter().map(|m| m.column).collect()
+        matched(&split(roles), &instead, &split(header), &|_, _| true).into_iter().map(|m| m.column).collect()
     }
 
     #[test]
@@ -85,7 +92,7 @@ mod tests {
 
     fn others(roles: &str, header: &str) -> Vec<Vec<String>> {
         let split = |s: &str| s.split(',').map(str::to_string).collect::<Vec<_>>();
-        matched(&split(roles), &[], &split(header)).into_iter().map(|m| m.others).collect()
+        matched(&split(roles), &[], &split(header), &|_, _| true).into_iter().map(|m| m.others).collect()
     }
 
     #[test]

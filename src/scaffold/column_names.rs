@@ -1,5 +1,7 @@
 //! The usual column names of logs for the roles of a model file.
 
+use super::column_units::suffix;
+
 /// A role of `[columns]` and the names that logs give it, the most usual first.
 struct Usual {
     role: &'static str,
@@ -10,7 +12,22 @@ const USUAL: &[Usual] = &[
     Usual { role: "time", names: &["time", "t", "timestamp", "stamp", "sec", "secs", "seconds", "log_time", "clock"] },
     Usual { role: "x", names: &["x", "px", "pos_x", "x_pos", "position_x", "easting", "east"] },
     Usual { role: "y", names: &["y", "py", "pos_y", "y_pos", "position_y", "northing", "north"] },
-    Usual { role: "heading", names: &["heading", "yaw", "phi", "psi", "theta", "orientation", "angle"] },
+    Usual {
+        role: "heading",
+        names: &[
+            "heading",
+            "yaw",
+            "phi",
+            "psi",
+            "theta",
+            "orientation",
+            "angle",
+            "compass",
+            "bearing",
+            "course",
+            "azimuth",
+        ],
+    },
     Usual {
         role: "yaw_rate",
         names: &[
@@ -29,6 +46,7 @@ const USUAL: &[Usual] = &[
             "gyro",
             "psi_dot",
             "r",
+            "w",
         ],
     },
     Usual {
@@ -117,8 +135,45 @@ const OTHER: &[&str] = &[
 const RATES: &[&str] = &["rate", "dot", "vel", "velocity", "speed", "twist", "linear", "angular", "gyro"];
 /// Words of a place, which no rate has.
 const PLACES: &[&str] = &["position", "pose", "pos", "orientation", "quaternion"];
-/// Words of a unit behind a name.
-const UNITS: &[&str] = &["m", "s", "rad", "rads", "mps", "radps"];
+/// Words of a cumulative count.
+const COUNTS: &[&str] = &["tick", "ticks", "count", "counts", "enc", "encoder", "encoders", "pulses"];
+/// Words of a heading from north, clockwise.
+const COMPASS: &[&str] = &["compass", "bearing", "azimuth", "course", "cog"];
+
+/// The words of a column's name without its unit.
+pub(crate) fn plain_words(column: &str) -> Vec<String> {
+    words(column)
+}
+
+/// The unit that a column's name ends in.
+pub(crate) fn unit_of(column: &str) -> Option<&'static str> {
+    suffix(&all_words(column)).map(|(unit, _)| unit)
+}
+
+/// Whether words are of a cumulative count.
+pub(crate) fn is_count(words: &[String]) -> bool {
+    words.iter().any(|w| COUNTS.contains(&w.as_str()))
+}
+
+/// Whether words are of a joint's position.
+pub(crate) fn is_place(words: &[String]) -> bool {
+    words.iter().any(|w| ["position", "pos", "angle"].contains(&w.as_str()))
+}
+
+/// Whether a name is that of a compass.
+pub(crate) fn is_compass(column: &str) -> bool {
+    words(column).iter().any(|w| COMPASS.contains(&w.as_str()))
+}
+
+/// Words that name the wheel of a role; none for a role that is no wheel's.
+pub(crate) fn side_words(role: &str) -> Option<&'static [&'static str]> {
+    match role {
+        "wheel_rate_left" => Some(&["left", "l", "lw", "lh"]),
+        "wheel_rate_right" => Some(&["right", "r", "rw", "rh"]),
+        "wheel_rate" => Some(&["wheel", "motor", "drive", "encoder", "enc", "ticks"]),
+        _ => None,
+    }
+}
 
 /// How well a column's name says that it holds a role, better ones first; `None` for a name that says nothing of it.
 pub(crate) fn rank(role: &str, column: &str) -> Option<usize> {
@@ -156,12 +211,15 @@ fn against(role: &str) -> &'static [&'static str] {
 
 /// The words of a column's name in lower case, a unit at the end left out.
 fn words(column: &str) -> Vec<String> {
-    let spaced: String = column.chars().map(|c| if c.is_alphanumeric() { c } else { ' ' }).collect();
-    let mut words: Vec<String> = spaced.split_whitespace().flat_map(humps).collect();
-    if words.len() > 1 && words.last().is_some_and(|w| UNITS.contains(&w.as_str())) {
-        words.pop();
-    }
+    let mut words = all_words(column);
+    let unit = suffix(&words).map_or(0, |(_, taken)| taken);
+    words.truncate(words.len() - unit);
     words
+}
+
+fn all_words(column: &str) -> Vec<String> {
+    let spaced: String = column.chars().map(|c| if c.is_alphanumeric() { c } else { ' ' }).collect();
+    spaced.split_whitespace().flat_map(humps).collect()
 }
 
 /// `wheelRateLeft` as its words.

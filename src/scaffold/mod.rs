@@ -2,6 +2,11 @@
 
 pub(crate) mod column_matching;
 pub(crate) mod column_names;
+mod column_units;
+mod proposals;
+mod samples;
 mod template;
+mod urdf;
 
 pub use template::{Starter, Wanted};
+pub use urdf::Measures;

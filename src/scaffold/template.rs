@@ -1,6 +1,9 @@
 //! The text of a model file to begin with.
 
 use super::column_matching::{Match, matched};
+use super::proposals::{Asked, Proposal, proposals, quoted};
+use super::samples::Sample;
+use super::urdf::Measures;
 use crate::error::{Error, Result};
 use crate::files::advice;
 use crate::model::WITH_TRAILERS;
@@ -21,6 +24,12 @@ pub struct Wanted {
     pub log: Option<(String, Vec<String>)>,
     /// Name and columns of a file of poses, where they are not in the log.
     pub truth: Option<(String, Vec<String>)>,
+    /// The first rows of the log, where it is a table of text: texts, a row each.
+    pub rows: Vec<Vec<String>>,
+    /// The first rows of the file of poses.
+    pub truth_rows: Vec<Vec<String>>,
+    /// What a robot's description says of its wheels.
+    pub measures: Option<Measures>,
     /// The file of vehicles that the model file names.
     pub own: Option<String>,
 }
@@ -84,7 +93,7 @@ impl Starter {
             truth_time: String::new(),
         };
         starter.head(wanted, vehicle, trailers);
-        starter.parameters(vehicle, trailers);
+        starter.parameters(vehicle, trailers, wanted.measures.as_ref());
         starter.columns(wanted, vehicle, trailers);
         starter.text.push_str(TAIL);
         Ok(starter)
@@ -113,7 +122,7 @@ impl Starter {
         }
     }
 
-    fn parameters(&mut self, vehicle: &Vehicle, trailers: usize) {
+    fn parameters(&mut self, vehicle: &Vehicle, trailers: usize, measures: Option<&Measures>) {
         if vehicle.parameters.is_empty() && trailers == 0 {
             return;
         }
@@ -121,6 +130,11 @@ impl Starter {
             "\n[parameters]                      # placeholders: put what you measured, or what the drawing says",
         );
         for (name, p) in &vehicle.parameters {
+            if let Some(value) = measures.and_then(|m| m.of(name)) {
+                let source = measures.map(|m| plain(&m.source)).unwrap_or_default();
+                self.entry(&format!("{name} = {value:?}"), &format!("{}; {}, from {source}", p.unit, p.meaning));
+                continue;
+            }
             let usual = USUAL.iter().find(|(usual, _)| usual == name).map(|(_, value)| *value);
             let value = usual.unwrap_or(if name.ends_with("offset") { 0.0 } else { 1.0 });
             let optional = if p.optional { "# " } else { "" };
@@ -143,16 +157,17 @@ impl Starter {
 
     fn columns(&mut self, wanted: &Wanted, vehicle: &Vehicle, trailers: usize) {
         let described = roles(vehicle);
-        let names: Vec<String> = described.iter().map(|r| r.name.clone()).collect();
         let header = wanted.log.as_ref().map(|(_, header)| header.as_slice());
         let poses = wanted.truth.as_ref().map(|(_, header)| header.as_slice());
         let stands: Vec<(String, String)> =
             described.iter().filter_map(|r| r.instead_of.clone().map(|of| (of, r.name.clone()))).collect();
-        let mut matches = matched(&names, &stands, header.unwrap_or(&[]));
+        let asked: Vec<Asked> = described.iter().map(|r| Asked { role: &r.name, unit: &r.unit }).collect();
+        let (mut matches, mut proposed) = looked_at(&asked, &stands, header.unwrap_or(&[]), &wanted.rows);
         if let Some(poses) = poses {
-            let own = matched(&names[..POSE], &[], poses);
+            let (own, of_own) = looked_at(&asked[..POSE], &[], poses, &wanted.truth_rows);
             matches[1..POSE].clone_from_slice(&own[1..]);
-            self.truth_time(&own[0], &matches[0]);
+            proposed[1..POSE].clone_from_slice(&of_own[1..]);
+            self.truth_time(&own[0], of_own[0].as_ref(), &matches[0]);
         }
         self.line("\n[columns]                         # role = name of the column; a role left out is looked for by its own name");
         if let Some((name, header)) = &wanted.log {
@@ -162,10 +177,18 @@ impl Starter {
             self.line(&format!("# columns of {}: {}", plain(name), listed(header)));
         }
         let known = |i: usize| if (1..POSE).contains(&i) { poses.or(header).is_some() } else { header.is_some() };
-        let has = |role: &str| matches.iter().any(|m| m.role == role && m.column.is_some());
+        let has = |role: &str| {
+            let of = |(m, p): (&Match, &Option<Proposal>)| m.role == role && (m.column.is_some() || p.is_some());
+            matches.iter().zip(&proposed).any(of)
+        };
+        let by_position = proposed.iter().flatten().any(|p| p.role == "position");
         for (i, (role, m)) in described.iter().zip(&matches).enumerate() {
             let replaced = stands.iter().any(|(a, b)| (a == &role.name && has(b)) || (b == &role.name && has(a)));
-            self.column(role, m, known(i), replaced);
+            match &proposed[i] {
+                _ if by_position && role.name == "y" => {}
+                Some(proposal) => self.proposal(role, proposal),
+                None => self.column(role, m, known(i), replaced),
+            }
             if i == 0 {
                 let line = std::mem::take(&mut self.truth_time);
                 self.text.push_str(&line);
@@ -182,11 +205,24 @@ impl Starter {
     }
 
     /// The time of the poses, where it is called otherwise than that of the inputs.
-    fn truth_time(&mut self, own: &Match, inputs: &Match) {
-        if let Some(column) = own.column.as_ref().filter(|c| inputs.column.as_ref() != Some(c)) {
-            self.found.push(("truth_time".into(), column.clone()));
-            let entry = format!("truth_time = {}", quoted(column));
-            self.truth_time = format!("{entry:<33} # s; time in the file of poses\n");
+    fn truth_time(&mut self, own: &Match, proposed: Option<&Proposal>, inputs: &Match) {
+        let Some(column) = own.column.as_ref().filter(|c| inputs.column.as_ref() != Some(c)) else { return };
+        let value = proposed.map_or_else(|| quoted(column), |p| p.value.clone());
+        self.found.push(("truth_time".into(), proposed.map_or_else(|| column.clone(), |p| p.value.clone())));
+        let entry = format!("truth_time = {value}");
+        self.truth_time = format!("{entry:<33} # s; time in the file of poses\n");
+    }
+
+    /// An entry that says more than a name.
+    fn proposal(&mut self, role: &Role, proposal: &Proposal) {
+        self.found.push((proposal.role.clone(), proposal.value.clone()));
+        let put = proposal.placeholder.as_ref().map_or(String::new(), |name| format!("; put your {name}"));
+        self.entry(
+            &format!("{} = {}", proposal.role, proposal.value),
+            &format!("in {}; {}{put}", role.unit, role.meaning),
+        );
+        if let Some(name) = proposal.placeholder.as_ref().filter(|name| !self.placeholders.contains(name)) {
+            self.placeholders.push(name.clone());
         }
     }
 
@@ -225,6 +261,41 @@ impl Starter {
         // A string takes all.
         let _ = writeln!(self.text, "{text:<33} # {}", plain(comment));
     }
+}
+
+/// What a log offers for roles, by its header and its first rows.
+fn looked_at(
+    asked: &[Asked],
+    stands: &[(String, String)],
+    header: &[String],
+    rows: &[Vec<String>],
+) -> (Vec<Match>, Vec<Option<Proposal>>) {
+    let samples = Sample::of(header.len(), rows);
+    let names: Vec<String> = asked.iter().map(|a| a.role.to_string()).collect();
+    let letters = |name: &str, stem: &str| ["x", "y", "z", "w"].iter().any(|l| format!("{stem}{l}") == name);
+    let of_quaternion = |name: &str| {
+        let stems = header.iter().filter_map(|n| n.strip_suffix('w'));
+        let mut whole = stems.filter(|stem| ["x", "y", "z"].iter().all(|l| header.contains(&format!("{stem}{l}"))));
+        whole.any(|stem| !stem.is_empty() && letters(name, stem))
+    };
+    let may_hold = |role: &str, c: usize| {
+        let sample = &samples[c];
+        match role {
+            "time" => sample.may_hold_numbers() || sample.holds_dates(),
+            "heading" => sample.may_hold_numbers() && !sample.is_constant() && !of_quaternion(&header[c]),
+            "x" | "y" => sample.may_hold_numbers() && !of_quaternion(&header[c]),
+            _ => sample.may_hold_numbers() && !sample.is_count() && !of_quaternion(&header[c]),
+        }
+    };
+    let mut matches = matched(&names, stands, header, &may_hold);
+    let without_names = !header.is_empty() && header.iter().enumerate().all(|(i, name)| *name == (i + 1).to_string());
+    if let (true, Some(c)) =
+        (without_names, (0..header.len()).find(|c| samples[*c].rises() || samples[*c].holds_dates()))
+    {
+        matches[0].column = Some(header[c].clone());
+    }
+    let proposed = proposals(asked, &matches, header, &samples);
+    (matches, proposed)
 }
 
 /// A role as the file explains it.
@@ -299,11 +370,6 @@ fn listed(header: &[String]) -> String {
         text.push_str(&format!(", … ({} in all)", header.len()));
     }
     text
-}
-
-/// A name as a TOML string.
-fn quoted(name: &str) -> String {
-    toml::Value::String(name.into()).to_string()
 }
 
 const TAIL: &str = "

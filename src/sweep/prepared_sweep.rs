@@ -226,7 +226,7 @@ fn inputs(
         None => Expr::sym(Symbol::new(&format!("log.{role}"))),
     };
     let constants: BTreeMap<Symbol, f64> = file.constants.iter().map(|(k, (_, v))| (Symbol::new(k), *v)).collect();
-    let signals = |l: &Inputs| (l.roles.clone(), Signals::new(&l.time, &l.columns, model_file.input_timing.into()));
+    let signals = |l: &Inputs| (l.roles.clone(), Signals::of_inputs(l, model_file.input_timing));
     Ok(EnsembleInputs {
         formulas: model.inputs.iter().map(formula).collect(),
         constants,

@@ -53,7 +53,7 @@ impl Sweep {
     /// The first part has the header, so that parts in their order, one behind the other, are the whole table.
     ///
     /// # Errors
-    /// When the output cannot be written, or the listener stops it: what is done waits beside the output then.
+    /// When the output cannot be written, or the listener stops it: what was noted until then waits beside the output.
     pub fn write(&self, shard: Shard, out: &Path, progress: &OnProgress) -> Result<Summary> {
         let format = Format::of(out)?;
         let range = shard.of(self.cases());

@@ -199,7 +199,25 @@ fn a_log_too_short_or_too_still_is_an_answer_not_an_error() {
         let report = std::fs::read_to_string(dir.path().join("report/report.json")).unwrap();
         assert!(report.contains(&format!("\"verdict\": \"{verdict}\"")), "{report}");
         assert!(dir.path().join("report/report.html").exists());
+        // Of unusable data there is no model to write.
+        assert_eq!(dir.path().join("report/model.patched.toml").exists(), verdict != "unusable-data");
     }
+}
+
+#[test]
+fn a_verdict_may_end_the_command() {
+    let dir = folder(&[("model.toml", MODEL.as_bytes()), ("run.csv", CSV)]);
+    let told = |fail_on: &str| {
+        let arguments = ["discover", "run.csv", "--model", "model.toml", "--out", "report", "--fail-on", fail_on];
+        let output = creepage(dir.path(), &arguments);
+        (output.status.code(), stderr(&output))
+    };
+    assert_eq!(told("missing-effect,unexplained").0, Some(0));
+    let (code, message) = told("missing-effect,not-identifiable");
+    assert!(code == Some(3) && message.contains("the verdict is not-identifiable"), "{message}");
+    assert!(dir.path().join("report/report.html").exists(), "everything is written");
+    let (code, message) = told("lost");
+    assert!(code == Some(2) && message.contains("no-missing-effect"), "{message}");
 }
 
 #[test]

@@ -88,7 +88,7 @@ fn what_is_missing_is_what_no_column_makes_up_for() {
     assert_eq!(starter("unicycle", &["time", "x", "y", "gyro_z"]).missing, ["wheel_rate"]);
     assert!(starter("unicycle", &["time", "x", "y", "wheel_rate", "gyro_z"]).missing.is_empty());
     assert!(starter("car", &["time", "x", "y", "steer", "wheel_rate"]).missing.is_empty());
-    assert_eq!(starter("car", &["time", "x", "y", "v"]).missing, ["steering_angle", "wheel_rate"]);
+    assert_eq!(starter("car", &["time", "x", "y", "v"]).missing, ["steering_angle"]);
     assert_eq!(starter("differential-drive", &["time", "x", "y", "left"]).missing, ["wheel_rate_right"]);
     assert_eq!(starter("unicycle", &["time", "x", "y", "v"]).missing, ["yaw_rate"]);
     // A header of any length is shown up to a point.
@@ -107,6 +107,72 @@ fn a_file_to_begin_with_has_trailers_up_to_a_bound() {
     }
     let none = train(0).unwrap();
     assert!(none.text.contains("trailer_lengths = []") || !none.text.contains("trailer_lengths"), "{}", none.text);
+}
+
+/// Values speak beside names: a column that never changes is no heading, stamps and angles tell their units.
+#[test]
+fn init_looks_at_values() {
+    let begun = |vehicle: &str, header: &str, row: &dyn Fn(i64) -> String| {
+        let rows = (0..100).map(|i| row(i).split(',').map(str::to_string).collect()).collect();
+        let log = Some(("log.csv".to_string(), header.split(',').map(str::to_string).collect()));
+        let starter = Starter::new(&Wanted { vehicle: vehicle.into(), log, rows, ..Wanted::default() }).unwrap();
+        parsed(&starter);
+        starter
+    };
+    let found = |starter: &Starter, role: &str| starter.found.iter().find(|(r, _)| r == role).map(|(_, c)| c.clone());
+    let one = |text: &str| Some(text.to_string());
+    let starter = begun("unicycle", "stamp,x,y,yaw,theta,v,gyro_z", &|i| {
+        format!(
+            "{},{i},0,0.0,{},1,0",
+            1_700_000_000_000_000_000 + 20_000_000 * i,
+            (i as f64 * 7.0 + 180.0) % 360.0 - 180.0
+        )
+    });
+    assert_eq!(found(&starter, "time"), one("{ column = \"stamp\", unit = \"ns\" }"));
+    assert_eq!(found(&starter, "heading"), one("{ column = \"theta\", unit = \"deg\" }"), "yaw never changes");
+    let starter = begun("differential-drive", "t,x,y,left,right", &|i| format!("{i},{i},0,{},{}", 30 * i, 31 * i));
+    assert_eq!(found(&starter, "wheel_rate_left"), one("{ ticks = \"left\", ticks_per_turn = 1000 }"), "counts");
+    assert!(starter.placeholders.contains(&"ticks_per_turn".to_string()));
+    let starter = begun("differential-drive", "time,x,y,left_wheel_position,right_wheel_position", &|i| {
+        format!("{i},{i},0,{},{}", 0.3 * i as f64, 0.31 * i as f64)
+    });
+    assert_eq!(found(&starter, "wheel_rate_right"), one("{ angle = \"right_wheel_position\" }"));
+    let starter = begun("differential-drive", "time,x_mm,y_mm,left_rpm,right_rpm", &|i| format!("{i},{i},0,60,61"));
+    assert_eq!(found(&starter, "x"), one("{ column = \"x_mm\", unit = \"mm\" }"));
+    assert_eq!(found(&starter, "wheel_rate_left"), one("{ column = \"left_rpm\", unit = \"rpm\" }"));
+    let starter = begun("unicycle", "q.x,q.y,q.z,q.w,sec,nanosec,lat,lon", &|i| format!("0,0,0,1,{i},0,52.1,13.4"));
+    assert_eq!(found(&starter, "heading"), one("{ quaternion = \"q\" }"));
+    assert_eq!(found(&starter, "time"), one("[\"sec\", \"nanosec\"]"));
+    assert_eq!(found(&starter, "position"), one("{ latitude = \"lat\", longitude = \"lon\" }"));
+    assert_eq!(starter.missing, ["wheel_rate", "yaw_rate"]);
+}
+
+/// What is missing is told at once, and a robot's description gives its lengths.
+#[test]
+fn init_says_what_is_not_complete_and_reads_a_description() {
+    let folder = tempfile::tempdir().unwrap();
+    let wheel = |side: &str, y: f64| {
+        format!(
+            "<link name='{side}_wheel'><visual><geometry><cylinder radius='0.033' length='0.02'/></geometry></visual></link>\
+             <joint name='{side}' type='continuous'><parent link='base'/><child link='{side}_wheel'/><origin xyz='0 {y} 0'/></joint>"
+        )
+    };
+    let robot = format!("<robot><link name='base'/>{}{}</robot>", wheel("left", 0.08), wheel("right", -0.08));
+    std::fs::write(folder.path().join("robot.urdf"), robot).unwrap();
+    std::fs::write(folder.path().join("log.csv"), "0,1,2\n1,2,3\n").unwrap();
+    let output = creepage(folder.path(), &["init", "differential-drive", "--from", "log.csv", "--urdf", "robot.urdf"]);
+    let said = text(&output.stdout);
+    assert!(
+        said.contains("model.toml is written; not complete: name time, x, y, wheel_rate_left, wheel_rate_right."),
+        "{said}"
+    );
+    assert!(!said.contains("put your values"), "{said}");
+    let model = std::fs::read_to_string(folder.path().join("model.toml")).unwrap();
+    assert!(model.contains("wheel_radius = 0.033") && model.contains("track_width = 0.16"), "{model}");
+    std::fs::write(folder.path().join("robot.urdf"), "<robot><link name='${side}'/></robot>").unwrap();
+    let output = creepage(folder.path(), &["init", "differential-drive", "--urdf", "robot.urdf", "--force"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("robot.urdf: has no wheel"), "{}", text(&output.stderr));
 }
 
 #[test]
@@ -298,13 +364,13 @@ fn slips_of_units_and_sides_are_noticed() {
     assert_eq!(findings(run.clone()), Vec::<String>::new());
     let scaled = |column: &[f64], by: f64| column.iter().map(|v| v * by).collect::<Vec<f64>>();
     let millimetres = Run { x: scaled(&run.x, 1e3), y: scaled(&run.y, 1e3), ..run.clone() };
-    assert!(findings(millimetres).iter().any(|s| s.contains("millimetres?")));
+    assert!(findings(millimetres).iter().any(|s| s.contains("millimetres")));
     let heading = run.heading.as_ref().map(|h| scaled(h, 180.0 / std::f64::consts::PI));
-    assert!(findings(Run { heading, ..run.clone() }).iter().any(|s| s.contains("degrees?")));
+    assert!(findings(Run { heading, ..run.clone() }).iter().any(|s| s.contains("degrees")));
     let yaw = run.roles.iter().position(|r| r == "yaw_rate").unwrap();
     let mut swapped = run.clone();
     swapped.inputs[yaw] = scaled(&run.inputs[yaw], -1.0);
-    assert!(findings(swapped).iter().any(|s| s.contains("swapped")));
+    assert!(findings(swapped).iter().any(|s| s.contains("wrong sign")));
     let mut gap = run.clone();
     let keep = |column: &mut Vec<f64>| drop(column.drain(200..300));
     keep(&mut gap.time);

@@ -85,7 +85,7 @@ fn report(hidden: [Hidden; 3]) -> Report {
 fn both_and_no_other(report: &Report) {
     let mut ids: Vec<&str> = report.effects.iter().map(|e| e.id.as_str()).collect();
     ids.sort_unstable();
-    assert_eq!(ids, ["load-dependent-creep", "yaw-rate-scale"], "{}", report.summary);
+    assert_eq!(ids, ["load-dependent-creep", "yaw-rate-scale"], "{} {:?}", report.summary, report.refuted);
     for effect in &report.effects {
         let truth = if effect.id == "yaw-rate-scale" { -0.03 } else { CREEP };
         for value in effect.parameters.values() {
@@ -105,7 +105,7 @@ fn what_stands_in_for_a_law_is_not_named() {
         hidden(|v, w| 0.05 * (1.0 - (-(v * w).powi(2) / 8.0).exp())),
         hidden(|v, w| 0.15 * (1.0 - (-(v * w).powi(2) / 4.0).exp())),
     ]);
-    assert_eq!(report.verdict, Verdict::MissingEffect, "{}", report.summary);
+    assert_eq!(report.verdict, Verdict::MissingEffect, "{} {:?}", report.summary, report.refuted);
     both_and_no_other(&report);
     assert!(report.summary.contains("differs between parts"), "{}", report.summary);
     let warnings = report.data.warnings.join("\n");
@@ -133,8 +133,12 @@ fn what_all_parts_share_has_an_equation() {
 fn runs_that_share_nothing_name_nothing() {
     let hidden = |scale| Hidden { scale, creep: 0.0, law: |_, _| 0.0 };
     let report = report([hidden(-0.05), hidden(0.04), hidden(0.01)]);
-    assert_eq!((report.verdict, report.effects.len()), (Verdict::NotIdentifiable, 0), "{}", report.summary);
-    assert!(report.summary.contains("nothing can be named") && report.next_experiment.is_some(), "{}", report.summary);
+    assert_eq!((report.verdict, report.effects.len()), (Verdict::Unexplained, 0), "{}", report.summary);
+    assert!(
+        report.summary.contains("Model and measurement disagree") && report.next_experiment.is_some(),
+        "{}",
+        report.summary
+    );
 }
 
 /// A law in one of three runs: what stands in for it moves from part to part, and its deviations say so.
@@ -143,7 +147,9 @@ fn deviations_are_as_wide_as_parts_scatter() {
     let hidden = |law| Hidden { scale: -0.03, creep: CREEP, law };
     let report =
         report([hidden(|v, w| 0.1 * (1.0 - (-(v * w).powi(2) / 4.0).exp())), hidden(|_, _| 0.0), hidden(|_, _| 0.0)]);
-    let arm = report.effects.iter().find(|e| e.id == "lever-arm").unwrap();
+    // Another value in another part of the drive: the lever arm is not named, and its deviations say how little it is known.
+    assert!(report.effects.iter().all(|e| e.id != "lever-arm"), "{}", report.summary);
+    let arm = report.refuted.iter().find(|e| e.id == "lever-arm").unwrap();
     let beside = &arm.parameters["b"];
     assert!(beside.std.unwrap() > 0.015, "{beside:?}");
 }

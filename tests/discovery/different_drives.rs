@@ -101,7 +101,7 @@ fn what_the_drives_contradict_is_not_named() {
     let turn = |scale, seed| scenario(Tractor::Unicycle, &[Hidden::YawRateScale { scale }], curved(), seed);
     let report = discovered(&[turn(0.05, 1), turn(-0.03, 2)]);
     let ids: Vec<&str> = report.effects.iter().map(|e| e.id.as_str()).collect();
-    assert_eq!((report.verdict, &ids[..]), (Verdict::NotIdentifiable, &[][..]));
+    assert_eq!((report.verdict, &ids[..]), (Verdict::Unexplained, &[][..]));
 }
 
 /// By how much less deviance each of two runs is missed with the scale of a gyro as the other run gives it.

@@ -9,7 +9,7 @@ use creepage::discrepancy::estimation::problem::Problem;
 use creepage::discrepancy::estimation::variance_components;
 use creepage::discrepancy::initial_state::hidden_states;
 use creepage::discrepancy::initial_state::pose::pose_of;
-use creepage::discrepancy::record::run_record::{Channel, Record};
+use creepage::discrepancy::record::run_record::Record;
 use creepage::discrepancy::shooting::linearised_window::LinearisedWindow;
 use creepage::discrepancy::shooting::window_integration::linearise;
 use creepage::discrepancy::shooting::windows::WindowStates;
@@ -91,9 +91,9 @@ impl Case {
             for i in rows.clone() {
                 let y = stepper.outputs(&arc.z)[..3].to_vec();
                 for (c, channel) in record.channels().into_iter().enumerate() {
-                    let r = y[c] - record.columns[c][i];
-                    let whole = if channel == Channel::Heading { TAU * (r / TAU).round() } else { 0.0 };
-                    residuals[channel as usize].push(r - whole);
+                    let r = y[channel.output] - record.columns[c][i];
+                    let whole = if channel.is_angle { TAU * (r / TAU).round() } else { 0.0 };
+                    residuals[channel.noise].push(r - whole);
                 }
                 if i + 1 < rows.end || k + 1 < segment.windows.len() {
                     stepper.advance(&mut arc, record.time[i], record.time[i + 1]);
@@ -146,11 +146,11 @@ fn dense(case: &Case, windows: &[LinearisedWindow], v: &NoiseModel, delta: &DVec
         let mut here = DMatrix::zeros(3 + p + 1, size);
         here.rows_mut(0, 3).copy_from(&z);
         (0..=p).for_each(|i| here[(3 + i, poses + i)] = 1.0);
-        for channel in 0..3 {
+        for (gram, noise) in window.gram.iter().zip(v.measurement()) {
             // Rows whose squares add up to the window's.
-            let SymmetricEigen { eigenvectors, eigenvalues } = window.gram[channel].clone().symmetric_eigen();
+            let SymmetricEigen { eigenvectors, eigenvalues } = gram.clone().symmetric_eigen();
             let root = DMatrix::from_diagonal(&eigenvalues.map(|e| e.max(0.0).sqrt())) * eigenvectors.transpose();
-            rows.push(root * &here / v.measurement[channel].sqrt());
+            rows.push(root * &here / noise.variance.sqrt());
         }
         let Some(back) = &window.back else { continue };
         // back = F⁻¹(1, −B, −c) is turned round: δz̃ = F·δz + B·δp + c.
@@ -167,7 +167,7 @@ fn dense(case: &Case, windows: &[LinearisedWindow], v: &NoiseModel, delta: &DVec
         let axes = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
         let (from, to) = case.span(k);
         for i in 0..3 {
-            let deviation = (v.process[i] * (to - from)).sqrt();
+            let deviation = (v.jump(i) * (to - from)).sqrt();
             let mut prior = DMatrix::zeros(1, size);
             prior[(0, 3 + 3 * k + i)] = 1.0;
             rows.push(prior);
@@ -203,11 +203,11 @@ fn near(what: &str, found: f64, expected: f64, scale: f64) {
 fn as_dense(case: &Case) {
     let linear = case.linear();
     assert!(linear.len() == 1 && linear[0].len() >= 6, "{} windows", linear[0].len());
-    let noise = case.problem.variances.measurement;
     let p = case.p.len();
     let delta = DVector::from_fn(p, |i, _| 0.01 * (i as f64 + 1.0));
     for size in [1e-12, 1e-6, 1e-2, 10.0] {
-        let v = NoiseModel { measurement: noise, process: [size, 0.3 * size, 2.0 * size, size] };
+        let mut v = case.problem.variances.clone();
+        v.process_mut().iter_mut().zip([size, 0.3 * size, 2.0 * size]).for_each(|(jump, size)| jump.variance = size);
         let e = eliminate(&linear, &v, p).unwrap();
         let expected = dense(case, &linear[0], &v, &delta);
         near("cost", e.cost(), expected.cost, expected.cost);
@@ -225,8 +225,9 @@ fn as_dense(case: &Case) {
         }
         // −2 ln of the likelihood, constants left out.
         let gain = expected.gradient.dot(&expected.information.clone().cholesky().unwrap().solve(&expected.gradient));
-        let values = linear[0].iter().map(|w| w.count).fold([0; 2], |n, c| [n[0] + c[0], n[1] + c[1]]);
-        let of_noise = values[0] as f64 * noise[0].ln() + values[1] as f64 * noise[1].ln();
+        let values = linear[0].iter().map(|w| &w.count).fold([0; 2], |n, c| [n[0] + c[0], n[1] + c[1]]);
+        let noise = |k: usize| v.measurement()[k].variance.ln();
+        let of_noise = values[0] as f64 * noise(0) + values[1] as f64 * noise(1);
         let deviance = expected.cost - gain + expected.log_determinant + of_noise;
         near("deviance", variance_components::deviance(&linear, &v, &e), deviance, deviance.abs());
     }
@@ -286,7 +287,7 @@ fn as_differences(case: &Case) {
                 }
             }
         }
-        assert_eq!(window.count[2], 0);
+        assert_eq!(window.count.len(), 2);
         let (from, to) = case.span(k);
         assert_eq!(window.duration, to - from);
         let (sin, cos) = end[2].sin_cos();
@@ -382,7 +383,7 @@ fn variances_are_the_same_in_any_unit() {
     };
     let [usual, tiny] = [1.0, 1e-9].map(fitted);
     assert!((tiny.p[0] * 1e-9 / usual.p[0] - 1.0).abs() < 1e-4, "{:?} {:?}", usual.p, tiny.p);
-    let of = |v: &NoiseModel| [v.measurement[0], v.measurement[1], v.process[0], v.process[1], v.process[2]];
+    let of = |v: &NoiseModel| v.components().iter().map(|c| c.variance).collect::<Vec<f64>>();
     for (a, b) in of(&usual.variances).into_iter().zip(of(&tiny.variances)) {
         assert!((a / b - 1.0).abs() < 1e-4, "{:?} {:?}", usual.variances, tiny.variances);
     }

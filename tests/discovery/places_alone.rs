@@ -28,7 +28,7 @@ fn stopping(hidden: &[Hidden], seed: u64) -> Report {
 fn a_slope_is_named_though_the_vehicle_stops() {
     for seed in [1, 2, 3] {
         let report = stopping(&[Hidden::SideSlope { rate: 0.03, direction: 0.7 }], seed);
-        assert_eq!(report.verdict, Verdict::MissingEffect, "{seed}: {}", report.summary);
+        assert_eq!(report.verdict, Verdict::MissingEffect, "{seed}: {} {:?}", report.summary, report.refuted);
         let [effect] = &report.effects[..] else { panic!("{seed}: {}", report.summary) };
         assert_eq!((effect.id.as_str(), report.unnamed.len()), ("side-slope", 0));
         for (name, truth, most) in [("rate", 0.03, 5e-4), ("direction", 0.7, 0.02)] {

@@ -19,10 +19,12 @@ mod log_formats;
 mod model_terms;
 #[path = "../models/mod.rs"]
 mod models;
+mod own_format;
 mod parquet_types;
 #[path = "../support/program.rs"]
 mod program;
 mod read;
+mod robot_logs;
 #[path = "../simulator/mod.rs"]
 mod simulator;
 #[path = "../support/slips.rs"]

@@ -55,19 +55,23 @@ pub const BAD_LOGS: &[Case] = &[
         b"t,x,y,phi,yaw_rate\n0,0,0,0,1\n1,0,0,0,1\n",
         &["run.csv:1:1: column \"wheel_rate\" or \"speed\" is missing", "wheel_rate = "],
     ),
-    bad_csv("no header", b"0,0,0,0,1,0\n1,0,0,0,1,0\n", &["run.csv:1:1: ", "is missing", "it holds numbers"]),
+    bad_csv(
+        "no header",
+        b"0,0,0,0,1,0\n1,0,0,0,1,0\n",
+        &["run.csv:1:1: ", "is missing", "the file has no names of columns: they are called 1 to 6"],
+    ),
     bad_csv(
         "column twice",
         b"\nt,x,y,phi,wheel_rate,yaw_rate,x\n0,0,0,0,1,0,0\n",
         &["run.csv:2:1: column \"x\" stands twice", "cell 2 and cell 7", "rename or remove"],
     ),
     bad_csv(
-        "semicolons",
-        b"t;x;y;phi;wheel_rate;yaw_rate\n0;0;0;0;1;0\n",
-        &["run.csv:1:1: ", "semicolons (';'), not commas", "save it with commas"],
+        "semicolons in the header alone",
+        b"t;x;y;phi;wheel_rate;yaw_rate\n0,0,0,0,1,0\n",
+        &["run.csv:2:1: ", "the row has 1 cells, the header has 6"],
     ),
-    bad_csv("tabs", b"t\tx\ty\tphi\twheel_rate\tyaw_rate\n", &["run.csv:1:1: ", "tabs ('\\t'), not commas"]),
-    bad_csv("blanks", b"t x y phi wheel_rate yaw_rate\n", &["run.csv:1:1: ", "blanks (' '), not commas"]),
+    bad_csv("SQLite", b"SQLite format 3\0", &["run.csv: is a ROS 2 bag in SQLite", "mcap convert"]),
+    bad_csv("a bag of ROS 1", b"#ROSBAG V2.0\n", &["run.csv: is a ROS 1 bag", "mcap convert"]),
     bad_csv("a model as log", b"vehicle = 3\n", &["run.csv:1:1: the first line is not the header", "give a log"]),
     bad_csv(
         "carriage returns",
@@ -86,8 +90,8 @@ pub const BAD_LOGS: &[Case] = &[
     ),
     bad_csv(
         "date",
-        b"t,x,y,phi,wheel_rate,yaw_rate\n2026-01-31T10:00:00,0,0,0,1,0\n",
-        &["run.csv:2:1: \"2026-01-31T10:00:00\" in column \"t\"", "time in seconds"],
+        b"t,x,y,phi,wheel_rate,yaw_rate\n2026-01-31/10:00:00,0,0,0,1,0\n",
+        &["run.csv:2:1: \"2026-01-31/10:00:00\" in column \"t\"", "time in seconds"],
     ),
     bad_csv(
         "row of units",
@@ -206,6 +210,36 @@ pub const BAD_MODELS: &[Case] = &[
         "unknown column role",
         "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 1\n[columns]\nyawrate = \"w\"\n",
         &["model.toml:5:1: unknown key \"yawrate\" in [columns]", "did you mean \"yaw_rate\"?"],
+    ),
+    bad_model(
+        "unit of another quantity",
+        "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 1\n[columns]\nx = { column = \"x\", unit = \"deg\" }\n",
+        &["model.toml:5:28: \"deg\" is no unit of a length", "units of a length: m, mm, cm, km, ft"],
+    ),
+    bad_model(
+        "no column",
+        "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 1\n[columns]\nx = { unit = \"mm\" }\n",
+        &["model.toml:5:5: x names no column", "write x = { column = "],
+    ),
+    bad_model(
+        "ticks of a heading",
+        "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 1\n[columns]\nheading = { ticks = \"a\" }\n",
+        &["model.toml:5:13: unknown key \"ticks\" in heading", "known keys: column, unit, scale, offset, quaternion"],
+    ),
+    bad_model(
+        "three columns of a time",
+        "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 1\n[columns]\ntime = [\"a\", \"b\", \"c\"]\n",
+        &["model.toml:5:8: time needs 2 columns, seconds and nanoseconds, not 3"],
+    ),
+    bad_model(
+        "a turn that is none",
+        "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 1\n[columns]\nheading = { column = \"a\", turn = \"left\" }\n",
+        &["model.toml:5:34: unknown turn \"left\"", "it is one of: counter-clockwise, clockwise"],
+    ),
+    bad_model(
+        "position twice",
+        "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 1\n[columns]\nx = \"a\"\nposition = { latitude = \"b\", longitude = \"c\" }\n",
+        &["model.toml:6:1: position stands in place of x and y", "remove x and y"],
     ),
     bad_model(
         "key over two lines",

@@ -1140,6 +1140,6 @@ pub const BAD_MODELS: &[Case] = &[
     case(
         "column of no input",
         &[("time = \"t\"", "yaw_rate = \"t\"")],
-        "model.toml:9:1: unknown key \"yaw_rate\" in [columns]; known keys: time, truth_time, x, y, heading, trailer_headings, steering_angle, wheel_rate, speed",
+        "model.toml:9:1: unknown key \"yaw_rate\" in [columns]; known keys: time, truth_time, x, y, position, heading, sigma_x, sigma_y, sigma_heading, trailer_headings, steering_angle, wheel_rate, speed",
     ),
 ];

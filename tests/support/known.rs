@@ -10,6 +10,7 @@ fn vehicle(id: &str, parameters: &[&str], inputs: &[&str]) -> KnownVehicle {
     let input = |role: &&str| KnownInput {
         role: role.to_string(),
         instead: (id == "unicycle" && *role == "wheel_rate").then(|| "speed".to_string()),
+        ..KnownInput::default()
     };
     KnownVehicle {
         id: id.into(),

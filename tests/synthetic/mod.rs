@@ -152,6 +152,9 @@ pub fn report() -> Report {
                   to 10 mm after 5 s instead of 240 mm."
                 .into(),
         effects: vec![cornering_creep()],
+        refuted: vec![],
+        remains: None,
+        covariance: None,
         unnamed: vec![],
         disagreement: vec![disagreement("eight-fast.csv", 0.61), disagreement("eight-slow.csv", 0.24)],
         remaining: Some(remaining()),
@@ -216,6 +219,7 @@ fn data() -> DataSummary {
         why_dropped: BTreeMap::from([("blank cell".to_string(), 9), ("infinite".to_string(), 3)]),
         warnings: vec!["eight-fast.csv: rows were out of order and were sorted".into()],
         clocks: vec![],
+        findings: vec![],
     }
 }
 

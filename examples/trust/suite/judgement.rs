@@ -101,7 +101,7 @@ fn judged(case: &Case, report: &Report) -> Judgement {
     let nothing = case.kind == Kind::Nothing || case.scenario.hidden.is_empty();
     let fits = match report.verdict {
         Verdict::MissingEffect => !nothing,
-        Verdict::UnnamedEffect => false,
+        Verdict::UnnamedEffect | Verdict::Unexplained => false,
         // Silence on a poor log that hides nothing is no false alarm.
         Verdict::NoMissingEffect | Verdict::NotIdentifiable | Verdict::UnusableData => nothing,
     };
@@ -127,6 +127,7 @@ fn verdict(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::UnusableData => "unusable-data",
         Verdict::NotIdentifiable => "not-identifiable",
+        Verdict::Unexplained => "unexplained",
         Verdict::UnnamedEffect => "unnamed-effect",
         Verdict::MissingEffect => "missing-effect",
         Verdict::NoMissingEffect => "no-missing-effect",

@@ -7,10 +7,10 @@ use super::speed_profile::{Driven, Measured};
 use crate::discrepancy::diagnosis::reason::Reason;
 use crate::discrepancy::diagnosis::verdict::{Outcome, unusable};
 use crate::discrepancy::diagnosis::warning::Warning;
-use crate::discrepancy::localisation::clock_drift::DELAY;
 use crate::discrepancy::preprocessing::unit_errors::too_sparse;
 use crate::discrepancy::report::{Estimate, RunClock, Verdict};
 use crate::discrepancy::request::Request;
+use crate::effects::of_clock;
 use crate::error::Result;
 use crate::files::Clock;
 use crate::files::{ModelFile, Run};
@@ -102,7 +102,9 @@ fn aligned_one(
     if let Some(slip) = too_sparse(model, [run])? {
         return Ok(Err(unusable(slip)));
     }
-    let driven = Driven::of(model, run, request.file.input_timing.into())?;
+    let timings = crate::motion::timings(&run.differences, request.file.input_timing);
+    let timing = timings.first().copied().unwrap_or(request.file.input_timing.into());
+    let driven = Driven::of(model, run, timing)?;
     let laid = |part: &Run| {
         let poses = [part.time[0], part.time[part.time.len() - 1]];
         search(&driven, &Measured::of(part, GRID), poses, near).filter(|f| f.correlation > ALIKE)
@@ -187,8 +189,9 @@ pub(crate) fn is_aligned(run: &Run) -> bool {
 
 /// A model file without a delay of its inputs, which is one with the offset of the clocks; and a warning where it has one.
 pub(crate) fn without_delay(file: &ModelFile) -> (ModelFile, Option<Warning>) {
-    let has_one = file.effects.iter().any(|e| e.id == DELAY);
-    let effects = file.effects.iter().filter(|e| e.id != DELAY).cloned().collect();
+    let is_delay = |id: &str| of_clock().is_some_and(|e| e.id == id);
+    let has_one = file.effects.iter().any(|e| is_delay(&e.id));
+    let effects = file.effects.iter().filter(|e| !is_delay(&e.id)).cloned().collect();
     (ModelFile { effects, ..file.clone() }, has_one.then_some(Warning::DelayLeftOut))
 }
 

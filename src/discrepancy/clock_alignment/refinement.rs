@@ -2,10 +2,9 @@
 
 use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::estimation::problem::Problem;
-use crate::discrepancy::localisation::clock_drift::DELAY;
 use crate::discrepancy::preprocessing::outliers::without_gross_errors;
 use crate::discrepancy::record::run_record::Record;
-use crate::effects::Applied;
+use crate::effects::{Applied, of_clock};
 use crate::error::Result;
 use crate::files::{Clock, ModelFile, Run};
 use crate::model::Model;
@@ -44,10 +43,10 @@ pub struct Fitted {
 /// # Errors
 /// When the model's formulas are malformed.
 pub fn refined(run: &Run, model: &Model, file: &ModelFile, clock: Clock) -> Result<Option<Fitted>> {
-    let delay = crate::effects::named(DELAY).filter(|_| run.apart.is_some());
+    let delay = of_clock().filter(|_| run.apart.is_some());
     let Some(delay) = delay else { return Ok(None) };
     let mut model = model.clone();
-    model.effects.retain(|e| e.effect.id != DELAY);
+    model.effects.retain(|e| !e.effect.is_of_clock());
     let model = model.with_effect(Applied::new(delay, None, vec![0.0]).freed());
     let clock = middle(run, clock);
     let mut found = Fitted {
@@ -150,8 +149,8 @@ impl<'a> Round<'a> {
         let clock = Clock { drift: self.clock.drift + rate, ..self.clock };
         let time: Vec<f64> = apart.time.iter().map(|t| clock.of(*t)).collect();
         let mut problem = self.problem.clone();
-        let timing = self.file.input_timing.into();
-        problem.records[0].signals = crate::motion::Signals::new(&time, &self.run.inputs, timing);
+        let timings = crate::motion::timings(&self.run.differences, self.file.input_timing);
+        problem.records[0].signals = crate::motion::Signals::mixed(&time, &self.run.inputs, &timings);
         let fit = problem.fit(&self.fit.model, &self.fit.window_states, &self.fit.variances, EFFORT)?;
         Ok(fit.map_or(f64::INFINITY, |f| f.deviance))
     }
@@ -189,7 +188,7 @@ impl<'a> Round<'a> {
 fn place(model: &Model) -> Option<usize> {
     let mut at = 0;
     for e in model.free_effects() {
-        if e.effect.id == DELAY {
+        if e.effect.is_of_clock() {
             return Some(at);
         }
         at += e.values.len();

@@ -14,6 +14,8 @@ use rayon::prelude::*;
 
 /// Horizons of the curve, s.
 const CURVE: [f64; 12] = [0.2, 0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0, 45.0];
+/// Times the noise of inputs is drawn.
+const INPUT_DRAWS: u64 = 4;
 /// A held-out gap that is so many times as large with what was found, and as the noise floor, has grown.
 const GREW: f64 = 1.25;
 /// Windows a point of the curve needs.
@@ -37,25 +39,31 @@ impl<'a> Rollouts<'a> {
     }
 
     /// How many windows of a horizon there are in all runs.
-    fn windows(&self, horizon: f64) -> usize {
+    pub(crate) fn windows(&self, horizon: f64) -> usize {
         self.0.iter().map(|p| p.windows(horizon).len()).sum()
     }
 
     /// Errors after a horizon, over all runs.
-    fn errors(&self, horizon: f64) -> PredictionError {
+    pub(crate) fn errors(&self, horizon: f64) -> PredictionError {
         let each: Vec<PredictionError> = self.0.par_iter().map(|p| p.errors(horizon)).collect();
         each.into_iter().fold(PredictionError::default(), PredictionError::joined)
     }
 
     /// The noise floor at some horizons, over all runs.
-    fn floors(&self, horizons: &[f64], noise: &Noise, seed: u64) -> Vec<PredictionError> {
+    pub(crate) fn floors(&self, horizons: &[f64], noise: &Noise, seed: u64) -> Vec<PredictionError> {
         // As often for every run, so that a window weighs in the floor what it weighs in the gap.
         let often = |h: &f64| (2000 / self.windows(*h).max(1)).clamp(4, 200);
         let draws: Vec<usize> = horizons.iter().map(often).collect();
         let of = |(i, p): (usize, &Rollout)| p.floors(horizons, &draws, noise, seed.wrapping_add(i as u64));
         let each: Vec<Vec<PredictionError>> = self.0.par_iter().enumerate().map(of).collect();
         let zero = vec![PredictionError::default(); horizons.len()];
-        each.iter().fold(zero, |sum, floors| sum.into_iter().zip(floors).map(|(s, f)| s.joined(*f)).collect())
+        let floors: Vec<PredictionError> =
+            each.iter().fold(zero, |sum, floors| sum.into_iter().zip(floors).map(|(s, f)| s.joined(*f)).collect());
+        let of_inputs = |h: &f64| -> PredictionError {
+            let drawn = |seed: u64| self.0.iter().map(move |p| p.moved_by_inputs(*h, seed));
+            (0..INPUT_DRAWS).flat_map(drawn).fold(PredictionError::default(), PredictionError::joined)
+        };
+        floors.into_iter().zip(horizons).map(|(floor, h)| floor.beside(of_inputs(h))).collect()
     }
 }
 

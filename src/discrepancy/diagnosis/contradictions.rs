@@ -35,6 +35,7 @@ mod tests {
                 candidates: vec![],
                 inconsistent,
                 sampling_sensitive,
+                refused: vec![],
             };
             (is_contested(&choice), warnings(&choice).len())
         };

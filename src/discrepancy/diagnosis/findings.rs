@@ -4,8 +4,9 @@ use super::equivalents::EquivalentEffect;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::localisation::constraint_residuals::{ConstraintResiduals, reduction};
 use crate::discrepancy::preprocessing::dataset::Data;
-use crate::discrepancy::report::{Estimate, Evidence, Named, Rival, Unnamed};
+use crate::discrepancy::report::{Covariance, Estimate, Evidence, Named, Rival, Unnamed};
 use crate::discrepancy::selection::choice::SelectedEffect;
+use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
 use crate::model::effect_equation::{equation, is_term, term_equation};
@@ -31,6 +32,14 @@ pub(crate) fn named(chosen: &SelectedEffect, relatives: &[EquivalentEffect], mod
         indistinguishable_from: relatives.iter().map(rival).collect(),
         equation: equation(a, model),
     }
+}
+
+/// The covariance of all fitted values, as far as rows and windows are independent.
+pub(crate) fn covariance(fit: &Fit) -> Option<Covariance> {
+    let c = fit.covariance.as_ref().filter(|c| !c.is_empty())?;
+    let of = |a: &Applied| a.effect.parameters.keys().map(|p| format!("{} {p}", a.label())).collect::<Vec<_>>();
+    let rows = c.row_iter().map(|row| row.iter().map(|v| v * fit.variance_inflation()).collect());
+    Some(Covariance { names: fit.model.free_effects().flat_map(of).collect(), matrix: rows.collect() })
 }
 
 /// Chosen terms as the report lists them, judged on the held-out data.

@@ -58,6 +58,8 @@ pub enum Reason {
     Missed(Box<Applied>),
     /// The model leaves less than the noise, more than chance, at these places.
     Trace(Vec<&'static str>),
+    /// The model leaves motion at these places that is random from second to second.
+    RandomRest(Vec<&'static str>),
     /// A file is too long for its clock to be looked for.
     ClockTooLong {
         /// Name of the run.

@@ -1,4 +1,4 @@
-//! The verdict: the first of the contract's five that holds.
+//! The verdict: the first of the contract's that holds.
 
 use super::advice::{Advice, Motive, settling};
 use super::reason::{MissedMotion, Reason};
@@ -7,7 +7,8 @@ use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::estimation::unexplained;
 use crate::discrepancy::localisation::clock_drift::Drift;
-use crate::discrepancy::localisation::constraint_residuals::{CONSTRAINTS, ConstraintResiduals};
+use crate::discrepancy::localisation::constraint_residuals::ConstraintResiduals;
+use crate::discrepancy::localisation::unexplained_motion::{disagrees, is_random, visible};
 use crate::discrepancy::preprocessing::unit_errors::{self, Slip};
 use crate::discrepancy::report::Verdict;
 use crate::discrepancy::selection::choice::Selected;
@@ -16,6 +17,8 @@ use crate::discrepancy::selection::select::Candidate;
 use crate::error::Result;
 use crate::model::Model;
 use crate::model::effect_equation;
+use crate::model::observation::{HEADING, POSITION};
+use crate::model::state::JUMPS;
 
 /// A verdict, its reason and the next experiment.
 #[derive(Clone, Debug)]
@@ -44,9 +47,6 @@ const OUT_OF_NOISE: f64 = 5.0;
 
 /// A vehicle that turns less says nothing of how its model turns, rad/s, root mean square.
 const TURNING: f64 = 0.1;
-
-/// A violation this many times as large as what noise makes of none is seen without statistics.
-const VISIBLE: f64 = 2.0;
 
 /// A slip angle beyond creep, rad.
 const SLIP_ANGLE: f64 = 0.35;
@@ -91,15 +91,15 @@ pub fn unusable(slip: Slip) -> Outcome {
 
 /// Whether any run leaves its place by more than its noise.
 fn moves(problem: &Problem) -> bool {
-    let noise = problem.variances.measurement.map(f64::sqrt);
+    let noise = |k: usize| problem.variances.measurement()[k].variance.sqrt().max(1e-6);
     let span = |column: &[f64]| {
         let (low, high) = column.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(*x), h.max(*x)));
         high - low
     };
     problem.records.iter().any(|r| {
         let part = |c: usize| &r.columns[c][r.rows.clone()];
-        let moved = (0..2).any(|c| span(part(c)) > 20.0 * noise[0].max(1e-6));
-        moved || (r.has_heading && span(part(2)) > 20.0 * noise[1].max(1e-6))
+        let moved = (0..2).any(|c| span(part(c)) > 20.0 * noise(POSITION));
+        moved || (r.has_heading && span(part(2)) > 20.0 * noise(HEADING))
     })
 }
 
@@ -149,9 +149,10 @@ fn fitted(choice: &Selected, after: &[ConstraintResiduals], clocks: &[Drift]) ->
         let next = Advice::InputsOftener(choice.sampling_sensitive.clone());
         return Outcome::new(Verdict::NotIdentifiable, Reason::InputsTooSeldom, Some(next));
     }
-    if contradicted || disagrees(&choice.after, after) {
+    let random = random(&choice.after, after);
+    if random.is_none() && contradicted || disagrees(&choice.after, after) {
         let reason = if contradicted { Reason::Inconsistent } else { Reason::Unexplained };
-        return Outcome::new(Verdict::NotIdentifiable, reason, Some(settling(choice)));
+        return Outcome::new(Verdict::Unexplained, reason, Some(settling(choice)));
     }
     match missed(&choice.candidates, choice.before.variance_inflation()) {
         Some(candidate) => {
@@ -159,13 +160,21 @@ fn fitted(choice: &Selected, after: &[ConstraintResiduals], clocks: &[Drift]) ->
             let next = Advice::VariedDriving(Motive::Missed(missed()));
             Outcome::new(Verdict::NotIdentifiable, Reason::Missed(missed()), Some(next))
         }
-        None => Outcome { verdict: Verdict::NoMissingEffect, reason: trace(&choice.after), next: None },
+        None => {
+            let reason = random.or_else(|| trace(&choice.after));
+            Outcome { verdict: Verdict::NoMissingEffect, reason, next: None }
+        }
     }
+}
+
+/// The reason where what a model leaves is random.
+fn random(fit: &Fit, after: &[ConstraintResiduals]) -> Option<Reason> {
+    is_random(fit, after).then(|| Reason::RandomRest(visible(fit, after).map(|c| JUMPS[c].place).collect()))
 }
 
 /// What a model leaves beyond chance without standing out of the noise to the eye; `None` where it leaves nothing.
 fn trace(after: &Fit) -> Option<Reason> {
-    let places: Vec<&str> = unexplained::remaining(after).map(|c| CONSTRAINTS[c].0).collect();
+    let places: Vec<&str> = unexplained::remaining(after).map(|c| JUMPS[c].place).collect();
     (!places.is_empty()).then_some(Reason::Trace(places))
 }
 
@@ -174,12 +183,6 @@ pub(crate) fn restated(choice: &Selected) -> Vec<Warning> {
     let asked = choice.chosen.iter().map(|c| &c.applied);
     let old = |new| find(&choice.before.model, new);
     asked.filter_map(|new| Some(Warning::Restated { old: old(new)?, new: new.clone() })).collect()
-}
-
-/// Whether what a fit leaves of a constraint is more than chance, and stands out of the noise to the eye.
-fn disagrees(fit: &Fit, after: &[ConstraintResiduals]) -> bool {
-    let visible = |c: usize| ConstraintResiduals::rms(after, c).is_some_and(|(rms, noise)| rms > VISIBLE * noise);
-    unexplained::remaining(fit).any(visible)
 }
 
 /// A model that misses most of the motion or of the turning, whatever is added to it, and the share that it misses.

@@ -3,6 +3,7 @@
 use crate::discrepancy::preprocessing::dataset::DatasetNote;
 use crate::discrepancy::preprocessing::quantisation::CoarseInput;
 use crate::discrepancy::preprocessing::unit_errors::Slip;
+use crate::discrepancy::selection::choice::Refused;
 use crate::effects::Applied;
 
 /// A warning.
@@ -43,6 +44,8 @@ pub enum Warning {
         /// A slip of units that does the same.
         slip: Option<Slip>,
     },
+    /// Held-out runs do not bear out an effect.
+    Refuted(Box<Refused>),
     /// The held-out gap grew.
     HeldOutGapGrew {
         /// s

@@ -52,8 +52,8 @@ pub fn integrated_correlation(series: &[Vec<f64>]) -> f64 {
 }
 
 /// The integrated correlation of what a fit leaves unexplained, each kind of jump by the deviance it is worth.
-pub fn of_what_remains(linear: &[Vec<LinearisedWindow>], unexplained: &[f64; 4]) -> f64 {
-    let kinds = || (0..4).filter(|c| unexplained[*c] > NOTICEABLE);
+pub fn of_what_remains(linear: &[Vec<LinearisedWindow>], unexplained: &[f64]) -> f64 {
+    let kinds = || (0..unexplained.len()).filter(|c| unexplained[*c] > NOTICEABLE);
     let weight: f64 = kinds().map(|c| unexplained[c]).sum();
     if weight <= 0.0 {
         return 1.0;
@@ -77,7 +77,7 @@ const BY_CHANCE: f64 = 5e-4;
 pub fn of_noise(linear: &[Vec<LinearisedWindow>]) -> f64 {
     let windows = || linear.iter().flatten();
     let mut found: f64 = 1.0;
-    for channel in 0..3 {
+    for channel in 0..windows().next().map_or(0, |w| w.count.len()) {
         let rows: usize = windows().map(|w| w.count[channel]).sum();
         let mean = windows().map(|w| w.square(channel)).sum::<f64>() / rows as f64;
         for k in 0..SCALES {

@@ -3,6 +3,7 @@
 use crate::discrepancy::record::angle::wrapped;
 use crate::effects::{Applied, Parameter};
 use crate::model::Model;
+use crate::model::effect_equation::is_term;
 use nalgebra::DVector;
 
 /// A positive value below this share of its plausible size is as good as neutral, and a stiff state to integrate.
@@ -24,6 +25,18 @@ pub fn vanishes(effect: &Applied) -> bool {
 pub fn is_at_an_end(effect: &Applied) -> bool {
     let mut values = effect.effect.parameters.values().zip(&effect.values);
     values.any(|(p, v)| !p.periodic && p.range.iter().any(|end| (v - end).abs() <= 1e-9 * (p.range[1] - p.range[0])))
+}
+
+/// Whether an effect of the catalogue takes a share of one and more: no coefficient of creep and no scale that is off by
+/// all of itself describes a vehicle.
+pub fn is_whole(effect: &Applied) -> bool {
+    let mut values = effect.effect.parameters.values().zip(&effect.values);
+    effect.effect.origin.is_none() && !is_term(effect) && values.any(|(p, v)| p.unit == "1" && v.abs() >= 1.0)
+}
+
+/// Whether an effect may be named at its values at all.
+pub fn is_possible(effect: &Applied) -> bool {
+    !is_at_an_end(effect) && !is_whole(effect)
 }
 
 /// What values the parameters may take.

@@ -67,9 +67,11 @@ impl<'v> InformationFilter<'v> {
         let size = window.gram[0].nrows();
         let m = size - 1 - self.parameters;
         let mut form = self.form.take().unwrap_or_else(|| weak(size, m));
-        for (channel, noise) in self.v.measurement.iter().enumerate().filter(|(channel, _)| window.count[*channel] > 0)
+        for ((gram, _), noise) in
+            window.gram.iter().zip(&window.count).zip(self.v.measurement()).filter(|((_, n), _)| **n > 0)
         {
-            form.zip_apply(&window.gram[channel], |f, g| *f += g / noise);
+            let variance = noise.variance;
+            form.zip_apply(gram, |f, g| *f += g / variance);
         }
         if let Some(back) = &window.back {
             form = carried(&form, back, m);
@@ -159,7 +161,7 @@ fn symmetric(mut form: DMatrix<f64>) -> DMatrix<f64> {
 fn jump_spread(window: &LinearisedWindow, v: &NoiseModel, m: usize) -> DMatrix<f64> {
     let mut spread = window.axes.clone();
     for i in 0..m {
-        spread.column_mut(i).scale_mut((v.process[i.min(3)] * window.duration).sqrt());
+        spread.column_mut(i).scale_mut((v.jump(i) * window.duration).sqrt());
     }
     spread
 }

@@ -6,7 +6,7 @@ use super::elimination::{ReducedForm, eliminate};
 use super::levenberg_marquardt::damped_step;
 use super::problem::Problem;
 use super::variance_components;
-use crate::discrepancy::estimation::noise_model::NoiseModel;
+use crate::discrepancy::estimation::noise_model::{Component, NoiseModel};
 use crate::discrepancy::initial_state::hidden_states;
 use crate::discrepancy::record::sensor_noise::Noise;
 use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
@@ -39,9 +39,9 @@ pub struct Fit {
     pub window_states: WindowStates,
     /// Effective number of measured values.
     pub sample_size: f64,
-    /// By how much the deviance would grow without the jumps along, across, in yaw and of trailers: what remains
-    /// unexplained; zero where the variances were not estimated.
-    pub unexplained: [f64; 4],
+    /// By how much the deviance would grow without each component of the process noise: what remains unexplained; zero
+    /// where the variances were not estimated.
+    pub unexplained: Vec<f64>,
     /// How many windows in a row what remains unexplained is alike, at least 1: see [`super::autocorrelation`].
     pub residual_correlation_time: f64,
     /// How many rows in a row the noise is alike, at least 1.
@@ -95,7 +95,10 @@ impl Fit {
 
     /// The noise that was estimated.
     pub fn noise(&self) -> Noise {
-        Noise { variance: self.variances.measurement, correlation_time: self.noise_correlation_time }
+        Noise {
+            variance: self.variances.measurement().iter().map(|c| c.variance).collect(),
+            correlation_time: self.noise_correlation_time,
+        }
     }
 }
 
@@ -113,13 +116,13 @@ impl Problem {
         let equations = model.free_equations()?;
         let p = DVector::from_vec(model.free_values());
         let bounds = Bounds::of(model);
-        let mut v = *variances;
+        let mut v = variances.clone();
         let Some(mut point) = self.point(&equations, p, starts.clone(), &v) else { return Ok(None) };
         point = self.descend(&equations, point, &v, &bounds, effort, false);
         if effort.variances {
             // Better variances show a better way down, and the other way round.
             for first_step in [1.0, 0.3, 0.3, 0.3, 0.3, 0.3] {
-                let better = variance_components::improve(&point.linear, v, self.free, point.p.len(), first_step);
+                let better = variance_components::improve(&point.linear, v.clone(), point.p.len(), first_step);
                 let settled = better.close_to(&v);
                 v = better;
                 let Some(e) = eliminate(&point.linear, &v, point.p.len()) else { return Ok(None) };
@@ -131,7 +134,7 @@ impl Problem {
                 }
             }
         }
-        let unexplained = if effort.variances { self.unexplained(&point, &v) } else { [0.0; 4] };
+        let unexplained = if effort.variances { unexplained(&point, &v) } else { vec![0.0; v.process().len()] };
         let residual_correlation_time = autocorrelation::of_what_remains(&point.linear, &unexplained);
         let noise_correlation_time = if effort.variances { autocorrelation::of_noise(&point.linear) } else { 1.0 };
         let initial_state_dof = self.initial_state_dof(&equations, &point);
@@ -223,6 +226,7 @@ impl Problem {
             e.values.iter_mut().for_each(|value| *value = rest.next().unwrap_or(*value));
         }
         Fit {
+            unexplained: vec![0.0; variances.process().len()],
             deviance: variance_components::deviance(&point.linear, &variances, &point.eliminated),
             between_runs: self.between_runs(&point.eliminated),
             runs: self.records.len(),
@@ -233,7 +237,6 @@ impl Problem {
             information,
             variances,
             window_states: point.starts,
-            unexplained: [0.0; 4],
             residual_correlation_time: 1.0,
             noise_correlation_time: 1.0,
             initial_state_dof: 0.0,
@@ -248,17 +251,17 @@ impl Problem {
         };
         self.plan.iter().zip(&point.starts).map(of).sum()
     }
+}
 
-    /// What each kind of jump is needed for.
-    fn unexplained(&self, point: &Point, v: &NoiseModel) -> [f64; 4] {
-        let k = point.p.len();
-        let here = variance_components::deviance(&point.linear, v, &point.eliminated);
-        std::array::from_fn(|c| {
-            let calm = variance_components::without_jump(*v, c);
-            let e = eliminate(&point.linear, &calm, k).filter(|_| self.free.process[c] && calm != *v);
-            e.map_or(0.0, |e| variance_components::deviance(&point.linear, &calm, &e) - here)
-        })
-    }
+/// What each component of the process noise is needed for.
+fn unexplained(point: &Point, v: &NoiseModel) -> Vec<f64> {
+    let here = variance_components::deviance(&point.linear, v, &point.eliminated);
+    let needed = |(c, jump): (usize, &Component)| {
+        let calm = Some(v.clone().without_jump(c)).filter(|calm| jump.is_estimated && calm != v)?;
+        let e = eliminate(&point.linear, &calm, point.p.len())?;
+        Some(variance_components::deviance(&point.linear, &calm, &e) - here)
+    };
+    v.process().iter().enumerate().map(|jump| needed(jump).unwrap_or(0.0)).collect()
 }
 
 /// What a step gains: a whole one in what is promised once the poses have followed, a shortened one in what is there.
@@ -274,8 +277,9 @@ fn gain(here: &Point, next: &Point, v: &NoiseModel, share: f64) -> f64 {
 /// from the truth no step would be seen to lead down.
 fn misfit(linear: &[Vec<LinearisedWindow>], v: &NoiseModel) -> f64 {
     let of_window = |w: &LinearisedWindow| {
-        let noise: f64 = v.measurement.iter().enumerate().map(|(channel, noise)| w.square(channel) / noise).sum();
-        let jump = w.mismatch.iter().enumerate().map(|(c, m)| m * m / (v.process[c.min(3)] * w.duration));
+        let noise: f64 =
+            v.measurement().iter().enumerate().map(|(channel, noise)| w.square(channel) / noise.variance).sum();
+        let jump = w.mismatch.iter().enumerate().map(|(c, m)| m * m / (v.jump(c) * w.duration));
         noise + jump.sum::<f64>()
     };
     linear.iter().flatten().map(of_window).sum()
@@ -285,7 +289,7 @@ fn misfit(linear: &[Vec<LinearisedWindow>], v: &NoiseModel) -> f64 {
 fn sample_size(linear: &[Vec<LinearisedWindow>], e: &ReducedForm) -> f64 {
     let windows = linear.iter().map(Vec::len).sum::<usize>() as f64;
     let coordinates = linear.iter().flatten().map(|w| w.axes.nrows()).max().unwrap_or(1) as f64;
-    let values = linear.iter().flatten().flat_map(|w| w.count).sum::<usize>() as f64;
+    let values = linear.iter().flatten().flat_map(|w| &w.count).sum::<usize>() as f64;
     independent(values, windows * coordinates, e.jump_determinant)
 }
 
@@ -334,21 +338,22 @@ fn moved(starts: &WindowStates, by: &[Vec<DVector<f64>>], share: f64) -> WindowS
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::discrepancy::fixtures::noise_of;
     use crate::discrepancy::shooting::block_sums::Blocks;
 
     /// A window with two trailers, and others without a jump behind them.
     #[test]
     fn a_misfit_counts_noise_and_jumps_in_their_variances() {
         let window = |squares: [f64; 3], duration: f64, mismatch: &[f64]| LinearisedWindow {
-            gram: squares.map(|square| DMatrix::from_element(1, 1, square)),
-            count: [1; 3],
-            blocks: [Blocks::default(); 3],
+            gram: squares.map(|square| DMatrix::from_element(1, 1, square)).to_vec(),
+            count: vec![1; 3],
+            blocks: vec![Blocks::default(); 3],
             back: None,
             axes: DMatrix::zeros(0, 0),
             duration,
             mismatch: mismatch.to_vec(),
         };
-        let v = NoiseModel { measurement: [2.0, 4.0, 8.0], process: [1.0, 2.0, 4.0, 8.0] };
+        let v = noise_of(2, [2.0, 4.0, 8.0], &[1.0, 2.0, 4.0, 8.0]);
         let first = window([2.0, 8.0, 24.0], 0.5, &[1.0, 2.0, 4.0, 8.0, 16.0]);
         // 1 + 2 + 3, and 2 + 4 + 8 + 16 + 64.
         assert_eq!(misfit(&[vec![first.clone()]], &v), 6.0 + 94.0);

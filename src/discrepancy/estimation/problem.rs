@@ -1,15 +1,17 @@
 //! Runs cut into windows, and what is known of their noise.
 
-use crate::discrepancy::estimation::noise_model::Estimated;
-use crate::discrepancy::estimation::noise_model::NoiseModel;
+use crate::discrepancy::estimation::noise_model::{NoiseModel, Start};
 use crate::discrepancy::initial_state::heading_from_path;
 use crate::discrepancy::record::local_polynomial;
-use crate::discrepancy::record::run_record::{Channel, Record};
+use crate::discrepancy::record::run_record::Record;
+use crate::discrepancy::shooting::window_integration::linearise;
 use crate::discrepancy::shooting::windows;
 use crate::discrepancy::shooting::windows::has_windows;
 use crate::discrepancy::shooting::windows::{Segment, WindowStates};
 use crate::error::Result;
-use crate::model::Model;
+use crate::model::observation::POSITION;
+use crate::model::state::YAW;
+use crate::model::{Model, observation};
 
 /// Runs cut into windows, with what is known of their noise.
 #[derive(Clone, Debug)]
@@ -18,9 +20,7 @@ pub struct Problem {
     pub records: Vec<Record>,
     /// Their windows.
     pub plan: Vec<Segment>,
-    /// Which variances are free.
-    pub free: Estimated,
-    /// Where the variances start.
+    /// Where the variances start, and which of them are estimated.
     pub variances: NoiseModel,
 }
 
@@ -36,16 +36,50 @@ impl Problem {
             false => records,
         };
         let plan = windows::plan(&records);
-        let channels = [Channel::Position, Channel::Heading, Channel::Trailer];
-        let known = [position, heading, heading];
-        let present = channels.map(|c| records.iter().any(|r| r.channels().contains(&c)));
-        let noise = [0, 1, 2].map(|k| known[k].unwrap_or_else(|| noise_of(&records, channels[k])).powi(2));
-        let jump = [noise[0], noise[0], noise[1], noise[2]];
-        let free = Estimated {
-            measurement: [0, 1, 2].map(|k| present[k] && known[k].is_none()),
-            process: [true, true, true, present[2]],
-        };
-        Self { records, plan, free, variances: NoiseModel { measurement: noise, process: jump } }
+        let trailers = records.first().map_or(0, |r| r.trailers);
+        let starts = observation::sensor_noise(trailers).iter().enumerate().map(|(k, noise)| {
+            let known = if noise.unit == "m" { position } else { heading };
+            Start {
+                variance: known.unwrap_or_else(|| noise_of(&records, k)).powi(2),
+                is_measured: records.iter().any(|r| r.channels().iter().any(|c| c.noise == k)),
+                is_known: known.is_some(),
+            }
+        });
+        let mut variances = NoiseModel::starting(trailers, starts);
+        if !records.iter().any(|r| r.has_heading)
+            && let Some(yaw) = yaw_told(&records, &plan, variances.measurement()[POSITION].variance)
+        {
+            variances.process_mut()[YAW].variance = yaw;
+        }
+        Self { records, plan, variances }
+    }
+
+    /// The same with what the noise of its inputs makes of a model's windows.
+    pub(crate) fn knowing_its_inputs(self, model: &Model) -> Result<Self> {
+        if !self.records.iter().any(|r| r.input_noise.is_there()) {
+            return Ok(self);
+        }
+        let (equations, starts) = (model.equations(&[])?, self.starts(model)?);
+        let ends = |p: &Problem| linearise(&equations, &[], &p.records, &p.plan, &starts);
+        let Some(quiet) = ends(&self) else { return Ok(self) };
+        let mut squares = vec![0.0; self.variances.process().len()];
+        let mut time = 0.0;
+        for draw in 0..INPUT_DRAWS {
+            let Some(noisy) = ends(&self.with_noisier_inputs(draw)) else { return Ok(self) };
+            for (a, b) in quiet.iter().flatten().zip(noisy.iter().flatten()).filter(|(a, _)| !a.mismatch.is_empty()) {
+                time += a.duration;
+                let pairs = a.mismatch.iter().zip(&b.mismatch).zip(&mut squares);
+                pairs.for_each(|((a, b), square)| *square += (a - b).powi(2));
+            }
+        }
+        let known = squares.into_iter().map(|square| if time > 0.0 { square / time } else { 0.0 });
+        Ok(Self { variances: self.variances.clone().knowing(known), ..self })
+    }
+
+    /// The same poses with inputs that are as noisy again.
+    pub(crate) fn with_noisier_inputs(&self, seed: u64) -> Self {
+        let noisier = |(i, r): (usize, &Record)| r.with_noisier_inputs(1000 * seed + i as u64);
+        Self { records: self.records.iter().enumerate().map(noisier).collect(), ..self.clone() }
     }
 
     /// How many windows there are.
@@ -57,7 +91,7 @@ impl Problem {
     pub fn noise_determinant(&self, v: &NoiseModel) -> f64 {
         let of_segment = |s: &Segment| {
             let rows: usize = s.windows.iter().map(std::ops::Range::len).sum();
-            let each = self.records[s.record].channels().into_iter().map(|c| v.measurement[c as usize].ln());
+            let each = self.records[s.record].channels().into_iter().map(|c| v.measurement()[c.noise].variance.ln());
             rows as f64 * each.sum::<f64>()
         };
         self.plan.iter().map(of_segment).sum()
@@ -76,11 +110,26 @@ pub(crate) fn starts(model: &Model, records: &[Record], plan: &[Segment]) -> Res
     Ok(plan.iter().map(|s| heading_from_path::starts(&equations, &records[s.record], &s.windows)).collect())
 }
 
-/// The median noise of a channel over the runs.
-fn noise_of(records: &[Record], channel: Channel) -> f64 {
+/// Times the noise of inputs is drawn.
+const INPUT_DRAWS: u64 = 3;
+
+/// The variance of a heading that positions of a variance tell over the way of a window, (σ/(v·W))², by the windows whose
+/// way is longer than that σ; `None` where nothing moves.
+fn yaw_told(records: &[Record], plan: &[Segment], variance: f64) -> Option<f64> {
+    let way = |(r, a, b): (&Record, usize, usize)| {
+        let (a, b) = (r.smoothed(a), r.smoothed(b));
+        (b[0] - a[0]).hypot(b[1] - a[1])
+    };
+    let steps = plan.iter().flat_map(|s| s.windows.windows(2).map(|w| (&records[s.record], w[0].start, w[1].start)));
+    let mut ways: Vec<f64> = steps.map(way).filter(|way| way * way > variance).collect();
+    local_polynomial::median(&mut ways).map(|way| variance / (way * way))
+}
+
+/// The median over the runs of the noise of the columns that share a component.
+fn noise_of(records: &[Record], component: usize) -> f64 {
     let mut found: Vec<f64> = Vec::new();
     for r in records {
-        let columns = r.channels().into_iter().zip(&r.columns).filter(|(c, _)| *c == channel);
+        let columns = r.channels().into_iter().zip(&r.columns).filter(|(c, _)| c.noise == component);
         found.extend(columns.filter_map(|(_, y)| local_polynomial::noise(&r.time[r.rows.clone()], &y[r.rows.clone()])));
     }
     found.sort_by(f64::total_cmp);

@@ -137,7 +137,7 @@ fn counts(gains: &[f64], alike: f64) -> (usize, usize) {
 
 /// A fit with the noise and jumps of another.
 fn in_units_of(fit: &Fit, other: &Fit) -> Fit {
-    Fit { variances: other.variances, ..fit.clone() }
+    Fit { variances: other.variances.clone(), ..fit.clone() }
 }
 
 /// The deviance of a part by the form of all others.

@@ -72,7 +72,7 @@ pub(crate) fn parts(problem: &Problem) -> Vec<Problem> {
     let without = |fold: usize| {
         let kept = pieces.iter().enumerate().filter(|(i, _)| i % folds != fold);
         let records: Vec<Record> = kept.map(|(_, r)| r.clone()).collect();
-        Problem { plan: plan(&records), records, free: problem.free, variances: problem.variances }
+        Problem { plan: plan(&records), records, ..problem.clone() }
     };
     (0..folds).map(without).collect()
 }

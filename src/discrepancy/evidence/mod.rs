@@ -4,5 +4,6 @@ pub mod cross_validation;
 pub mod information_criterion;
 pub mod jackknife;
 pub mod parametric_bootstrap;
+pub mod regime_stability;
 pub mod score_test;
 pub(crate) mod wald_test;

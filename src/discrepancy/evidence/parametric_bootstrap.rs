@@ -12,7 +12,7 @@ use crate::discrepancy::initial_state::hidden_states;
 use crate::discrepancy::shooting::windows::WindowStates;
 use crate::effects::Applied;
 use crate::error::Result;
-use crate::model::{Equations, Model};
+use crate::model::{Equations, Model, state};
 use crate::motion::{StateSensitivity, Stepper};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -106,7 +106,7 @@ impl Problem {
         let v = &fit.variances;
         for (segment, poses) in self.plan.iter().zip(&fit.window_states) {
             let record = &mut drawn.records[segment.record];
-            let signals = record.signals.clone();
+            let (signals, channels) = (record.signals.clone(), record.channels());
             let mut stepper = Stepper::new(equations, &signals, &[]);
             let first = segment.windows[0].start;
             let hidden = hidden_states::carried(equations, &[], record, first, &poses[0]);
@@ -116,9 +116,9 @@ impl Problem {
                 of_segment.push(arc.z[..equations.visible].to_vec());
                 for i in rows.clone() {
                     let y = stepper.outputs(&arc.z);
-                    for (c, channel) in record.channels().into_iter().enumerate() {
-                        record.columns[c][i] =
-                            y[record.output_of(c)] + v.measurement[channel as usize].sqrt() * normal(random);
+                    for (column, channel) in record.columns.iter_mut().zip(&channels) {
+                        let noise = v.measurement()[channel.noise].variance.sqrt() * normal(random);
+                        column[i] = y[channel.output] + noise;
                     }
                     if i + 1 < record.time.len() {
                         stepper.advance(&mut arc, record.time[i], record.time[i + 1]);
@@ -137,11 +137,11 @@ impl Problem {
 
 /// Moves a pose by what no effect explains: along the body, across it, in yaw, and the trailers'.
 fn jump(pose: &mut [f64], v: &NoiseModel, duration: f64, random: &mut ChaCha8Rng) {
-    let by: Vec<f64> = (0..pose.len()).map(|c| (v.process[c.min(3)] * duration).sqrt() * normal(random)).collect();
-    let (sin, cos) = pose[2].sin_cos();
-    pose[0] += cos * by[0] - sin * by[1];
-    pose[1] += sin * by[0] + cos * by[1];
-    pose.iter_mut().zip(&by).skip(2).for_each(|(z, by)| *z += by);
+    let by: Vec<f64> = (0..pose.len()).map(|c| (v.jump(c) * duration).sqrt() * normal(random)).collect();
+    let ([x, y], (sin, cos)) = (state::PLACE, pose[state::DIRECTION].sin_cos());
+    pose[x] += cos * by[x] - sin * by[y];
+    pose[y] += sin * by[x] + cos * by[y];
+    pose.iter_mut().zip(&by).skip(state::PLACE.len()).for_each(|(z, by)| *z += by);
 }
 
 fn normal(random: &mut ChaCha8Rng) -> f64 {
@@ -151,6 +151,7 @@ fn normal(random: &mut ChaCha8Rng) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::discrepancy::fixtures::noise_of;
 
     /// Half of the draws gain nothing, the others as χ²₂ with a mean of 4.
     #[test]
@@ -172,7 +173,7 @@ mod tests {
     fn a_jump_is_along_the_axes_of_the_body() {
         let jumps = |variances: [f64; 4], heading: f64| -> Vec<[f64; 4]> {
             let mut random = ChaCha8Rng::seed_from_u64(1);
-            let v = NoiseModel { measurement: [0.0; 3], process: variances };
+            let v = noise_of(1, [0.0; 3], &variances);
             let mut draw = || {
                 let mut pose = [3.0, -2.0, heading, heading];
                 jump(&mut pose, &v, 0.5, &mut random);

@@ -4,12 +4,13 @@ use crate::discrepancy::estimation::elimination::{InformationFilter, ReducedForm
 use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::shooting::window_integration::each_window;
-use crate::discrepancy::shooting::windows::Segment;
+use crate::discrepancy::shooting::windows::{Segment, WindowStates};
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::{Equations, Model};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
+use std::f64::consts::FRAC_PI_2;
 
 /// A candidate with the deviance it promises.
 #[derive(Clone, Debug)]
@@ -38,7 +39,12 @@ const PAIRS: usize = 2;
 fn is_regular(effect: &Effect, model: &Model, trailer: Option<usize>) -> bool {
     let known = model.effects.iter().any(|e| e.effect.id == effect.id && e.trailer == trailer);
     // A user's own may be undefined somewhere, or close a circle with another: it must not spoil the pass for others.
-    !known && effect.origin.is_none() && effect.states.is_empty() && effect.starts().len() == 1
+    !known && effect.origin.is_none() && effect.states.is_empty() && vanishes_first(effect)
+}
+
+/// Whether the first of an effect's starts is where it vanishes, so that a step to first order may be taken from there.
+fn vanishes_first(effect: &Effect) -> bool {
+    effect.parameters.values().all(|p| p.start.first() == Some(&0.0))
 }
 
 /// The candidates for a model by what they promise, best first.
@@ -50,7 +56,8 @@ pub fn promises(problem: &Problem, base: &Fit, model: &Model, open: &[(&Effect, 
     let applied = |(e, t): &(&Effect, Option<usize>)| {
         e.starts().into_iter().map(|s| Applied::new(e, *t, s).freed()).collect::<Vec<_>>()
     };
-    let together: Vec<Applied> = regular.iter().flat_map(applied).collect();
+    let together: Vec<Applied> = regular.iter().filter_map(|open| applied(open).into_iter().next()).collect();
+    let elsewhere = regular.iter().flat_map(|open| applied(open).into_iter().skip(1)).map(|a| vec![a]);
     // An entry of the model file is where the search for a better value begins.
     let alone: Vec<Vec<Applied>> = others
         .iter()
@@ -63,7 +70,7 @@ pub fn promises(problem: &Problem, base: &Fit, model: &Model, open: &[(&Effect, 
     // Two of a whole library of terms are not weighed together: small groups have small Gram matrices.
     let paired = together.len() <= MOST_PAIRED;
     let regular = together.chunks(if paired { MOST_PAIRED } else { UNPAIRED }).map(<[Applied]>::to_vec);
-    let groups: Vec<Vec<Applied>> = regular.chain(alone).collect();
+    let groups: Vec<Vec<Applied>> = regular.chain(elsewhere).chain(alone).collect();
     let weighed = groups.par_iter().map(|g| promise(problem, base, model, g, paired));
     let found: Vec<ScoreTests> = weighed.collect::<Result<_>>()?;
     let mut all = ScoreTests::default();
@@ -92,7 +99,11 @@ fn promise(problem: &Problem, base: &Fit, model: &Model, group: &[Applied], pair
     let joint = group.iter().fold(model.clone(), |m, a| m.with_effect(a.clone()));
     let free = joint.free_parameters();
     let equations = joint.equations(&free)?;
-    let Some(e) = joined(problem, base, &equations, &joint.free_values()) else { return Ok(ScoreTests::default()) };
+    let turned = turned_starts(problem, &joint, group)?;
+    let starts = turned.as_ref().unwrap_or(&base.window_states);
+    let Some(e) = joined(problem, base, starts, &equations, &joint.free_values()) else {
+        return Ok(ScoreTests::default());
+    };
     let constant = e.log_determinant + problem.noise_determinant(&base.variances);
     let position = |s: &crate::formula::Symbol| free.iter().position(|f| f == s);
     let indices = |a: &Applied| a.parameters().iter().filter_map(position).collect::<Vec<usize>>();
@@ -124,15 +135,20 @@ fn promise(problem: &Problem, base: &Fit, model: &Model, group: &[Applied], pair
 }
 
 /// A model along all windows, which are eliminated as they come: of a large library none could be kept.
-fn joined(problem: &Problem, base: &Fit, equations: &Equations, p: &[f64]) -> Option<ReducedForm> {
+fn joined(
+    problem: &Problem,
+    base: &Fit,
+    starts: &WindowStates,
+    equations: &Equations,
+    p: &[f64],
+) -> Option<ReducedForm> {
     let along = |(segment, starts): (&Segment, &Vec<Vec<f64>>)| {
         let mut chain = InformationFilter::new(&base.variances, p.len(), false);
         let record = &problem.records[segment.record];
         each_window(equations, p, record, segment, starts, |window| chain.push(&window))?;
         Some(chain)
     };
-    let chains: Vec<InformationFilter> =
-        problem.plan.par_iter().zip(&base.window_states).map(along).collect::<Option<_>>()?;
+    let chains: Vec<InformationFilter> = problem.plan.par_iter().zip(starts).map(along).collect::<Option<_>>()?;
     let mut total = ReducedForm::nothing(p.len());
     chains.into_iter().try_for_each(|c| total.add(c))?;
     Some(total)
@@ -147,7 +163,7 @@ const UNPAIRED: usize = 8;
 /// A first-order step that stays where the effect has a meaning.
 fn moved(value: f64, step: f64, a: &Applied) -> f64 {
     // Nonlinear effects begin where they were linearised: their first step may lead anywhere.
-    if a.effect.states.is_empty() && a.effect.starts().len() == 1 { value + step } else { value }
+    if a.effect.states.is_empty() && vanishes_first(&a.effect) { value + step } else { value }
 }
 
 /// What the quadratic form gains when only some parameters move, how they move, and how well they are known.
@@ -173,7 +189,19 @@ pub fn settled(
     effort: Effort,
 ) -> Result<Option<Fit>> {
     let begin = promises.iter().fold(model.clone(), |m, p| m.with_effect(tamed(p)));
-    problem.fit(&begin, &base.window_states, &base.variances, effort)
+    let added: Vec<Applied> = promises.iter().map(|p| tamed(p)).collect();
+    let turned = turned_starts(problem, &begin, &added)?;
+    problem.fit(&begin, turned.as_ref().unwrap_or(&base.window_states), &base.variances, effort)
+}
+
+/// The definition by which the measured heading is turned against the body.
+const OFFSET: &str = "heading_offset";
+
+/// Poses at the windows' starts where an effect turns the body by more than a quarter against the measured heading: from
+/// the poses of the model without it no local search leads there.
+fn turned_starts(problem: &Problem, model: &Model, added: &[Applied]) -> Result<Option<WindowStates>> {
+    let turns = |a: &Applied| a.effect.changes.contains_key(OFFSET) && a.values.iter().any(|v| v.abs() > FRAC_PI_2);
+    if added.iter().any(turns) { problem.starts(model).map(Some) } else { Ok(None) }
 }
 
 /// The effect as promised, or where its fit would begin when that lies outside its range.

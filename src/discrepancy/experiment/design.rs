@@ -91,7 +91,7 @@ pub fn next(
 ) -> Result<Option<NextStep>> {
     let own = match outcome.verdict {
         Verdict::MissingEffect | Verdict::UnnamedEffect => between(problem, choice, relatives)?,
-        Verdict::NotIdentifiable => {
+        Verdict::NotIdentifiable | Verdict::Unexplained => {
             missed(&choice.candidates, choice.before.variance_inflation()).and_then(|c| revealing(problem, choice, c))
         }
         _ => None,
@@ -181,13 +181,13 @@ impl<'a> PredictedExperiment<'a> {
     pub(crate) fn of(problem: &'a Problem, fit: &Fit) -> Option<Self> {
         let like = problem.records.first()?;
         let envelope = Envelope::of(&fit.model, &problem.records)?;
-        let of = Self { envelope, like, variances: fit.variances, sample_size: fit.sample_size };
-        Some(Self { variances: of.scaled(fit.variances), ..of })
+        let of = Self { envelope, like, variances: fit.variances.clone(), sample_size: fit.sample_size };
+        Some(Self { variances: of.scaled(fit.variances.clone()), ..of })
     }
 
     /// Variances at the rows of a manoeuvre that says as much as one with the rows of the runs.
     pub(crate) fn scaled(&self, mut v: NoiseModel) -> NoiseModel {
-        v.measurement.iter_mut().for_each(|v| *v *= (self.like.step() * RATE).min(1e3));
+        v.measurement_mut().iter_mut().for_each(|c| c.variance *= (self.like.step() * RATE).min(1e3));
         v
     }
 
@@ -250,16 +250,15 @@ impl<'a> PredictedExperiment<'a> {
             Timing::Sample,
         );
         record.trailers = self.like.trailers;
-        let signals = record.signals.clone();
+        let (signals, channels) = (record.signals.clone(), record.channels());
         let mut stepper = Stepper::new(&equations, &signals, &[]);
         let mut z = vec![0.0; equations.visible];
         z.extend(hidden_states::at_rest(&equations, &[], &mut stepper, record.time[0], &z).z);
         let mut arc = StateSensitivity { z, s: vec![] };
         for i in 0..record.time.len() {
             let y = stepper.outputs(&arc.z);
-            for c in 0..record.columns.len() {
-                let value = y[record.output_of(c)];
-                record.columns[c].push(value);
+            for (column, channel) in record.columns.iter_mut().zip(&channels) {
+                column.push(y[channel.output]);
             }
             if i + 1 < record.time.len() {
                 stepper.advance(&mut arc, record.time[i], record.time[i + 1]);
@@ -272,7 +271,7 @@ impl<'a> PredictedExperiment<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::discrepancy::fixtures::{KNOWN, WEAVING, applied, fit_of, logged, unicycle};
+    use crate::discrepancy::fixtures::{KNOWN, WEAVING, applied, fit_of, logged, noise_of, unicycle};
 
     /// A value with a sign goes to a fifth or to five times itself at most, another as far as the step leads.
     #[test]
@@ -323,7 +322,7 @@ mod tests {
         let thought = PredictedExperiment {
             envelope: Envelope::of(&truth.model, &records).unwrap(),
             like: &records[0],
-            variances: NoiseModel { measurement: [1e-6; 3], process: [1e-9; 4] },
+            variances: noise_of(0, [1e-6; 2], &[1e-9; 3]),
             sample_size: 1000.0,
         };
         let m = library(&thought.envelope).next().unwrap();

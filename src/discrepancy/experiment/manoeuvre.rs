@@ -160,6 +160,7 @@ impl Phase {
 #[cfg(test)]
 pub(crate) mod samples {
     use super::*;
+    use crate::discrepancy::record::input_noise::InputNoise;
     use crate::discrepancy::record::run_record::{Known, Record};
     use crate::model::Model;
     use crate::motion::{Signals, Timing};
@@ -178,6 +179,7 @@ pub(crate) mod samples {
             has_heading: false,
             signals,
             trailers: 0,
+            input_noise: InputNoise::of(&[], &[], &[]).into(),
             known: Known::default(),
         };
         Envelope::of(&model, &[record]).unwrap()

@@ -73,7 +73,7 @@ impl Open<'_> {
 
     /// By how much the runs and the manoeuvre together mend each thing, at most one.
     fn shares(&self, driven: &Driven, thought: &PredictedExperiment, fit: &Fit) -> Result<Vec<f64>> {
-        let ground = Background { calm: thought.scaled(self.ground.calm), ..self.ground };
+        let ground = Background { calm: thought.scaled(self.ground.calm.clone()), ..self.ground };
         let seen = |c: &usize| -> Result<f64> {
             let marks = driven.marks(&fit.model, &[&self.all[*c].applied])?;
             let new = marks.map_or(0.0, |m| gain(&m, &self.all[*c], &ground));

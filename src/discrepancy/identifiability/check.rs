@@ -12,10 +12,13 @@ use crate::discrepancy::diagnosis::equivalents::measured;
 use crate::discrepancy::diagnosis::reason::Reason;
 use crate::discrepancy::diagnosis::verdict;
 use crate::discrepancy::estimation::fit::Effort;
+use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::estimation::problem::Problem;
-use crate::discrepancy::estimation::variance_components::without_jump;
 use crate::discrepancy::experiment::next_step::NextStep;
+use crate::discrepancy::preprocessing::clock_jumps::{ClockJump, clock_jump};
 use crate::discrepancy::preprocessing::outliers::without_gross_errors;
+use crate::discrepancy::preprocessing::reference_jumps::{self, Jumps};
+use crate::discrepancy::preprocessing::slips;
 use crate::discrepancy::preprocessing::unit_errors::too_sparse;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::report::Verdict;
@@ -66,15 +69,29 @@ pub(crate) fn assess(of: &Checked, progress: &OnProgress) -> Result<Assessment> 
     let roles = common_roles(of.runs, &[])?;
     let model = Model::from_file(of.file, of.library, &roles)?;
     begin(progress, Stage::Rows)?;
-    let sparse = too_sparse(&model, of.runs)?;
-    let record = |r: &Run| {
-        let record = Record::of_run(r, of.file.input_timing, model.trailer_count());
+    let slip = slips::any(of.file, &model, of.runs)?;
+    let is_slip = slip.is_some();
+    let sparse = if is_slip { slip } else { too_sparse(&model, of.runs)? };
+    let timing = of.file.input_timing;
+    let jumps_of = |r: &Run| if sparse.is_some() { Ok(vec![]) } else { reference_jumps::jumps(&model, timing, r) };
+    let jumps: Vec<Vec<Jumps>> = of.runs.par_iter().map(jumps_of).collect::<Result<_>>()?;
+    let clock_of = |r: &Run| if sparse.is_some() { Ok(None) } else { clock_jump(&model, timing, r) };
+    let clocks: Vec<Option<ClockJump>> = of.runs.par_iter().map(clock_of).collect::<Result<_>>()?;
+    let record = |(r, jumps): (&Run, &Vec<Jumps>)| {
+        let record = reference_jumps::without(&Record::of_run(r, timing, model.trailer_count()), jumps);
         if sparse.is_some() { Ok((record, 0)) } else { without_gross_errors(&record, &model) }
     };
-    let clean: Vec<(Record, usize)> = of.runs.par_iter().map(record).collect::<Result<_>>()?;
+    let clean: Vec<(Record, usize)> = of.runs.par_iter().zip(&jumps).map(record).collect::<Result<_>>()?;
     let (records, gross): (Vec<Record>, Vec<usize>) = clean.into_iter().unzip();
     let (data, mut findings) = health(&model, of.runs, &records, &gross)?;
+    findings.extend(clocks.into_iter().flatten().map(DataFinding::ClockJump));
+    findings.extend(jumps.into_iter().flatten().map(DataFinding::Jumps));
     if let Some(slip) = sparse {
+        // What follows from the slip is no finding of its own.
+        if is_slip {
+            findings.retain(|f| !f.is_of_motion());
+            findings.push(DataFinding::Slip(slip.clone()));
+        }
         return Ok(without_fit(data, findings, verdict::unusable(slip)));
     }
     let problem = Problem::new(records, of.file.noise.position, of.file.noise.heading);
@@ -85,12 +102,12 @@ pub(crate) fn assess(of: &Checked, progress: &OnProgress) -> Result<Assessment> 
     let starts = problem.starts(&model)?;
     let fit = problem.fit(&model, &starts, &problem.variances, Effort::FULL)?;
     let Some(fit) = fit else { return Ok(without_fit(data, findings, verdict::undefined_motion())) };
-    let data = data.with_fit(&problem.variances.measurement, &fit, problem.records[0].has_heading);
+    let data = data.with_fit(problem.variances.measurement(), &fit, problem.records[0].has_heading);
     findings.extend(of_fit(&fit));
     let all = candidates(&model, of.library);
     let counter = Counter::begin(progress, Stage::Detection, all.len())?;
-    let calm = (0..4).fold(fit.variances, without_jump);
-    let variances = [calm, fit.variances];
+    let calm = (0..fit.variances.process().len()).fold(fit.variances.clone(), NoiseModel::without_jump);
+    let variances = [calm.clone(), fit.variances.clone()];
     let variance_inflation = [fit.noise_correlation_time, fit.variance_inflation()];
     let bar = DetectionThreshold {
         sample_size: fit.sample_size,
@@ -99,7 +116,7 @@ pub(crate) fn assess(of: &Checked, progress: &OnProgress) -> Result<Assessment> 
     let driven =
         Driven { records: problem.records.clone(), plan: problem.plan.clone(), starts: fit.window_states.clone() };
     let table = Table::of(&model, &driven, &all, &groups(&all), &variances, variance_inflation)?;
-    let ground = Background { calm, free: problem.free, alike: fit.noise_correlation_time };
+    let ground = Background { calm, alike: fit.noise_correlation_time };
     let shown = |c: &Candidate| {
         let shown = ExpectedDetection::of(&model, &driven, c, &bar, &ground)?;
         counter.one().map(|()| shown)

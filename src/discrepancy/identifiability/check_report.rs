@@ -1,6 +1,6 @@
 //! What `check` says, as data; its JSON form is documented in the guide, "Checking a log before a fit".
 
-use crate::discrepancy::report::{NextExperiment, RunClock};
+use crate::discrepancy::report::{Finding, NextExperiment, RunClock};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -152,23 +152,6 @@ pub struct Health {
     pub clocks: Vec<RunClock>,
     /// What the driver of these runs should know.
     pub findings: Vec<Finding>,
-}
-
-/// Something to know of the data.
-///
-/// ```
-/// use creepage::report::Finding;
-/// fn is_one_sided(findings: &[Finding]) -> bool {
-///     findings.iter().any(|finding| finding.id == "one-turn-direction")
-/// }
-/// assert!(!is_one_sided(&[]));
-/// ```
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Finding {
-    /// Its kind, for scripts, such as `one-turn-direction`.
-    pub id: String,
-    /// In words.
-    pub says: String,
 }
 
 /// The state of one run.

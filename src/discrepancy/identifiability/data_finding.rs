@@ -1,8 +1,10 @@
 //! Findings of the state of the data, each with its numbers.
 
 use crate::discrepancy::diagnosis::warning::Warning;
+use crate::discrepancy::preprocessing::clock_jumps::ClockJump;
 use crate::discrepancy::preprocessing::quantisation::CoarseInput;
-use crate::discrepancy::preprocessing::unit_errors::{TurningCause, WayCause};
+use crate::discrepancy::preprocessing::reference_jumps::Jumps;
+use crate::discrepancy::preprocessing::unit_errors::{Slip, TurningCause, WayCause};
 use std::collections::BTreeMap;
 
 /// Something to know of the data.
@@ -81,6 +83,12 @@ pub enum DataFinding {
     ColouredNoise(f64),
     /// The runs hold motion that the model does not explain, most of it of this component.
     UnexplainedMotion(usize),
+    /// A clock jumps within a run.
+    ClockJump(ClockJump),
+    /// A slip of units and columns.
+    Slip(Slip),
+    /// The reference jumps in a stretch, which is left out.
+    Jumps(Jumps),
     /// What a run's clocks leave to know.
     Clock(Box<Warning>),
 }
@@ -95,6 +103,14 @@ pub enum Side {
 }
 
 impl DataFinding {
+    /// Whether it says how the vehicle was driven, by its model.
+    pub fn is_of_motion(&self) -> bool {
+        matches!(
+            self,
+            Self::Way { .. } | Self::Turning { .. } | Self::NoTurns | Self::OneTurnDirection(_) | Self::OneSpeed(_)
+        )
+    }
+
     /// Its kind, for scripts.
     pub fn id(&self) -> &'static str {
         match self {
@@ -112,6 +128,9 @@ impl DataFinding {
             Self::CoarseInput(_) => "coarse-inputs",
             Self::ColouredNoise(_) => "coloured-noise",
             Self::UnexplainedMotion(_) => "unexplained-motion",
+            Self::Slip(slip) => slip.id(),
+            Self::ClockJump(_) => "clock-jump",
+            Self::Jumps(_) => "reference-jumps",
             Self::Clock(_) => "clock-offset",
         }
     }

@@ -5,12 +5,14 @@ use super::data_finding::{DataFinding, Side};
 use super::driving_statistics::{driving, quantile};
 use crate::discrepancy::estimation::autocorrelation::NOTICEABLE;
 use crate::discrepancy::estimation::fit::Fit;
+use crate::discrepancy::estimation::noise_model::Component;
 use crate::discrepancy::preprocessing::quantisation::coarse_inputs;
 use crate::discrepancy::preprocessing::unit_errors::{SPARSE, turning_cause, way_cause};
 use crate::discrepancy::record::run_record::Record;
 use crate::error::Result;
 use crate::files::Run;
 use crate::model::Model;
+use crate::model::observation::{HEADING, POSITION};
 use crate::wording::GROSS;
 
 /// Share of rows left out that is worth a word.
@@ -49,10 +51,10 @@ pub(crate) fn health(
 
 impl Health {
     /// With what a fit of the model as given adds to it; the noise is that of neighbouring rows, as it was before the fit.
-    pub(crate) fn with_fit(self, noise: &[f64; 3], fit: &Fit, has_heading: bool) -> Self {
+    pub(crate) fn with_fit(self, noise: &[Component], fit: &Fit, has_heading: bool) -> Self {
         Self {
-            position_noise: Some(noise[0].sqrt()),
-            heading_noise: has_heading.then(|| noise[1].sqrt()),
+            position_noise: Some(noise[POSITION].variance.sqrt()),
+            heading_noise: has_heading.then(|| noise[HEADING].variance.sqrt()),
             rows_alike: Some(fit.noise_correlation_time),
             ..self
         }
@@ -64,7 +66,8 @@ pub(crate) fn of_fit(fit: &Fit) -> Vec<DataFinding> {
     // What the model misses within a window looks like a slow noise.
     let alike = fit.noise_correlation_time;
     let is_coloured = alike > COLOURED && fit.unexplained.iter().all(|d| *d < NOTICEABLE);
-    let most = (0..4).max_by(|a, b| fit.unexplained[*a].total_cmp(&fit.unexplained[*b])).unwrap_or(0);
+    let most =
+        (0..fit.unexplained.len()).max_by(|a, b| fit.unexplained[*a].total_cmp(&fit.unexplained[*b])).unwrap_or(0);
     let coloured = is_coloured.then_some(DataFinding::ColouredNoise(alike));
     let unexplained = (fit.unexplained[most] > NOTICEABLE).then_some(DataFinding::UnexplainedMotion(most));
     coloured.into_iter().chain(unexplained).collect()

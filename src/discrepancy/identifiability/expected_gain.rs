@@ -12,7 +12,6 @@
 use super::fisher_information::Driven;
 use crate::discrepancy::estimation::elimination::eliminate;
 use crate::discrepancy::estimation::fit::FEWEST_RUNS;
-use crate::discrepancy::estimation::noise_model::Estimated;
 use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::estimation::variance_components;
 use crate::discrepancy::evidence::cross_validation::loose;
@@ -37,11 +36,10 @@ pub(crate) struct EffectSignature {
 }
 
 /// The statistics that a mark is held against.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(crate) struct Background {
     /// The noise, without jumps.
     pub calm: NoiseModel,
-    pub free: Estimated,
     /// Rows in a row that are alike.
     pub alike: f64,
 }
@@ -73,9 +71,8 @@ impl EffectSignature {
             eliminate(windows, v, fitted.len()).map_or(f64::INFINITY, |e| variance_components::deviance(windows, v, &e))
         };
         // From no jumps at all the likelihood is flat.
-        let [position, heading, trailer] = ground.calm.measurement;
-        let lively = NoiseModel { process: [position, position, heading, trailer], ..ground.calm };
-        let best = variance_components::improve(&with, lively, ground.free, fitted.len(), 1.0);
+        let lively = ground.calm.clone().with_jumps_of_noise();
+        let best = variance_components::improve(&with, lively, fitted.len(), 1.0);
         let explained = deviance(&with, &best).min(deviance(&with, &ground.calm));
         let gain = (explained - deviance(&without, &ground.calm)) / ground.alike;
         if gain.is_finite() { gain.max(0.0) } else { 0.0 }
@@ -107,8 +104,9 @@ impl EffectSignature {
             fitted.iter().enumerate().for_each(|(k, c)| turn[(m + c, m + k)] = 1.0);
             let last = m + fitted.len();
             self.columns[of].iter().zip(s).for_each(|(c, s)| turn[(m + c, last)] += s);
-            let mut gram = [0, 1, 2].map(|k| turn.tr_mul(&w.gram[k]) * &turn);
-            (0..3).for_each(|k| gram[k][(last, last)] += w.count[k] as f64 * v.measurement[k]);
+            let mut gram: Vec<DMatrix<f64>> = w.gram.iter().map(|gram| turn.tr_mul(gram) * &turn).collect();
+            let noise = w.count.iter().zip(v.measurement()).map(|(count, noise)| *count as f64 * noise.variance);
+            gram.iter_mut().zip(noise).for_each(|(gram, noise)| gram[(last, last)] += noise);
             LinearisedWindow { gram, back: w.back.as_ref().map(|b| b * &turn), ..w.clone() }
         };
         self.windows.iter().map(|segment| segment.iter().map(one).collect()).collect()

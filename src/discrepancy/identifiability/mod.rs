@@ -24,4 +24,4 @@ pub(crate) mod expected_gain;
 pub(crate) mod fisher_information;
 
 pub use check::Checked;
-pub use check_report::{Check, Finding, Health, Pair, Parameter, Prospect, RunHealth, Seen, Standing};
+pub use check_report::{Check, Health, Pair, Parameter, Prospect, RunHealth, Seen, Standing};

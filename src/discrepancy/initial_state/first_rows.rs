@@ -1,8 +1,7 @@
 //! The rows of a log soon after one, which show how states that no sensor sees began.
 
-use crate::discrepancy::record::angle::wrapped;
 use crate::discrepancy::record::local_polynomial;
-use crate::discrepancy::record::run_record::{Channel, Record};
+use crate::discrepancy::record::run_record::Record;
 use crate::model::Equations;
 use crate::motion::{LaneStates, LaneStepper, Stepper, initial_hidden};
 use nalgebra::DVector;
@@ -83,9 +82,8 @@ impl<'a> Rows<'a> {
             stepper.advance(&mut z, &mut s, &[time[i]; L], &[time[i + 1]; L]);
             let y = stepper.outputs_here(&z);
             for (c, channel) in channels.iter().enumerate() {
-                for (found, y) in found.iter_mut().zip(y[self.record.output_of(c)]) {
-                    let off = y - self.record.columns[c][i + 1];
-                    let off = if *channel == Channel::Position { off } else { wrapped(off) };
+                for (found, y) in found.iter_mut().zip(y[channel.output]) {
+                    let off = channel.difference(y - self.record.columns[c][i + 1]);
                     found.push(off / self.noise[c]);
                 }
             }

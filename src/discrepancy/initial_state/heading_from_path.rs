@@ -58,9 +58,17 @@ impl PathHeading {
 /// slope or a current does to them. Reversing, sliding and a tracked point off the axle are in the motion, which a
 /// direction of travel alone does not know.
 pub fn heading_at(equations: &Equations, record: &Record, row: usize) -> PathHeading {
+    heading_over(equations, record, row, 0.0)
+}
+
+/// The heading at a row that holds over a span of time: the model's motion over all of the span laid on the measured path,
+/// and no less of it than tells a heading. From a short stretch the error of the guess would grow with the span, and be
+/// taken for the model's.
+pub fn heading_over(equations: &Equations, record: &Record, row: usize, span: f64) -> PathHeading {
     let mut best = PathHeading { heading: record.smoothed(row)[2], ..PathHeading::default() };
     for half in HALF_WIDTHS {
-        let Some(course) = laid_on(equations, record, row, half, best.heading) else { continue };
+        let rows = stretch(record, row, [half, half.max(span)]);
+        let Some(course) = laid_on(equations, record, row, rows, best.heading) else { continue };
         best = course;
         if best.is_told(record) {
             break;
@@ -70,8 +78,7 @@ pub fn heading_at(equations: &Equations, record: &Record, row: usize) -> PathHea
 }
 
 /// The heading from a stretch.
-fn laid_on(equations: &Equations, record: &Record, row: usize, half: f64, guess: f64) -> Option<PathHeading> {
-    let rows = stretch(record, row, half);
+fn laid_on(equations: &Equations, record: &Record, row: usize, rows: Range<usize>, guess: f64) -> Option<PathHeading> {
     if rows.len() < 3 {
         return None;
     }
@@ -89,13 +96,14 @@ fn laid_on(equations: &Equations, record: &Record, row: usize, half: f64, guess:
     course
 }
 
-/// Rows around a row without a gap, never beyond those that take part.
-fn stretch(record: &Record, row: usize, half: f64) -> Range<usize> {
+/// Rows from so long before a row until so long after it without a gap, never beyond those that take part.
+fn stretch(record: &Record, row: usize, [before, after]: [f64; 2]) -> Range<usize> {
     let time = &record.time;
     let gap = record.gap();
-    let near = |i: usize| (time[i] - time[row]).abs() <= half;
-    let first = (0..row).rev().take_while(|i| near(*i) && time[i + 1] - time[*i] <= gap).last().unwrap_or(row);
-    let last = (row + 1..record.rows.end).take_while(|i| near(*i) && time[*i] - time[i - 1] <= gap).last();
+    let early = |i: usize| time[row] - time[i] <= before;
+    let late = |i: usize| time[i] - time[row] <= after;
+    let first = (0..row).rev().take_while(|i| early(*i) && time[i + 1] - time[*i] <= gap).last().unwrap_or(row);
+    let last = (row + 1..record.rows.end).take_while(|i| late(*i) && time[*i] - time[i - 1] <= gap).last();
     first..last.unwrap_or(row) + 1
 }
 
@@ -212,8 +220,13 @@ pub struct MeasuredPose {
 impl MeasuredPose {
     /// At a row of a record.
     pub fn at(equations: &Equations, record: &Record, row: usize) -> Self {
+        Self::over(equations, record, row, 0.0)
+    }
+
+    /// At a row of a record, known well enough for a span of time, s.
+    pub fn over(equations: &Equations, record: &Record, row: usize, span: f64) -> Self {
         let mut measured = record.smoothed(row);
-        let course = (!record.has_heading).then(|| heading_at(equations, record, row));
+        let course = (!record.has_heading).then(|| heading_over(equations, record, row, span));
         if let Some(course) = &course {
             // Trailers that nothing measures follow straight.
             measured[2..].iter_mut().enumerate().for_each(|(i, y)| {

@@ -4,13 +4,11 @@ use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::shooting::windows;
-use crate::effects::Applied;
+use crate::effects::{Applied, of_clock};
 use crate::error::Result;
 use crate::model::Model;
 use rayon::prelude::*;
 
-/// The effect that shifts the inputs in time.
-pub(crate) const DELAY: &str = "input-delay";
 /// Shortest run whose clocks are compared, s.
 const SHORTEST: f64 = 30.0;
 /// The drift over a run that a search begins with, s.
@@ -123,8 +121,8 @@ fn duration(record: &Record) -> f64 {
 
 /// The model with a delay that a fit may change.
 fn with_delay(model: &Model) -> Model {
-    let Some(effect) = crate::effects::named(DELAY) else { return model.clone() };
-    let known = model.effects.iter().find(|e| e.effect.id == DELAY).map_or(0.0, |e| e.values[0]);
+    let Some(effect) = of_clock() else { return model.clone() };
+    let known = model.effects.iter().find(|e| e.effect.is_of_clock()).map_or(0.0, |e| e.values[0]);
     model.clone().with_effect(Applied::new(effect, None, vec![known]).freed())
 }
 

@@ -1,5 +1,6 @@
 //! Where model and measurement disagree: constraint by constraint, window by window.
 
+use crate::discrepancy::estimation::noise_model::Component;
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::initial_state::heading_from_path::{MeasuredPose, PathHeading};
 use crate::discrepancy::initial_state::pose::pose_of;
@@ -13,14 +14,8 @@ use crate::discrepancy::shooting::windows;
 use crate::discrepancy::shooting::windows::Segment;
 use crate::error::Result;
 use crate::model::Model;
-
-/// Names and units of the violated rates, in the order of a window's mismatch.
-pub const CONSTRAINTS: [(&str, &str); 4] = [
-    ("rotation constraint", "m/s"),
-    ("traverse constraint", "m/s"),
-    ("yaw rate", "rad/s"),
-    ("trailer constraint", "rad/s"),
-];
+use crate::model::observation::{HEADING, POSITION, TRAILER};
+use crate::model::state::{JUMPS, Jump};
 
 /// A stretch shorter than this share of the longest one is no motion to take a heading from.
 const HARDLY: f64 = 0.1;
@@ -47,8 +42,8 @@ pub(crate) struct Window {
 pub struct ConstraintResiduals {
     pub(crate) run: String,
     pub(crate) windows: Vec<Window>,
-    /// Standard deviation that noise gives each rate.
-    pub(crate) noise: [f64; 4],
+    /// Standard deviation that noise gives each rate, in the order of [`JUMPS`]; none without a window.
+    pub(crate) noise: Vec<f64>,
 }
 
 impl ConstraintResiduals {
@@ -81,33 +76,34 @@ impl ConstraintResiduals {
         found.noise = found.noise_of(record, &plan, &noise.variance, &courses);
         if noise.correlation_time > 1.0 {
             let shown = found.noise_shown();
-            found.noise = std::array::from_fn(|c| found.noise[c].max(shown[c]));
+            found.noise.iter_mut().zip(shown).for_each(|(noise, shown)| *noise = noise.max(shown));
         }
         Ok(found)
     }
 
     /// Smoothing noise at both ends of a window; a heading off by δ moves the end across by v·W·δ. One that is taken from
     /// the path has the noise of its positions, by the shares of `courses`.
-    fn noise_of(&self, record: &Record, plan: &[Segment], noise: &[f64; 3], courses: &[f64]) -> [f64; 4] {
-        let Some(segment) = plan.first().filter(|_| !self.windows.is_empty()) else { return [0.0; 4] };
+    fn noise_of(&self, record: &Record, plan: &[Segment], noise: &[f64], courses: &[f64]) -> Vec<f64> {
+        let Some(segment) = plan.first().filter(|_| !self.windows.is_empty()) else { return vec![] };
         let count = self.windows.len() as f64;
         let i = segment.windows[segment.windows.len() / 2].start;
         let share: f64 = record.smoothing(i).iter().map(|(_, w)| w * w).sum();
         let duration = self.windows.iter().map(|w| w.span[1] - w.span[0]).sum::<f64>() / count;
         let speed = self.rms_of(|w| w.speed);
         let turned = match record.has_heading {
-            true => share * noise[1],
-            false => noise[0] * courses.iter().sum::<f64>() / count,
+            true => share * noise[HEADING],
+            false => noise[POSITION] * courses.iter().sum::<f64>() / count,
         };
         let rate = |variance: f64| (2.0 * variance).sqrt() / duration;
-        let [position, heading, trailer] = [share * noise[0], turned, share * noise[2]].map(rate);
-        [position, position.hypot(turned.sqrt() * speed), heading, trailer.hypot(heading)]
+        let towed = noise.get(TRAILER).copied().unwrap_or(0.0);
+        let [position, heading, trailer] = [share * noise[POSITION], turned, share * towed].map(rate);
+        vec![position, position.hypot(turned.sqrt() * speed), heading, trailer.hypot(heading)]
     }
 
     /// What the windows themselves show of the noise of their poses, whatever its colour: where a window ends in error
     /// the next one begins in it, so that noise makes neighbours miss in opposite ways, cov(w_k, w_{k+1}) = −½·var(w),
     /// and what really happens does not. A heading that is off at a start moves the end across.
-    fn noise_shown(&self) -> [f64; 4] {
+    fn noise_shown(&self) -> Vec<f64> {
         let mut shown = self.noise_between();
         let duration = self.rms_of(|w| w.span[1] - w.span[0]);
         let turned = shown[2] * duration / 2.0_f64.sqrt();
@@ -115,13 +111,21 @@ impl ConstraintResiduals {
         shown
     }
 
-    fn noise_between(&self) -> [f64; 4] {
+    fn noise_between(&self) -> Vec<f64> {
         let follows = |w: &[Window]| w[1].span[0] == w[0].span[1];
         let pairs: Vec<&[Window]> = self.windows.windows(2).filter(|w| follows(w)).collect();
-        std::array::from_fn(|c| {
+        let shown = |c: usize| {
             let products = pairs.iter().filter(|w| c < w[0].rates.len()).map(|w| w[0].rates[c] * w[1].rates[c]);
             (-2.0 * products.sum::<f64>() / pairs.len().max(1) as f64).max(0.0).sqrt()
-        })
+        };
+        (0..JUMPS.len()).map(shown).collect()
+    }
+
+    /// The same beside the jumps that are known to be there, which are noise as well.
+    fn beside(mut self, jumps: &[Component]) -> Self {
+        let duration = self.rms_of(|w| w.span[1] - w.span[0]).max(f64::MIN_POSITIVE);
+        self.noise.iter_mut().zip(jumps).for_each(|(noise, jump)| *noise = noise.hypot((jump.known / duration).sqrt()));
+        self
     }
 
     /// Root mean square of something over the windows.
@@ -131,7 +135,7 @@ impl ConstraintResiduals {
     }
 
     pub(crate) fn constraints(&self) -> usize {
-        self.windows.first().map_or(0, |w| w.rates.len().min(4))
+        self.windows.first().map_or(0, |w| w.rates.len().min(JUMPS.len()))
     }
 
     /// Sums over the windows of the squares of the violated rates beyond their noise, of the measured motion and of the
@@ -142,11 +146,22 @@ impl ConstraintResiduals {
             let [miss, motion, noise] = [miss, motion, noise].map(|rms| count * rms * rms);
             [(miss - noise).max(0.0), motion, noise]
         };
+        let noise = |c: usize| self.noise.get(c).copied().unwrap_or(0.0);
         let missed = self.rms_of(|w| w.rates[0].hypot(w.rates[1]));
         [
-            squares(missed, self.rms_of(|w| w.speed), self.noise[0].hypot(self.noise[1])),
-            squares(self.rms_of(|w| w.rates[2]), self.rms_of(|w| w.yaw), self.noise[2]),
+            squares(missed, self.rms_of(|w| w.speed), noise(0).hypot(noise(1))),
+            squares(self.rms_of(|w| w.rates[2]), self.rms_of(|w| w.yaw), noise(2)),
         ]
+    }
+
+    /// Start of the first and end of the last window that is judged, s.
+    pub(crate) fn span(&self) -> Option<[f64; 2]> {
+        Some([self.windows.first()?.span[0], self.windows.last()?.span[1]])
+    }
+
+    /// The violated rates of a constraint, window by window.
+    pub(crate) fn rates(&self, c: usize) -> Vec<f64> {
+        self.windows.iter().filter_map(|w| w.rates.get(c).copied()).collect()
     }
 
     /// How many windows are judged.
@@ -183,9 +198,9 @@ impl ConstraintResiduals {
         let [before, after] = self.in_common(after);
         let rates = |v: &ConstraintResiduals, c: usize| v.windows.iter().map(|w| w.rates[c]).collect::<Vec<f64>>();
         let picture = |c: usize| ResidualPicture {
-            constraint: CONSTRAINTS[c].0.into(),
+            constraint: JUMPS[c].place.into(),
             run: self.run.clone(),
-            unit: CONSTRAINTS[c].1.into(),
+            unit: JUMPS[c].rate_unit.into(),
             time: before.windows.iter().map(|w| w.middle).collect(),
             before: rates(&before, c),
             after: rates(&after, c),
@@ -196,7 +211,7 @@ impl ConstraintResiduals {
 
     /// Sum of squared violations of a constraint beyond what noise makes of them.
     pub fn excess_power(&self, place: &str) -> f64 {
-        let Some(c) = CONSTRAINTS.iter().position(|(name, _)| *name == place) else { return 0.0 };
+        let Some(c) = JUMPS.iter().position(|jump: &Jump| jump.place == place) else { return 0.0 };
         if c >= self.constraints() {
             return 0.0;
         }
@@ -242,7 +257,8 @@ impl Problem {
     /// # Errors
     /// As [`ConstraintResiduals::of`].
     pub fn violations(&self, model: &Model, noise: &Noise) -> Result<Vec<ConstraintResiduals>> {
-        self.records.iter().map(|r| ConstraintResiduals::of(model, r, noise)).collect()
+        let of = |r: &Record| Ok(ConstraintResiduals::of(model, r, noise)?.beside(self.variances.process()));
+        self.records.iter().map(of).collect()
     }
 }
 
@@ -258,7 +274,11 @@ impl ConstraintResiduals {
             speed: 1.0,
             yaw: 0.0,
         };
-        Self { run: run.into(), windows: missed.iter().enumerate().map(window).collect(), noise: [0.0; 4] }
+        Self {
+            run: run.into(),
+            windows: missed.iter().enumerate().map(window).collect(),
+            noise: vec![0.0; JUMPS.len()],
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Where a model disagrees with the measurements, and in which regime of driving most.
 
-use super::constraint_residuals::{CONSTRAINTS, ConstraintResiduals, Window};
+use super::constraint_residuals::{ConstraintResiduals, Window};
+use crate::model::state::JUMPS;
 
 /// Which windows belong to a regime.
 type Holds = fn(&Window, &Window, &Typical) -> bool;
@@ -112,7 +113,7 @@ pub fn disagreements(violations: &[ConstraintResiduals]) -> Vec<Stretch> {
     let total: f64 = violations.iter().map(|v| (0..v.constraints()).map(|c| v.chi_squared(c)).sum::<f64>()).sum();
     let mut found = Vec::new();
     for v in violations {
-        for (c, (place, _)) in CONSTRAINTS.iter().enumerate().take(v.constraints()) {
+        for (c, jump) in JUMPS.iter().enumerate().take(v.constraints()) {
             let energy = v.chi_squared(c);
             let out: Vec<&Window> = v.windows.iter().filter(|w| w.rates[c].abs() > 3.0 * v.noise[c]).collect();
             // Noise alone gives one window in 370; a disagreement fills more.
@@ -121,7 +122,7 @@ pub fn disagreements(violations: &[ConstraintResiduals]) -> Vec<Stretch> {
             }
             found.push(Stretch {
                 run: v.run.clone(),
-                place,
+                place: jump.place,
                 span: [out[0].span[0], out[out.len() - 1].span[1]],
                 regime: regime(v, c),
                 share: energy / total,

@@ -4,3 +4,4 @@ pub mod clock_drift;
 pub mod constraint_residuals;
 pub(crate) mod driving_regimes;
 pub mod unexplained_motion;
+pub(crate) mod whiteness;

@@ -1,7 +1,17 @@
 //! Data set right before a fit: outliers, errors of units, quantised inputs.
 
+pub(crate) mod clock_jumps;
 pub(crate) mod dataset;
+pub(crate) mod dead_reckoning;
 pub(crate) mod motion_ratios;
 pub mod outliers;
 pub(crate) mod quantisation;
+pub(crate) mod reference_jumps;
+pub(crate) mod repair_search;
+pub(crate) mod repair_trial;
+pub(crate) mod repairs;
+pub(crate) mod servo_line;
+pub(crate) mod signed_ratios;
+pub(crate) mod slips;
+pub(crate) mod stamp_defects;
 pub(crate) mod unit_errors;

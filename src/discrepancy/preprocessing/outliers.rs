@@ -1,8 +1,7 @@
 //! Gross errors of the measured pose: rows that no smooth motion passes through.
 
-use crate::discrepancy::record::angle::wrapped;
 use crate::discrepancy::record::local_polynomial;
-use crate::discrepancy::record::run_record::{Channel, Record};
+use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::shooting::rollout::Rollout;
 use crate::error::Result;
 use crate::model::Model;
@@ -96,8 +95,7 @@ fn residuals(record: &Record, predictor: &Rollout, windows: &[Window]) -> Vec<Ve
     for Window { rows, .. } in windows {
         for (i, y) in rows.clone().zip(predictor.outputs(rows.start, rows.end - 1)) {
             for (c, column) in found.iter_mut().enumerate() {
-                let r = record.columns[c][i] - y[record.output_of(c)];
-                column[i] = if channels[c] == Channel::Position { r } else { wrapped(r) };
+                column[i] = channels[c].difference(record.columns[c][i] - y[channels[c].output]);
             }
         }
     }

@@ -1,6 +1,7 @@
 //! Slips of units and columns: numbers that no vehicle explains, and what they look like.
 
 use super::motion_ratios::{Ratios, steps};
+use super::repairs::Repaired;
 use crate::discrepancy::record::local_polynomial::median;
 use crate::discrepancy::record::run_record::Record;
 use crate::error::Result;
@@ -29,6 +30,23 @@ pub struct Slip {
     pub kind: SlipKind,
 }
 
+impl Slip {
+    /// Its kind, for scripts.
+    pub fn id(&self) -> &'static str {
+        match &self.kind {
+            SlipKind::AngleBeyondHalfTurn { .. } => "angle-beyond-half-turn",
+            SlipKind::TurnsBetweenRows { .. } => "turns-between-rows",
+            SlipKind::Mirrored => "mirrored",
+            SlipKind::Repair(_) => "repair",
+            SlipKind::LoggedTwice { .. } => "logged-twice",
+            SlipKind::Stands { .. } => "input-stands",
+            SlipKind::Bursts { .. } => "bursts",
+            SlipKind::Turning { .. } => "turning",
+            SlipKind::Way { .. } => "way",
+        }
+    }
+}
+
 /// The kinds of slips that numbers tell.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SlipKind {
@@ -48,6 +66,29 @@ pub enum SlipKind {
     },
     /// The path is the mirror image of the headings.
     Mirrored,
+    /// One repair of the data brings them into line with the model.
+    Repair(Repaired),
+    /// Two inputs are the same in every row, and the vehicle turns.
+    LoggedTwice {
+        /// Both.
+        roles: [String; 2],
+        /// Measured way over that of the model.
+        way: Option<f64>,
+    },
+    /// An input stands at one value while the vehicle turns otherwise.
+    Stands {
+        /// The input.
+        role: String,
+        /// The value.
+        value: f64,
+    },
+    /// Rows come in bursts: their times are those of arrival.
+    Bursts {
+        /// Usual time within a burst, and from one to the next, s.
+        steps: [f64; 2],
+        /// Rates in a burst over those after a pause.
+        rates: f64,
+    },
     /// The measured turning is so many times the model's.
     Turning {
         /// Measured over modelled.

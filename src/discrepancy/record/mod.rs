@@ -1,6 +1,8 @@
 //! A measured run as columns and signals, with the noise of its sensor.
 
 pub mod angle;
+pub(crate) mod input_noise;
 pub mod local_polynomial;
+pub(crate) mod quantisation;
 pub mod run_record;
 pub mod sensor_noise;

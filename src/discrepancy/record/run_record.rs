@@ -1,10 +1,13 @@
 //! A run as the fit sees it.
 
+use super::angle::wrapped;
+use super::input_noise::InputNoise;
 use super::local_polynomial;
 use crate::files::{InputTiming, Run};
-use crate::motion::{Signals, Timing};
+use crate::model::observation::{self, BODY_HEADING, PLACE};
+use crate::motion::{Signals, Timing, timings};
 use std::ops::Range;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// Rows of a run: measured pose, inputs as signals.
 #[derive(Clone, Debug)]
@@ -15,12 +18,14 @@ pub struct Record {
     pub time: Vec<f64>,
     /// Measured x, y and, when measured, heading and trailer headings; angles unwrapped.
     pub columns: Vec<Vec<f64>>,
-    /// Whether a heading was measured (then it is column 2).
+    /// Whether a heading was measured.
     pub has_heading: bool,
     /// The inputs.
     pub signals: Signals,
     /// Trailers of the vehicle, measured or not.
     pub trailers: usize,
+    /// What was added to each input before it was logged.
+    pub(crate) input_noise: Arc<InputNoise>,
     /// Rows that take part.
     pub rows: Range<usize>,
     pub(crate) known: Known,
@@ -39,15 +44,23 @@ impl Clone for Known {
     }
 }
 
-/// What kind of thing a measured column is; columns of one kind share a noise.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Channel {
-    /// x or y.
-    Position,
-    /// The body's heading.
-    Heading,
-    /// A trailer's heading.
-    Trailer,
+/// What a measured column is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Channel {
+    /// The output of the equations that it is compared with.
+    pub output: usize,
+    /// Its component of the measurement noise.
+    pub noise: usize,
+    /// Whether it is an angle.
+    pub is_angle: bool,
+}
+
+impl Channel {
+    /// Measured minus modelled or the other way round; of an angle whole turns say nothing.
+    #[inline(always)]
+    pub fn difference(&self, difference: f64) -> f64 {
+        if self.is_angle { wrapped(difference) } else { difference }
+    }
 }
 
 impl Record {
@@ -61,9 +74,11 @@ impl Record {
         timing: Timing,
     ) -> Self {
         let signals = Signals::new(&time, inputs, timing);
+        let input_noise = Arc::new(InputNoise::of(&time, inputs, &vec![timing; inputs.len()]));
         let rows = 0..time.len();
-        let trailers = columns.len() - 2 - usize::from(has_heading);
-        Self { name: name.to_string(), time, columns, has_heading, signals, trailers, rows, known: Known::default() }
+        let trailers = columns.len() - PLACE.len() - usize::from(has_heading);
+        let (name, known) = (name.to_string(), Known::default());
+        Self { name, time, columns, has_heading, signals, trailers, input_noise, rows, known }
     }
 
     /// A run as it was read, of a vehicle with some trailers.
@@ -71,25 +86,25 @@ impl Record {
         let mut columns = vec![run.x.clone(), run.y.clone()];
         columns.extend(run.heading.clone());
         columns.extend(run.trailer_headings.iter().cloned());
-        let signals = Signals::new(run.input_time(), &run.inputs, timing.into());
+        let signals = Signals::of_run(run, timing);
+        let input_noise = Arc::new(InputNoise::of(run.input_time(), &run.inputs, &timings(&run.differences, timing)));
         let (rows, has_heading) = (0..run.time.len(), run.heading.is_some());
         let (name, time) = (run.name.clone(), run.time.clone());
-        Self { name, time, columns, has_heading, signals, trailers, rows, known: Known::default() }
+        Self { name, time, columns, has_heading, signals, trailers, input_noise, rows, known: Known::default() }
     }
 
-    /// The kind of each measured column.
+    /// The run with inputs that are as noisy again.
+    pub(crate) fn with_noisier_inputs(&self, seed: u64) -> Record {
+        Record { signals: self.signals.plus(&self.input_noise.drawn(seed)), ..self.clone() }
+    }
+
+    /// What each measured column is.
     pub fn channels(&self) -> Vec<Channel> {
-        let kind = |i: usize| match i {
-            0 | 1 => Channel::Position,
-            2 if self.has_heading => Channel::Heading,
-            _ => Channel::Trailer,
-        };
-        (0..self.columns.len()).map(kind).collect()
-    }
-
-    /// The output of the equations that each measured column is compared with.
-    pub fn output_of(&self, column: usize) -> usize {
-        if column >= 2 && !self.has_heading { column + 1 } else { column }
+        let outputs = observation::outputs(self.trailers).enumerate();
+        let measured = outputs.filter(|(i, _)| self.has_heading || *i != BODY_HEADING);
+        let channel =
+            |(output, y): (usize, observation::Output)| Channel { output, noise: y.noise, is_angle: y.is_angle };
+        measured.map(channel).take(self.columns.len()).collect()
     }
 
     /// The run up to a time and from it on, as shares of the whole duration.
@@ -104,7 +119,7 @@ impl Record {
     /// Standard deviation of the measured positions, m.
     pub fn position_noise(&self) -> f64 {
         let of = |c: usize| local_polynomial::noise(&self.time[self.rows.clone()], &self.columns[c][self.rows.clone()]);
-        *self.known.noise.get_or_init(|| [0, 1].into_iter().filter_map(of).fold(1e-9, f64::max))
+        *self.known.noise.get_or_init(|| PLACE.into_iter().filter_map(of).fold(1e-9, f64::max))
     }
 
     /// The usual time between rows, s.
@@ -142,9 +157,9 @@ impl Record {
     pub fn measured(&self, i: usize) -> Vec<f64> {
         let mut y: Vec<f64> = self.columns.iter().map(|c| c[i]).collect();
         if !self.has_heading {
-            y.insert(2, 0.0);
+            y.insert(BODY_HEADING, 0.0);
         }
-        y.resize(3 + self.trailers, y[2]);
+        y.resize(self.outputs(), y[BODY_HEADING]);
         y
     }
 
@@ -155,11 +170,16 @@ impl Record {
         let weights = self.smoothing(i);
         let mut y: Vec<f64> = self.columns.iter().map(|c| local_polynomial::value(c, &weights)).collect();
         if !self.has_heading {
-            y.insert(2, self.course(i));
+            y.insert(BODY_HEADING, self.course(i));
         }
         // A trailer that nothing measures is taken to follow straight.
-        y.resize(3 + self.trailers, y[2]);
+        y.resize(self.outputs(), y[BODY_HEADING]);
         y
+    }
+
+    /// How many outputs the equations have.
+    fn outputs(&self) -> usize {
+        observation::outputs(self.trailers).count()
     }
 
     /// The weights of the smoothing around a row.
@@ -170,7 +190,8 @@ impl Record {
     /// Direction of travel at a row, rad; backward travel is not known and not corrected here.
     fn course(&self, i: usize) -> f64 {
         let Some(weights) = self.course_weights(i) else { return 0.0 };
-        local_polynomial::value(&self.columns[1], &weights).atan2(local_polynomial::value(&self.columns[0], &weights))
+        let [x, y] = PLACE.map(|c| local_polynomial::value(&self.columns[c], &weights));
+        y.atan2(x)
     }
 
     /// The weights of the velocity that the direction of travel is taken from.
@@ -197,7 +218,7 @@ mod tests {
         assert_eq!(places.measured(3), [13.0, 23.0, 0.0]);
         let towed = record(vec![column(10.0), column(20.0), column(40.0)], false);
         assert_eq!(towed.measured(1), [11.0, 21.0, 0.0, 41.0]);
-        assert_eq!([2, 1].map(|c| towed.output_of(c)), [3, 1]);
+        assert_eq!(towed.channels().iter().map(|c| c.output).collect::<Vec<_>>(), [0, 1, 3]);
     }
 
     /// Where no heading is measured the smoothed one is that of the path, and a trailer is taken to follow it.

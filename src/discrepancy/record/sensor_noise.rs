@@ -6,10 +6,10 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 
 /// The noise of measured columns.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Noise {
-    /// Variance of a position, m², heading and trailer heading, rad².
-    pub variance: [f64; 3],
+    /// Variance of each component of the measurement noise, as outputs name them.
+    pub variance: Vec<f64>,
     /// How many rows in a row are alike, at least 1: the integrated correlation (1 + ρ)/(1 − ρ) where each row keeps the
     /// share ρ of the one before.
     pub correlation_time: f64,
@@ -22,7 +22,7 @@ impl Noise {
         let fresh = (1.0 - kept * kept).sqrt();
         let mut noisy = record.columns.clone();
         for (column, channel) in noisy.iter_mut().zip(record.channels()) {
-            let sigma = self.variance[channel as usize].sqrt();
+            let sigma = self.variance[channel.noise].sqrt();
             let mut last: Option<f64> = None;
             for y in column.iter_mut() {
                 let drawn: f64 = rng.sample(StandardNormal);
@@ -49,7 +49,7 @@ mod tests {
         let zero = vec![0.0; time.len()];
         let record = Record::new("", time.clone(), vec![zero.clone(); 3], true, &[zero], Timing::Sample);
         for (correlation_time, kept) in [(1.0, 0.0), (3.0, 0.5), (9.0, 0.8)] {
-            let noise = Noise { variance: [0.04, 0.25, 9.0], correlation_time };
+            let noise = Noise { variance: vec![0.04, 0.25], correlation_time };
             let noisy = noise.added_to(&record, &mut ChaCha8Rng::seed_from_u64(5));
             for (column, std) in noisy.iter().zip([0.2, 0.2, 0.5]) {
                 let moment = |lag: usize| {

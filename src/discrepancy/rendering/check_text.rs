@@ -76,7 +76,7 @@ fn data(text: &mut String, data: &Health) {
         let _ = writeln!(text, "  noise: {}", noise.join(", "));
     }
     data.clocks.iter().for_each(|c| text.push_str(&format!("  {}\n", clock_line(c))));
-    for finding in &data.findings {
+    for finding in data.findings.iter().filter(|f| f.mend.is_none()) {
         let _ = writeln!(text, "  note: {}", finding.says);
     }
 }

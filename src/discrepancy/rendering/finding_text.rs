@@ -1,8 +1,9 @@
 //! Findings of the state of the data in words.
 
 use super::{slip_text, warning_text};
-use crate::discrepancy::identifiability::check_report::Finding;
 use crate::discrepancy::identifiability::data_finding::{DataFinding, Side};
+use crate::discrepancy::preprocessing::unit_errors::Slip;
+use crate::discrepancy::report::Finding;
 use crate::number_format::significant;
 
 /// The components of unexplained motion.
@@ -10,7 +11,15 @@ const COMPONENTS: [&str; 4] = ["along the vehicle", "across the vehicle", "in ya
 
 /// A finding as the check lists it.
 pub fn finding(of: &DataFinding) -> Finding {
-    Finding { id: of.id().into(), says: says(of) }
+    match of {
+        DataFinding::Slip(found) => slip(found),
+        other => Finding { id: other.id().into(), says: says(other), mend: None },
+    }
+}
+
+/// A slip as a finding, with the lines that mend it.
+pub fn slip(of: &Slip) -> Finding {
+    Finding { id: of.id().into(), says: slip_text::sentence(of), mend: slip_text::mend(of) }
 }
 
 fn says(of: &DataFinding) -> String {
@@ -56,6 +65,9 @@ fn says(of: &DataFinding) -> String {
             "these runs hold motion that the model does not explain, most of it {}: `creepage discover` has something to find",
             COMPONENTS[*component]
         ),
+        DataFinding::ClockJump(jump) => warning_text::clock_jumped(jump),
+        DataFinding::Jumps(jumps) => warning_text::jumped(jumps),
+        DataFinding::Slip(slip) => slip_text::sentence(slip),
         DataFinding::Clock(warning) => warning_text::line(warning),
     }
 }

@@ -42,13 +42,9 @@ pub fn sentence(reason: &Reason) -> String {
             format!("The model misses {names}; what else remains differs between parts of these runs and is not named.")
         }
         Reason::InputsTooSeldom => "The inputs change faster than they are logged, so nothing can be named.".into(),
-        Reason::Inconsistent => {
-            "Model and measurement disagree, but not alike in all parts of these runs: nothing can be \
-                                 named."
-                .into()
-        }
+        Reason::Inconsistent => "Model and measurement disagree, but not alike in all parts of these runs.".into(),
         Reason::Unexplained => "Model and measurement disagree, and neither an effect of the library nor a simple law \
-                                explains it: nothing can be named."
+                                explains it."
             .into(),
         Reason::Missed(effect) => {
             let label = effect.label();
@@ -57,6 +53,11 @@ pub fn sentence(reason: &Reason) -> String {
         Reason::Trace(places) => format!(
             "No effect is missing that can be named: the model explains these runs but for a trace at the {}, more than \
              chance and less than their noise.",
+            listed(places.iter().copied())
+        ),
+        Reason::RandomRest(places) => format!(
+            "No effect is missing that can be named: what the model leaves at the {} is random from second to second, as slip \
+             or noise of the inputs makes it.",
             listed(places.iter().copied())
         ),
         Reason::ClockTooLong { run, lasts, longest } => format!(

@@ -15,7 +15,8 @@ pub fn disagreement(of: &Stretch) -> Disagreement {
     }
 }
 
-fn regime(of: DrivingRegime) -> &'static str {
+/// A regime of driving.
+pub fn regime(of: DrivingRegime) -> &'static str {
     match of {
         DrivingRegime::Whole => "the whole run",
         DrivingRegime::LeftTurns => "left turns",

@@ -1,5 +1,6 @@
 //! Slips of units and columns in words.
 
+use super::repair_text;
 use crate::discrepancy::preprocessing::unit_errors::{Slip, SlipKind, TurningCause, WayCause};
 use crate::number_format::significant;
 
@@ -22,6 +23,32 @@ pub fn sentence(slip: &Slip) -> String {
             "In {run} the path is the mirror image of what the headings say: are x and y swapped, does one of them have the \
              wrong sign, or does the heading count clockwise?"
         ),
+        SlipKind::Repair(repaired) => {
+            let mend = repair_text::mend_in_line(repaired);
+            format!("In {run} {}. Paste into the model file: {mend}", repair_text::says(repaired))
+        }
+        SlipKind::LoggedTwice { roles: [a, b], way } => {
+            let way = way.filter(|r| !(0.8..1.25).contains(r)).map_or_else(String::new, |r| {
+                format!("; the measured way is {} times what they drive", significant(r, 2))
+            });
+            format!(
+                "In {run} {a} and {b} are the same in every row, and the vehicle turns: one column stands for both{way}. Paste \
+                 into the model file, with the column's name: [columns]  {b} = \"COLUMN\""
+            )
+        }
+        SlipKind::Stands { role, value } => format!(
+            "In {run} {role} is {} in every row, and the vehicle turns: the column holds nothing. Paste into the model file, \
+             with the right column's name: [columns]  {role} = \"COLUMN\"",
+            significant(*value, 3)
+        ),
+        SlipKind::Bursts { steps: [within, behind], rates } => format!(
+            "In {run} rows come in bursts, {} s apart and then {} s, and rates within one are {} times those after it: the \
+             times are those of arrival, not of measuring. Paste into the model file, with the name of the column that holds \
+             the time of measuring: [columns]  time = \"COLUMN\"",
+            significant(*within, 2),
+            significant(*behind, 2),
+            significant(*rates, 2)
+        ),
         SlipKind::Turning { ratio, cause } => format!("In {run} {}", turning(*ratio, *cause)),
         SlipKind::Way { ratio, cause, may_spin } => {
             let says = way(*ratio, *cause);
@@ -30,6 +57,18 @@ pub fn sentence(slip: &Slip) -> String {
                 false => format!("In {run} {says}"),
             }
         }
+    }
+}
+
+/// The lines of the model file that mend a slip.
+pub fn mend(slip: &Slip) -> Option<String> {
+    match &slip.kind {
+        SlipKind::Repair(repaired) => Some(repair_text::mend(repaired)),
+        SlipKind::LoggedTwice { roles: [_, role], .. } | SlipKind::Stands { role, .. } => {
+            Some(format!("[columns]\n{role} = \"COLUMN\""))
+        }
+        SlipKind::Bursts { .. } => Some("[columns]\ntime = \"COLUMN\"".into()),
+        _ => None,
     }
 }
 

@@ -1,7 +1,7 @@
 //! The report on one screen of a terminal, and the sentences every form of the report shares.
 
-use crate::discrepancy::report::judged;
 use crate::discrepancy::report::{BeforeAfter, Estimate, Gap, Named, Report, Rival, RunClock, Unnamed, Verdict};
+use crate::discrepancy::report::{judged, judged_alike};
 use crate::number_format::{decimals, plain, prefixed, significant, with_error};
 use crate::picture::svg::cut;
 use crate::wording::listed;
@@ -19,6 +19,7 @@ pub fn verdict_name(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::UnusableData => "Unusable data",
         Verdict::NotIdentifiable => "Not identifiable",
+        Verdict::Unexplained => "Unexplained",
         Verdict::UnnamedEffect => "Unnamed effect",
         Verdict::MissingEffect => "Missing effect",
         Verdict::NoMissingEffect => "No missing effect",
@@ -37,6 +38,9 @@ pub(crate) fn composed_sentence(verdict: Verdict, effects: &[Named], unnamed: &[
         Verdict::UnusableData => "The model does not apply to these data, so nothing can be said about it.".into(),
         Verdict::NotIdentifiable => {
             "These runs are too short or too still to tell whether the model misses an effect.".into()
+        }
+        Verdict::Unexplained => {
+            "Model and measurement disagree, and neither an effect of the library nor a simple law explains it.".into()
         }
         Verdict::UnnamedEffect => format!(
             "Model and measurement disagree in a repeatable way at the {}, and no known effect explains it.",
@@ -158,7 +162,8 @@ fn brief(e: &Estimate) -> String {
 }
 
 fn gap_lines(gaps: &[Gap]) -> Vec<String> {
-    let judged: Vec<_> = gaps.iter().filter_map(|g| judged(g).map(|(name, values)| (g, name, values))).collect();
+    let alike = judged_alike(gaps).into_iter();
+    let judged: Vec<_> = alike.filter_map(|g| judged(g).map(|(name, values)| (g, name, values))).collect();
     let Some((_, name, _)) = judged.first() else { return Vec::new() };
     let largest = |f: fn(&BeforeAfter) -> f64| judged.iter().map(|(_, _, v)| f(v)).fold(0.0, f64::max);
     let (metres, metre) = prefixed(largest(|v| v.position_rms_before), "m");

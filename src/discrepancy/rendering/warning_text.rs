@@ -1,17 +1,44 @@
 //! Warnings in words.
 
 use super::effect_names::{named, values};
+use super::refusal_text;
 use super::slip_text;
 use crate::discrepancy::diagnosis::warning::Warning;
+use crate::discrepancy::preprocessing::clock_jumps::ClockJump;
 use crate::discrepancy::preprocessing::dataset::DatasetNote;
 use crate::discrepancy::preprocessing::quantisation::CoarseInput;
+use crate::discrepancy::preprocessing::reference_jumps::Jumps;
 use crate::effects::Applied;
 use crate::number_format::significant;
+
+/// A stretch in which the reference jumps.
+pub fn jumped(of: &Jumps) -> String {
+    let [from, to] = of.span;
+    match of.times {
+        1 => format!("{}: the measured pose jumps at {to:.1} s; the rows around it are left out", of.run),
+        n => format!(
+            "{}: the measured pose jumps {n} times between {from:.1} and {to:.1} s; this stretch is left out",
+            of.run
+        ),
+    }
+}
+
+/// A clock that jumps.
+pub fn clock_jumped(of: &ClockJump) -> String {
+    let (run, by) = (&of.run, significant(of.by.abs(), 2));
+    let way = if of.by > 0.0 { "later" } else { "earlier" };
+    format!(
+        "{run}: the clock of the pose or of the inputs jumps at {:.0} s: from then on the pose is {by} s {way}",
+        of.at
+    )
+}
 
 /// A warning as a line.
 pub fn line(warning: &Warning) -> String {
     match warning {
         Warning::Reading { run, says } => format!("{run}: {says}"),
+        Warning::Dataset(DatasetNote::Jumps(jumps)) => jumped(jumps),
+        Warning::Dataset(DatasetNote::ClockJump(jump)) => clock_jumped(jump),
         Warning::Dataset(DatasetNote::Interrupted { run, pieces }) => {
             format!("{run}: the log is interrupted; it is used in {pieces} pieces")
         }
@@ -33,6 +60,7 @@ pub fn line(warning: &Warning) -> String {
             let [value, usual] = [(value, 3), (usual, 2)].map(|(x, digits)| significant(*x, digits));
             format!("{} {parameter} = {value} is far beyond the usual {usual}{doubt}", applied.label())
         }
+        Warning::Refuted(refused) => refusal_text::says(refused, &[]),
         Warning::HeldOutGapGrew { horizon, before, after } => {
             let [before, after] = [before, after].map(|gap| significant(*gap, 3));
             format!(

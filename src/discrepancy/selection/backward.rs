@@ -1,7 +1,7 @@
 //! Effects of a search that are dropped again, or put in the place of others.
 
 use super::search::{Search, find, without_effect};
-use crate::discrepancy::estimation::bounds::vanishes;
+use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
@@ -58,7 +58,7 @@ impl Search<'_> {
             let rivals = self.in_place_of(&fit, effect)?;
             let Some((other, rival)) = rivals.into_iter().next() else { continue };
             let Some(rival) = self.refit(&rival)? else { continue };
-            if find(&rival.model, &other).is_some_and(|a| vanishes(&a)) {
+            if find(&rival.model, &other).is_some_and(|a| vanishes(&a) || !is_possible(&a)) {
                 // What it says there, another effect says with fewer parameters.
                 continue;
             }
@@ -79,12 +79,13 @@ impl Search<'_> {
         };
         let lost = bare.deviance - fit.deviance;
         let found = self.screen(
-            &Fit { variances: fit.variances, ..bare.clone() },
+            &Fit { variances: fit.variances.clone(), ..bare.clone() },
             &smaller,
             [bare.deviance, 0.3 * lost],
             None,
         )?;
         let fitted = found.single.into_iter().filter_map(|(p, fit)| Some((p.applied, fit?)));
-        Ok(fitted.filter(|(a, _)| !a.same_as(effect)).collect())
+        let possible = |a: &Applied, f: &Fit| find(&f.model, a).is_some_and(|a| is_possible(&a));
+        Ok(fitted.filter(|(a, f)| !a.same_as(effect) && possible(a, f)).collect())
     }
 }

@@ -1,7 +1,7 @@
 //! Candidates of a search, screened by what they promise and ranked by their evidence.
 
 use super::search::{Addition, Candidate, Search, find};
-use crate::discrepancy::estimation::bounds::{is_at_an_end, vanishes};
+use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
@@ -131,7 +131,7 @@ impl Search<'_> {
                 continue;
             }
             let Some(fit) = self.refit(&rough)? else { continue };
-            if fit.model.free_effects().any(is_at_an_end) || ![a, b].iter().all(|p| repeats(&fit, &p.applied)) {
+            if !fit.model.free_effects().all(is_possible) || ![a, b].iter().all(|p| repeats(&fit, &p.applied)) {
                 continue;
             }
             let n = n.max(fit.sample_size);

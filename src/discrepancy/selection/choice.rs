@@ -2,6 +2,7 @@
 
 use super::search::Candidate;
 use crate::discrepancy::estimation::fit::Fit;
+use crate::discrepancy::evidence::regime_stability::Regime;
 use crate::effects::Applied;
 use crate::model::Model;
 
@@ -18,6 +19,86 @@ pub struct SelectedEffect {
     pub p_value: f64,
     /// Effects that these data do not tell from it.
     pub rivals: Vec<Applied>,
+}
+
+/// Why an effect that the fit asks for is not named.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Refusal {
+    /// Its value is at an end of its range, or a share of one and more.
+    Impossible,
+    /// The data leave its value open.
+    NoDeviation,
+    /// It is worth less than it costs.
+    BelowBar,
+    /// It only pays along a ridge with another.
+    Ridge(Box<Applied>),
+    /// It only stands beside a law without a name.
+    LeansOnLaw,
+    /// Its value is another in a regime of driving.
+    Regime {
+        /// The regime.
+        regime: Regime,
+        /// Its values elsewhere and there.
+        values: [f64; 2],
+    },
+    /// The noise of the inputs makes as much of nothing.
+    InputNoise,
+    /// Held-out runs are predicted worse with it.
+    HeldOut(Growth),
+}
+
+/// How a held-out gap grows, or shrinks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Growth {
+    /// After so many seconds.
+    pub horizon_s: f64,
+    /// Whether it is the heading's, in rad, and not the position's, in m.
+    pub of_heading: bool,
+    /// Without and with what was found.
+    pub gap: [f64; 2],
+    /// What noise alone makes of it.
+    pub floor: f64,
+}
+
+/// A gap that is so many times as large as another, and as the noise floor, has grown.
+const GREW: f64 = 1.25;
+/// A gap of so large a share of another one is as good as the same.
+const SAME: f64 = 0.9;
+
+impl Growth {
+    /// By how much it grows.
+    pub fn factor(&self) -> f64 {
+        self.gap[1] / self.gap[0].max(f64::MIN_POSITIVE)
+    }
+
+    /// Whether it grows, beyond the noise floor.
+    pub fn is_real(&self) -> bool {
+        self.factor() > GREW && self.gap[1] > GREW * self.floor
+    }
+
+    /// Whether it shrinks.
+    pub fn shrinks(&self) -> bool {
+        self.factor() < SAME
+    }
+}
+
+/// What the fit asks for, and is not named.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refused {
+    /// The effect at its fitted values.
+    pub applied: Applied,
+    /// Standard deviations of its values, where the data give them.
+    pub std: Vec<Option<f64>>,
+    /// Why.
+    pub why: Refusal,
+}
+
+impl Refused {
+    /// One of the chosen effects.
+    pub(crate) fn of(chosen: &[SelectedEffect], applied: Applied, why: Refusal) -> Self {
+        let std = chosen.iter().find(|c| c.applied.same_as(&applied)).map_or_else(Vec::new, |c| c.std.clone());
+        Self { applied, std, why }
+    }
 }
 
 /// The outcome of the selection.
@@ -37,4 +118,6 @@ pub struct Selected {
     pub inconsistent: Vec<Applied>,
     /// Effects and terms that come and go with how often the inputs are logged, so that they are not kept.
     pub sampling_sensitive: Vec<Applied>,
+    /// What was found and refused again, and why.
+    pub refused: Vec<Refused>,
 }

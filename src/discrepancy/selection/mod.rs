@@ -3,7 +3,10 @@
 pub(crate) mod backward;
 pub(crate) mod candidates;
 pub mod choice;
+pub(crate) mod input_noise;
 pub(crate) mod input_sampling;
+pub(crate) mod refusals;
+pub(crate) mod refute;
 pub(crate) mod search;
 pub mod select;
 pub(crate) mod stability;

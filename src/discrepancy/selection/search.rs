@@ -98,3 +98,37 @@ pub(crate) fn still_open<'e>(library: impl IntoIterator<Item = &'e Effect>, give
     let is_open = |e: &&Effect| given_up.iter().all(|g| g.effect.id != e.id);
     library.into_iter().filter(is_open).cloned().collect()
 }
+
+/// Numbers that stand for the free values of a fit, without those of an effect.
+pub(crate) fn forget(numbers: &mut Vec<f64>, fit: &Fit, effect: &Applied) {
+    let mut at = 0;
+    for e in fit.model.free_effects() {
+        let values = e.values.len();
+        if e.same_as(effect) && at + values <= numbers.len() {
+            numbers.drain(at..at + values);
+            return;
+        }
+        at += values;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::fixtures::{KNOWN, applied, fit_of, unicycle};
+
+    #[test]
+    fn the_numbers_of_one_effect_are_forgotten() {
+        let fit = fit_of(unicycle(&KNOWN));
+        let without = |id: &str, mut numbers: Vec<f64>| {
+            forget(&mut numbers, &fit, &applied(id));
+            numbers
+        };
+        let all = vec![1.0, 2.0, 3.0, 4.0];
+        let left = ["traction-creep", "relaxation-length", "traverse-creep"].map(|id| without(id, all.clone()));
+        assert_eq!(left, [vec![2.0, 3.0, 4.0], vec![1.0, 4.0], vec![1.0, 2.0, 3.0]]);
+        // An effect that is not among them, or came after the numbers did.
+        assert_eq!(without("side-slope", all.clone()), all);
+        assert_eq!(without("traverse-creep", all[..3].to_vec()), all[..3]);
+    }
+}

@@ -2,12 +2,12 @@
 
 use super::candidates::FINALISTS;
 use super::input_sampling::{InputSampling, keep_sampled};
+use super::refusals::Standing;
 use super::search::{MOST, Search, SearchState, find};
 use super::stability;
 use super::stability::Stable;
 use super::transients;
 use super::unnamed_terms;
-use crate::discrepancy::estimation::bounds::is_at_an_end;
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
@@ -53,45 +53,19 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &O
     let named = transients::search(&selection, library, selection.grown(&before, progress)?)?;
     let grown = unnamed_terms::search(&selection, &named, &[], progress)?.unwrap_or(named);
     let Stable { mut grown, inconsistent, scatter } = stability::search(&selection, grown, progress)?;
-    let InputSampling { dropped: sampling_sensitive, mut missed } = keep_sampled(&selection, &mut grown, progress)?;
+    let InputSampling { dropped: sampling_sensitive, missed } = keep_sampled(&selection, &mut grown, progress)?;
     // Where something went, the values no longer stand where they stood.
     let scatter = scatter.filter(|_| sampling_sensitive.is_empty());
-    let mut chosen = selection.examined(&grown.fit, scatter.as_ref(), &missed, progress)?;
-    // What others left of an effect may be less than it costs, or send it to the end of its range.
-    while let Some(idle) = chosen.iter().find(|c| is_at_an_end(&c.applied)).or_else(|| least_worth(&chosen)) {
-        let Some(smaller) = selection.without(&grown.fit, &idle.applied)? else { break };
-        forget(&mut missed, &grown.fit, &idle.applied);
-        grown.go_back_to(smaller);
-        chosen = selection.examined(&grown.fit, None, &missed, progress)?;
-    }
+    let Standing { chosen, refused } = selection.keep_standing(&mut grown, scatter.as_ref(), missed, progress)?;
     let SearchState { fit: after, steps, candidates, .. } = grown;
-    Ok(Some(Selected { before, after, chosen, steps, candidates, inconsistent, sampling_sensitive }))
-}
-
-/// The effect whose own evidence speaks against it most.
-fn least_worth(chosen: &[SelectedEffect]) -> Option<&SelectedEffect> {
-    let against = chosen.iter().filter(|c| c.delta_bic <= 0.0);
-    against.min_by(|a, b| a.delta_bic.total_cmp(&b.delta_bic))
-}
-
-/// Numbers that stand for the free values of a fit, without those of an effect.
-fn forget(numbers: &mut Vec<f64>, fit: &Fit, effect: &Applied) {
-    let mut at = 0;
-    for e in fit.model.free_effects() {
-        let values = e.values.len();
-        if e.same_as(effect) && at + values <= numbers.len() {
-            numbers.drain(at..at + values);
-            return;
-        }
-        at += values;
-    }
+    Ok(Some(Selected { before, after, chosen, steps, candidates, inconsistent, sampling_sensitive, refused }))
 }
 
 impl Search<'_> {
     /// Evidence, deviations and rivals of every chosen effect.
     ///
     /// `missed` is what the interpolation of the inputs may make up of each value; an offset no rows average out.
-    fn examined(
+    pub(crate) fn examined(
         &self,
         fit: &Fit,
         scatter: Option<&Jackknife>,
@@ -147,26 +121,5 @@ impl Search<'_> {
             }
         }
         Ok(found)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::discrepancy::fixtures::{KNOWN, applied, fit_of, unicycle};
-
-    #[test]
-    fn the_numbers_of_one_effect_are_forgotten() {
-        let fit = fit_of(unicycle(&KNOWN));
-        let without = |id: &str, mut numbers: Vec<f64>| {
-            forget(&mut numbers, &fit, &applied(id));
-            numbers
-        };
-        let all = vec![1.0, 2.0, 3.0, 4.0];
-        let left = ["traction-creep", "relaxation-length", "traverse-creep"].map(|id| without(id, all.clone()));
-        assert_eq!(left, [vec![2.0, 3.0, 4.0], vec![1.0, 4.0], vec![1.0, 2.0, 3.0]]);
-        // An effect that is not among them, or came after the numbers did.
-        assert_eq!(without("side-slope", all.clone()), all);
-        assert_eq!(without("traverse-creep", all[..3].to_vec()), all[..3]);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::candidates::Ranking;
 use super::search::{Addition, Candidate, Search, SearchState};
-use crate::discrepancy::estimation::bounds::{is_at_an_end, vanishes};
+use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::evidence::information_criterion::delta_bic;
 use crate::discrepancy::evidence::wald_test::repeats;
@@ -49,7 +49,7 @@ impl Search<'_> {
         // A gain must be large, and large still when what hangs together counts once.
         let independent = |fit: &Fit| delta_bic(fit, base, base.sample_size.max(fit.sample_size)) > self.margin();
         let counts = |s: &Candidate, fit: &Fit| s.delta_bic > bar(s) && independent(fit);
-        let inside = |s: &Candidate| !vanishes(&s.applied) && !is_at_an_end(&s.applied);
+        let inside = |s: &Candidate| !vanishes(&s.applied) && is_possible(&s.applied);
         let good = fitted.filter(|(s, fit)| counts(s, fit) && inside(s) && repeats(fit, &s.applied));
         let singles: Vec<(Candidate, Fit)> = good.collect();
         let pair = self.pair(base, &ranked.pairs, singles.first().map(|(_, f)| f))?;

@@ -7,12 +7,12 @@ use nalgebra::DMatrix;
 /// residuals r + J·(δz, δp) and end e + F·δz + B·δp.
 #[derive(Clone, Debug)]
 pub struct LinearisedWindow {
-    /// Σ (J, r)ᵀ(J, r) for each [`Channel`](crate::discrepancy::record::run_record::Channel), columns (z, p, 1).
-    pub gram: [DMatrix<f64>; 3],
-    /// Number of values of each channel.
-    pub count: [usize; 3],
-    /// Residuals of neighbouring rows together, for each channel.
-    pub blocks: [Blocks; 3],
+    /// Σ (J, r)ᵀ(J, r) for each component of the measurement noise, columns (z, p, 1).
+    pub gram: Vec<DMatrix<f64>>,
+    /// Number of values with each.
+    pub count: Vec<usize>,
+    /// Residuals of neighbouring rows together, for each.
+    pub blocks: Vec<Blocks>,
     /// δz of this window's start as (δz̃, δp, 1)-columns, δz̃ being the end before the jump against the next start.
     pub back: Option<DMatrix<f64>>,
     /// Axes of the body at the window's end; columns along, across, yaw, trailers.
@@ -24,7 +24,7 @@ pub struct LinearisedWindow {
 }
 
 impl LinearisedWindow {
-    /// Sum of the squared residuals of a channel.
+    /// Sum of the squared residuals with one component of the noise.
     pub fn square(&self, channel: usize) -> f64 {
         let last = self.gram[channel].nrows() - 1;
         self.gram[channel][(last, last)]

@@ -1,7 +1,7 @@
 //! The gap: how far a model strays from the measurements after a horizon, and what noise alone would make of it.
 
 use super::windows::MARGIN;
-use crate::discrepancy::initial_state::heading_from_path::{PathHeading, heading_at, measured_at};
+use crate::discrepancy::initial_state::heading_from_path::{MeasuredPose, PathHeading, heading_over, measured_at};
 use crate::discrepancy::initial_state::hidden_states;
 use crate::discrepancy::initial_state::pose::pose_of;
 use crate::discrepancy::record::angle::wrapped;
@@ -47,6 +47,17 @@ impl PredictionError {
         self
     }
 
+    /// The same with independent errors of another source beside them, window by window.
+    pub fn beside(mut self, other: PredictionError) -> PredictionError {
+        if other.windows > 0 {
+            self.position += other.position * self.windows as f64 / other.windows as f64;
+        }
+        if other.headings > 0 {
+            self.heading += other.heading * self.headings as f64 / other.headings as f64;
+        }
+        self
+    }
+
     /// RMS position error, m.
     pub fn position_rms(&self) -> f64 {
         (self.position / self.windows as f64).sqrt()
@@ -82,9 +93,10 @@ impl<'a> Rollout<'a> {
         Ok(Self { record, equations, hidden })
     }
 
-    /// The state at a row: the smoothed pose and the carried hidden states.
-    fn start(&self, i: usize) -> Vec<f64> {
-        let mut z = pose_of(&self.equations, &self.measured(i));
+    /// The state at the first of two rows, to be followed to the other: the smoothed pose and the carried hidden states.
+    fn start(&self, i: usize, to: usize) -> Vec<f64> {
+        let pose = MeasuredPose::over(&self.equations, self.record, i, self.record.time[to] - self.record.time[i]);
+        let mut z = pose_of(&self.equations, &pose.measured);
         z.extend(self.hidden.get(i).into_iter().flatten());
         z
     }
@@ -97,7 +109,7 @@ impl<'a> Rollout<'a> {
     /// The outputs at rows `from..=to`, restarted at `from`.
     pub fn outputs(&self, from: usize, to: usize) -> Vec<Vec<f64>> {
         let mut stepper = Stepper::new(&self.equations, &self.record.signals, &[]);
-        let mut arc = StateSensitivity { z: self.start(from), s: vec![] };
+        let mut arc = StateSensitivity { z: self.start(from, to), s: vec![] };
         let visible = self.equations.visible;
         let mut found = vec![stepper.outputs(&arc.z)[..visible].to_vec()];
         for i in from..to {
@@ -115,7 +127,7 @@ impl<'a> Rollout<'a> {
     /// As [`Rollout::ends`], of so many windows as there are lanes, or fewer: the last one fills the rest.
     fn side_by_side(&self, windows: &[(usize, usize)]) -> Vec<[Vec<f64>; 2]> {
         let rows: [Range<usize>; LANES] = std::array::from_fn(|l| windows[l.min(windows.len() - 1)]).map(|(i, k)| i..k);
-        let starts = rows.each_ref().map(|rows| self.start(rows.start));
+        let starts = rows.each_ref().map(|rows| self.start(rows.start, rows.end));
         let mut arcs = LaneStates::of(starts.each_ref().map(|z| &z[..]));
         let mut stepper = LaneStepper::new(&self.equations, &self.record.signals, [&[]; LANES]);
         let visible = self.equations.visible;
@@ -176,6 +188,22 @@ impl<'a> Rollout<'a> {
         errors
     }
 
+    /// By how much predictions move when the inputs are as noisy again.
+    pub fn moved_by_inputs(&self, horizon: f64, seed: u64) -> PredictionError {
+        let mut moved = PredictionError::default();
+        if !self.record.input_noise.is_there() {
+            return moved;
+        }
+        let noisier = self.record.with_noisier_inputs(seed);
+        let beside = Rollout { record: &noisier, equations: self.equations.clone(), hidden: self.hidden.clone() };
+        let windows = self.windows(horizon);
+        for ([_, here], [_, there]) in self.ends(&windows).iter().zip(beside.ends(&windows)) {
+            let heading = self.record.has_heading.then(|| there[2] - here[2]);
+            moved.add([0, 1].map(|c| there[c] - here[c]), heading);
+        }
+        moved
+    }
+
     /// The windows of a horizon with what noise acts on.
     fn restarts(&self, horizon: f64) -> Vec<Restart> {
         let windows = self.windows(horizon);
@@ -186,7 +214,7 @@ impl<'a> Rollout<'a> {
                 clean: self.record.columns.iter().map(|c| local_polynomial::value(c, &smoothing)).collect(),
                 smoothing,
                 displacement: [last[0] - first[0], last[1] - first[1]],
-                course: (!self.record.has_heading).then(|| heading_at(&self.equations, self.record, from)),
+                course: (!self.record.has_heading).then(|| heading_over(&self.equations, self.record, from, horizon)),
             }
         };
         windows.iter().zip(self.ends(&windows)).map(restart).collect()

@@ -5,6 +5,7 @@ use crate::discrepancy::record::run_record::{Channel, Record};
 use crate::discrepancy::shooting::block_sums::{Blocks, Run};
 use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
 use crate::formula::Kernel;
+use crate::model::{observation, state};
 use crate::motion::{LaneStates, LaneStepper, StateSensitivity};
 use nalgebra::DMatrix;
 use std::ops::Range;
@@ -14,11 +15,9 @@ pub(crate) struct NormalEquations<const L: usize> {
     /// Columns (z, p, 1).
     width: usize,
     channels: Vec<Channel>,
-    /// The output that each column of the record is compared with.
-    outputs: Vec<usize>,
-    /// Upper halves of Σ (J, r)ᵀ(J, r), column by column; empty for a channel that nothing measures.
-    gram: [Vec<[f64; L]>; 3],
-    blocks: [[Blocks; L]; 3],
+    /// Upper halves of Σ (J, r)ᵀ(J, r) for each component of the noise, column by column; empty where nothing has it.
+    gram: Vec<Vec<[f64; L]>>,
+    blocks: Vec<[Blocks; L]>,
     runs: Vec<[Run; L]>,
     line: Vec<[f64; L]>,
 }
@@ -27,13 +26,12 @@ impl<const L: usize> NormalEquations<L> {
     pub fn new(columns: usize, record: &Record) -> Self {
         let channels = record.channels();
         let width = columns + 1;
-        let entries =
-            |kind: usize| if channels.iter().any(|c| *c as usize == kind) { width * (width + 1) / 2 } else { 0 };
+        let entries = |kind: usize| if channels.iter().any(|c| c.noise == kind) { width * (width + 1) / 2 } else { 0 };
+        let kinds = observation::sensor_noise(record.trailers).len();
         Self {
             width,
-            outputs: (0..channels.len()).map(|c| record.output_of(c)).collect(),
-            gram: [0, 1, 2].map(|kind| vec![[0.0; L]; entries(kind)]),
-            blocks: [[Blocks::default(); L]; 3],
+            gram: (0..kinds).map(|kind| vec![[0.0; L]; entries(kind)]).collect(),
+            blocks: vec![[Blocks::default(); L]; kinds],
             runs: vec![[Run::default(); L]; channels.len()],
             line: vec![[0.0; L]; width],
             channels,
@@ -42,7 +40,7 @@ impl<const L: usize> NormalEquations<L> {
 
     pub fn clear(&mut self) {
         self.gram.iter_mut().for_each(|g| g.fill([0.0; L]));
-        self.blocks = [[Blocks::default(); L]; 3];
+        self.blocks.fill([Blocks::default(); L]);
         self.runs.fill([Run::default(); L]);
     }
 
@@ -56,23 +54,37 @@ impl<const L: usize> NormalEquations<L> {
         next: Option<&Vec<f64>>,
     ) -> Option<LinearisedWindow> {
         let visible = visible_of(record);
-        let gram = [0, 1, 2].map(|kind| self.gram_of(kind, l));
+        let kinds = 0..self.gram.len();
+        let gram: Vec<DMatrix<f64>> = kinds.clone().map(|kind| self.gram_of(kind, l)).collect();
         if !arc.z.iter().chain(&arc.s).all(|x| x.is_finite()) || !gram.iter().all(|g| g.iter().all(|x| x.is_finite())) {
             return None;
         }
-        let count = [0, 1, 2].map(|kind| self.channels.iter().filter(|c| **c as usize == kind).count() * rows.len());
-        let axes = body_axes(arc.z[2], visible);
+        let columns = |kind: usize| self.channels.iter().filter(|c| c.noise == kind).count();
+        let count = kinds.map(|kind| columns(kind) * rows.len()).collect();
+        let axes = body_axes(arc.z[state::DIRECTION], visible);
         let last = if next.is_some() { rows.end } else { rows.end - 1 };
         let duration = record.time[last] - record.time[rows.start];
         let (back, mismatch) = match next {
             Some(next) => {
-                let c: Vec<f64> = (0..visible).map(|i| difference_of(i, arc.z[i] - next[i])).collect();
+                let differences = arc.z.iter().zip(next).map(|(end, next)| end - next);
+                let c: Vec<f64> = nodes_of(record)
+                    .zip(differences)
+                    .map(|(node, d)| if node.is_angle { wrapped(d) } else { d })
+                    .collect();
                 let mismatch = axes.tr_mul(&nalgebra::DVector::from_column_slice(&c));
                 (Some(backwards(&arc.s, &c, visible, self.width - 1)?), mismatch.as_slice().to_vec())
             }
             None => (None, vec![]),
         };
-        Some(LinearisedWindow { gram, count, blocks: self.blocks.map(|b| b[l]), back, axes, duration, mismatch })
+        Some(LinearisedWindow {
+            gram,
+            count,
+            blocks: self.blocks.iter().map(|b| b[l]).collect(),
+            back,
+            axes,
+            duration,
+            mismatch,
+        })
     }
 
     fn gram_of(&self, kind: usize, l: usize) -> DMatrix<f64> {
@@ -132,14 +144,13 @@ impl<const L: usize> NormalEquations<L> {
         let k = self.width - 1;
         let visible = visible_of(record);
         for (c, channel) in self.channels.iter().enumerate() {
-            let output = self.outputs[c];
-            output_line(y, output, visible, k, s, &mut self.line);
+            output_line(y, channel.output, visible, k, s, &mut self.line);
             let measured = &record.columns[c];
-            let (kind, rest) = (*channel as usize, &mut self.line[k]);
+            let (kind, rest) = (channel.noise, &mut self.line[k]);
             for l in 0..L {
-                rest[l] = y[output][l] - measured[at[l]];
+                rest[l] = y[channel.output][l] - measured[at[l]];
             }
-            if *channel != Channel::Position {
+            if channel.is_angle {
                 for rest in rest.iter_mut() {
                     *rest = wrapped(*rest);
                 }
@@ -163,13 +174,14 @@ impl<const L: usize> NormalEquations<L> {
     }
 }
 
-/// How many states the pose and the trailers make.
-pub(crate) fn visible_of(record: &Record) -> usize {
-    3 + record.trailers
+/// The states that are free at the start of every window.
+fn nodes_of(record: &Record) -> impl ExactSizeIterator<Item = state::Node> {
+    state::nodes(record.trailers)
 }
 
-fn difference_of(i: usize, difference: f64) -> f64 {
-    if i < 2 { difference } else { wrapped(difference) }
+/// How many there are.
+pub(crate) fn visible_of(record: &Record) -> usize {
+    nodes_of(record).len()
 }
 
 /// One row of J: ∂y/∂z·S plus the direct dependence of the sensor on p.
@@ -226,10 +238,11 @@ fn add_square<const L: usize>(gram: &mut [[f64; L]], line: &[[f64; L]]) {
 fn body_axes(heading: f64, visible: usize) -> DMatrix<f64> {
     let mut axes = DMatrix::identity(visible, visible);
     let (sin, cos) = heading.sin_cos();
-    axes[(0, 0)] = cos;
-    axes[(0, 1)] = -sin;
-    axes[(1, 0)] = sin;
-    axes[(1, 1)] = cos;
+    let [x, y] = state::PLACE;
+    axes[(x, x)] = cos;
+    axes[(x, y)] = -sin;
+    axes[(y, x)] = sin;
+    axes[(y, y)] = cos;
     axes
 }
 

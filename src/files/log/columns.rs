@@ -1,11 +1,14 @@
 //! `[columns]`: which column of a log holds what.
 
-use crate::error::{Error, Result};
+use super::cells::Cells;
+use super::column_entry::{self, ColumnEntry, Kind, Reading};
+use super::unit::Dimension;
+use crate::error::Result;
 use crate::files::model::known::KnownInput;
 use crate::files::model::parameters::{Machine, one_per_trailer};
 use crate::files::toml::spanned_table::{Section, Value};
-use crate::files::toml::suggestions;
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 
 /// The columns of a model file; a role it leaves out is looked for under its own name.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +27,10 @@ pub struct Columns {
     pub trailer_headings: Vec<String>,
     /// The inputs, in the order of the catalogue.
     pub inputs: Vec<InputColumn>,
+    /// How roles are read of which the file says more than a name; trailers are `trailer_headings[1]` and so on.
+    pub entries: BTreeMap<String, ColumnEntry>,
+    /// `x` and `y` name longitude and latitude in degrees.
+    pub geographic: bool,
 }
 
 /// The column of one input.
@@ -38,19 +45,23 @@ pub struct InputColumn {
     pub instead: Option<String>,
 }
 
-/// Columns found in the header of a log, as indices from zero.
+/// Columns found in the header of a log.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resolved {
     /// Time.
-    pub time: usize,
+    pub time: Cells,
     /// Measured position along x.
-    pub x: usize,
+    pub x: Cells,
     /// Measured position along y.
-    pub y: usize,
+    pub y: Cells,
+    /// `x` and `y` are longitude and latitude.
+    pub geographic: bool,
     /// Measured heading, if the log has one.
-    pub heading: Option<usize>,
+    pub heading: Option<Cells>,
     /// Measured headings of the trailers.
-    pub trailer_headings: Vec<usize>,
+    pub trailer_headings: Vec<Cells>,
+    /// Standard deviations of x, y and heading, where the log has them.
+    pub deviations: [Option<Cells>; 3],
     /// The inputs, in the order of [`Columns::inputs`].
     pub inputs: Vec<ResolvedInput>,
 }
@@ -60,9 +71,12 @@ pub struct Resolved {
 pub struct ResolvedInput {
     /// What it is: the role of the model file, or the one that stands for it.
     pub role: String,
-    /// Its place in the header, from zero.
-    pub index: usize,
+    /// Its place in the header.
+    pub cells: Cells,
 }
+
+/// Roles of the standard deviations of a measured pose.
+const DEVIATIONS: [&str; 3] = ["sigma_x", "sigma_y", "sigma_heading"];
 
 impl Columns {
     pub(crate) fn read(top: &Section, machine: &Machine, trailers: usize, forced: &[String]) -> Result<Self> {
@@ -74,15 +88,35 @@ impl Columns {
             section.only(&keys)?;
         }
         let get = |role: &str| section.as_ref().and_then(|s| s.get(role));
-        let name = |role: &str| get(role).map_or(Ok(role), |v| v.text()).map(str::to_string);
+        let mut entries = BTreeMap::new();
+        let mut named = |role: &str, dimension| get(role).map(|v| entry(&v, dimension, &mut entries)).transpose();
+        let time = named("time", Some(Dimension::Time))?;
+        let truth_time = named("truth_time", Some(Dimension::Time))?;
+        let (mut x, mut y) = (named("x", Some(Dimension::Length))?, named("y", Some(Dimension::Length))?);
+        let heading = named("heading", Some(Dimension::Angle))?;
+        for (role, dimension) in DEVIATIONS.iter().zip([Dimension::Length, Dimension::Length, Dimension::Angle]) {
+            if let Some(value) = get(role) {
+                let found = column_entry::read(&value, Some(dimension))?;
+                entries.insert((*role).to_string(), found);
+            }
+        }
+        let position = get("position").map(|v| position(&v, [&x, &y])).transpose()?;
+        let geographic = position.is_some();
+        if let Some([latitude, longitude]) = position {
+            (x, y) = (Some(longitude), Some(latitude));
+        }
+        let trailer_headings =
+            get("trailer_headings").map_or(Ok(Vec::new()), |v| trailer_headings(&v, trailers, &mut entries))?;
         let columns = Self {
-            time: name("time")?,
-            truth_time: get("truth_time").map(|v| v.text().map(str::to_string)).transpose()?,
-            x: name("x")?,
-            y: name("y")?,
-            heading: get("heading").map(|v| v.text().map(str::to_string)).transpose()?,
-            trailer_headings: get("trailer_headings").map_or(Ok(Vec::new()), |v| trailer_headings(&v, trailers))?,
-            inputs: inputs.iter().map(|known| input(known, &get)).collect::<Result<_>>()?,
+            time: time.unwrap_or_else(|| "time".into()),
+            truth_time,
+            x: x.unwrap_or_else(|| "x".into()),
+            y: y.unwrap_or_else(|| "y".into()),
+            heading,
+            trailer_headings,
+            inputs: inputs.iter().map(|known| input(known, &get, &mut entries)).collect::<Result<_>>()?,
+            entries,
+            geographic,
         };
         columns.distinct(top, section.as_ref())?;
         Ok(columns)
@@ -90,9 +124,8 @@ impl Columns {
 
     /// Finds the columns in the header of a log; errors do not know the file yet.
     pub fn resolve(&self, header: &[String]) -> Result<Resolved> {
-        let inputs = self.inputs.iter().map(|input| resolve_input(header, input));
         let pose = self.resolve_pose(header, "time", &self.time)?;
-        Ok(Resolved { inputs: inputs.collect::<Result<_>>()?, ..pose })
+        Ok(Resolved { inputs: self.resolve_driven(header)?, ..pose })
     }
 
     /// Finds the time and the pose in the header of a file that need not hold inputs.
@@ -104,29 +137,59 @@ impl Columns {
     }
 
     fn resolve_pose(&self, header: &[String], role: &str, time: &str) -> Result<Resolved> {
-        let find = |role: &str, column: &str| find(header, role, column);
+        let find = |role: &str, column: &str| self.cells(header, role, column);
+        let place = |role: &str, column: &str| match self.geographic {
+            true => Ok(Cells { reading: DEGREES, ..find(role, column)? }),
+            false => find(role, column),
+        };
+        let heading = match &self.heading {
+            Some(column) => Some(find("heading", column)?),
+            None if header.iter().any(|name| name == "heading") => Some(find("heading", "heading")?),
+            None => None,
+        };
+        let trailer = |(i, column): (usize, &String)| find(&format!("trailer_headings[{}]", i + 1), column);
+        let deviation = |role: &str| self.entries.get(role).map(|e| find(role, &e.columns[0])).transpose();
         Ok(Resolved {
-            time: find(role, time)?,
-            x: find("x", &self.x)?,
-            y: find("y", &self.y)?,
-            heading: match &self.heading {
-                Some(column) => Some(find("heading", column)?),
-                None if header.iter().any(|name| name == "heading") => Some(find("heading", "heading")?),
-                None => None,
-            },
-            trailer_headings: self
-                .trailer_headings
-                .iter()
-                .map(|c| find("trailer_headings", c))
-                .collect::<Result<_>>()?,
+            time: self.time_cells(header, role, time)?,
+            x: place("x", &self.x)?,
+            y: place("y", &self.y)?,
+            geographic: self.geographic,
+            heading,
+            trailer_headings: self.trailer_headings.iter().enumerate().map(trailer).collect::<Result<_>>()?,
+            deviations: [deviation(DEVIATIONS[0])?, deviation(DEVIATIONS[1])?, deviation(DEVIATIONS[2])?],
             inputs: vec![],
         })
     }
 
     /// Finds time and inputs in the header of a file that need not hold a pose; errors do not know the file yet.
-    pub fn resolve_inputs(&self, header: &[String]) -> Result<(usize, Vec<ResolvedInput>)> {
-        let inputs = self.inputs.iter().map(|input| resolve_input(header, input));
-        Ok((find(header, "time", &self.time)?, inputs.collect::<Result<_>>()?))
+    pub fn resolve_inputs(&self, header: &[String]) -> Result<(Cells, Vec<ResolvedInput>)> {
+        Ok((self.time_cells(header, "time", &self.time)?, self.resolve_driven(header)?))
+    }
+
+    fn resolve_driven(&self, header: &[String]) -> Result<Vec<ResolvedInput>> {
+        self.inputs.iter().map(|input| self.resolve_input(header, input)).collect()
+    }
+
+    fn time_cells(&self, header: &[String], role: &str, column: &str) -> Result<Cells> {
+        let found = self.cells(header, role, column)?;
+        let plain = found.reading.kind == Kind::Number;
+        Ok(if plain { Cells { reading: Reading::plain(Kind::Time), ..found } } else { found })
+    }
+
+    /// The cells of a role.
+    fn cells(&self, header: &[String], role: &str, column: &str) -> Result<Cells> {
+        Cells::find(header, role, column, self.entries.get(role))
+    }
+
+    fn resolve_input(&self, header: &[String], input: &InputColumn) -> Result<ResolvedInput> {
+        let there = |column: &String| header.contains(column);
+        let stands_in = input.instead.as_ref().filter(|instead| !there(&input.column) && there(instead));
+        let (role, column) = stands_in.map_or((&input.role, &input.column), |instead| (instead, instead));
+        let cells = self.cells(header, role, column).map_err(|error| match &input.instead {
+            Some(instead) if !there(column) => super::cells::missing(header, role, column, Some(instead.as_str())),
+            _ => error,
+        })?;
+        Ok(ResolvedInput { role: role.clone(), cells })
     }
 
     /// One column read as two quantities is a slip of the pen.
@@ -148,72 +211,101 @@ impl Columns {
         let heading = self.heading.iter().map(|c| ("heading", c));
         let trailers = self.trailer_headings.iter().map(|c| ("trailer_headings", c));
         let inputs = self.inputs.iter().map(|i| (i.role.as_str(), &i.column));
-        pose.chain(heading).chain(trailers).chain(inputs).map(|(role, column)| (role, column.as_str()))
+        let first = pose.chain(heading).chain(trailers).chain(inputs);
+        let more = self.entries.iter().filter(|(role, _)| *role != "truth_time");
+        let more = more.flat_map(|(role, entry)| entry.columns.iter().skip(1).map(move |c| (role.as_str(), c)));
+        first.chain(more).map(|(role, column)| (role, column.as_str()))
+    }
+}
+
+/// Degrees of latitude and longitude.
+const DEGREES: Reading = Reading { kind: Kind::Number, scale: PI / 180.0, offset: 0.0 };
+
+impl Resolved {
+    /// What a row needs, in the order in which a run takes it.
+    pub(crate) fn needed(&self) -> Vec<&Cells> {
+        let mut needed = vec![&self.time];
+        needed.extend(self.pose());
+        needed.extend(self.inputs.iter().map(|input| &input.cells));
+        needed
+    }
+
+    /// The cells of the pose.
+    pub(crate) fn pose(&self) -> Vec<&Cells> {
+        let mut pose = vec![&self.x, &self.y];
+        pose.extend(&self.heading);
+        pose.extend(&self.trailer_headings);
+        pose
+    }
+
+    /// What a row may lack.
+    pub(crate) fn spare(&self) -> Vec<&Cells> {
+        self.deviations.iter().flatten().collect()
+    }
+
+    /// Time and inputs.
+    pub(crate) fn driven(&self) -> Vec<&Cells> {
+        std::iter::once(&self.time).chain(self.inputs.iter().map(|input| &input.cells)).collect()
+    }
+}
+
+/// The main column of a role; what else the file says of it is kept.
+fn entry(value: &Value, dimension: Option<Dimension>, entries: &mut BTreeMap<String, ColumnEntry>) -> Result<String> {
+    let found = column_entry::read(value, dimension)?;
+    let main = found.columns[0].clone();
+    if !matches!(found.reading, Reading { kind: Kind::Number | Kind::Time, scale: 1.0, offset: 0.0 }) {
+        entries.insert(value.name.clone(), found);
+    }
+    Ok(main)
+}
+
+fn position(value: &Value, places: [&Option<String>; 2]) -> Result<[String; 2]> {
+    match places.iter().any(|p| p.is_some()) {
+        true => Err(value
+            .key_error("position stands in place of x and y, and one of them is named too")
+            .help("remove x and y")),
+        false => column_entry::position(value),
     }
 }
 
 fn keys<'a>(inputs: &[&'a KnownInput], trailers: bool) -> Vec<&'a str> {
-    let mut keys = vec!["time", "truth_time", "x", "y", "heading"];
+    let mut keys = vec!["time", "truth_time", "x", "y", "position", "heading"];
+    keys.extend(DEVIATIONS);
     keys.extend(trailers.then_some("trailer_headings"));
     keys.extend(inputs.iter().flat_map(|i| std::iter::once(&i.role).chain(&i.instead)).map(String::as_str));
     keys
 }
 
-fn trailer_headings(value: &Value, trailers: usize) -> Result<Vec<String>> {
+fn trailer_headings(
+    value: &Value,
+    trailers: usize,
+    entries: &mut BTreeMap<String, ColumnEntry>,
+) -> Result<Vec<String>> {
     let names = value.list("trailer_headings = [\"phi_1\"]")?;
     one_per_trailer(value, names.len(), trailers)?;
-    names.iter().map(|name| name.text().map(str::to_string)).collect()
+    names.iter().map(|name| entry(name, Some(Dimension::Angle), entries)).collect()
 }
 
-fn input<'a: 'd, 'd>(known: &KnownInput, get: &impl Fn(&str) -> Option<Value<'a, 'd>>) -> Result<InputColumn> {
+fn input<'a: 'd, 'd>(
+    known: &KnownInput,
+    get: &impl Fn(&str) -> Option<Value<'a, 'd>>,
+    entries: &mut BTreeMap<String, ColumnEntry>,
+) -> Result<InputColumn> {
     let other = known.instead.as_deref().and_then(get);
-    let (role, column, instead) = match (get(&known.role), other) {
+    let (value, unit) = match (get(&known.role), other) {
         (Some(value), Some(other)) => {
             let message = format!("{} and {} are both named, but one drives the vehicle", value.name, other.name);
             return Err(other.source.error(other.key_at, message).help("remove one of the two"));
         }
-        (Some(value), None) | (None, Some(value)) => (value.name.clone(), value.text()?.to_string(), None),
-        (None, None) => (known.role.clone(), known.role.clone(), known.instead.clone()),
+        (Some(value), None) => (value, &known.unit),
+        (None, Some(value)) => (value, &known.instead_unit),
+        (None, None) => {
+            let role = known.role.clone();
+            return Ok(InputColumn { column: role.clone(), role, instead: known.instead.clone() });
+        }
     };
-    Ok(InputColumn { role, column, instead })
-}
-
-fn resolve_input(header: &[String], input: &InputColumn) -> Result<ResolvedInput> {
-    let there = |column: &String| header.contains(column);
-    let stands_in = input.instead.as_ref().filter(|instead| !there(&input.column) && there(instead));
-    let (role, column) = stands_in.map_or((&input.role, &input.column), |instead| (instead, instead));
-    let index = find(header, role, column).map_err(|error| match &input.instead {
-        Some(instead) if !there(column) => missing(header, role, column, Some(instead.as_str())),
-        _ => error,
-    })?;
-    Ok(ResolvedInput { role: role.clone(), index })
-}
-
-/// The only place of a column in the header.
-fn find(header: &[String], role: &str, column: &str) -> Result<usize> {
-    let mut places = header.iter().enumerate().filter(|(_, name)| *name == column).map(|(i, _)| i);
-    match (places.next(), places.next()) {
-        (Some(index), None) => Ok(index),
-        (Some(first), Some(second)) => Err(Error::input(format!(
-            "column \"{column}\" stands twice in the header, as cell {} and cell {}",
-            first + 1,
-            second + 1
-        ))
-        .help("rename or remove one of them")),
-        (None, _) => Err(missing(header, role, column, None)),
-    }
-}
-
-fn missing(header: &[String], role: &str, column: &str, instead: Option<&str>) -> Error {
-    let names: Vec<&str> = header.iter().map(String::as_str).collect();
-    let advice = suggestions::advice(column, "the file has", &names);
-    let or = instead.map(|other| format!(" or \"{other}\"")).unwrap_or_default();
-    let purpose = if role == column { String::new() } else { format!(" for {role}") };
-    let error = Error::input(format!("column \"{column}\"{or}{purpose} is missing"));
-    if !names.is_empty() && names.iter().all(|name| name.parse::<f64>().is_ok()) {
-        return error.help("the first line must hold the names of the columns, but it holds numbers");
-    }
-    error.help(format!("{advice}; name the right one under [columns] of the model file: {role} = \"…\""))
+    let column = entry(&value, Dimension::of_si(unit), entries)?;
+    Ok(InputColumn { role: value.name.clone(), column, instead: None })
 }
 
 #[cfg(test)]
@@ -231,6 +323,8 @@ mod tests {
             heading: None,
             trailer_headings: vec!["phi_1".into()],
             inputs: vec![drive],
+            entries: BTreeMap::new(),
+            geographic: false,
         }
     }
 
@@ -241,10 +335,24 @@ mod tests {
     #[test]
     fn the_header_decides_what_was_left_out() {
         let found = resolve(&columns(), "speed,t,x,y,phi_1").unwrap();
-        assert_eq!((found.heading, found.inputs[0].role.as_str(), found.inputs[0].index), (None, "speed", 0));
+        assert_eq!(
+            (
+                found.heading.clone().map(|h| h.places[0]),
+                found.inputs[0].role.as_str(),
+                found.inputs[0].cells.places[0]
+            ),
+            (None, "speed", 0)
+        );
         let found = resolve(&columns(), "speed,t,x,y,phi_1,wheel_rate,heading").unwrap();
-        assert_eq!((found.heading, found.inputs[0].role.as_str(), found.inputs[0].index), (Some(6), "wheel_rate", 5));
-        assert_eq!((found.time, found.x, found.y, found.trailer_headings), (1, 2, 3, vec![4]));
+        assert_eq!(
+            (
+                found.heading.clone().map(|h| h.places[0]),
+                found.inputs[0].role.as_str(),
+                found.inputs[0].cells.places[0]
+            ),
+            (Some(6), "wheel_rate", 5)
+        );
+        assert_eq!([&found.time, &found.x, &found.y, &found.trailer_headings[0]].map(|c| c.places[0]), [1, 2, 3, 4]);
     }
 
     #[test]
@@ -254,8 +362,8 @@ mod tests {
         assert!(error.contains("\"phi\" for heading is missing; did you mean \"Phi\"?"), "{error}");
         let error = resolve(&columns(), "t,x,y,phi_1,x,speed").unwrap_err().to_string();
         assert!(error.contains("\"x\" stands twice in the header, as cell 2 and cell 5"), "{error}");
-        let error = resolve(&columns(), "0,1,2,3,4,5").unwrap_err().to_string();
-        assert!(error.contains("holds numbers"), "{error}");
+        let error = resolve(&columns(), "1,2,3,4,5,6").unwrap_err().to_string();
+        assert!(error.contains("no names of columns: they are called 1 to 6"), "{error}");
         assert!(resolve(&columns(), "t,x,y,a,a,phi_1,speed").is_ok(), "columns not used may repeat");
     }
 }

@@ -21,6 +21,7 @@ pub(crate) struct Records<R> {
     cells: Vec<Place>,
     line: usize,
     next_line: usize,
+    separator: u8,
 }
 
 /// Where a cell begins in the bytes of the record, and what it holds in the text of the cells.
@@ -30,15 +31,20 @@ struct Place {
 }
 
 impl<R: BufRead> Records<R> {
-    pub fn new(input: R) -> Self {
+    /// Cells parted by a mark; a blank stands for any number of blanks and tabs.
+    pub fn new(input: R, separator: u8) -> Self {
         // A carriage return before the line feed is a blank at the end of a cell; a bare one ends no line.
-        let splitter = ReaderBuilder::new().terminator(Terminator::Any(b'\n')).build();
-        Self { input, splitter, raw: vec![], text: vec![], cells: vec![], line: 0, next_line: 1 }
+        let splitter = ReaderBuilder::new().terminator(Terminator::Any(b'\n')).delimiter(separator).build();
+        Self { input, splitter, raw: vec![], text: vec![], cells: vec![], line: 0, next_line: 1, separator }
     }
 
-    /// The input back, read as far as the last record.
-    pub fn into_input(self) -> R {
-        self.input
+    /// Passes over lines.
+    pub fn skip(&mut self, lines: usize) -> io::Result<()> {
+        for _ in 0..lines {
+            self.raw.clear();
+            self.read_line()?;
+        }
+        Ok(())
     }
 
     /// Goes to the next record that is not blank; false at the end of the input.
@@ -86,8 +92,12 @@ impl<R: BufRead> Records<R> {
     }
 
     fn read_line(&mut self) -> io::Result<bool> {
+        let from = self.raw.len();
         let read = self.input.read_until(b'\n', &mut self.raw)? > 0;
         self.next_line += usize::from(read);
+        if self.separator == b' ' {
+            self.raw[from..].iter_mut().filter(|b| **b == b'\t').for_each(|b| *b = b' ');
+        }
         Ok(read)
     }
 
@@ -101,8 +111,10 @@ impl<R: BufRead> Records<R> {
     /// Splits the record into its cells; a quoted one may take in further lines.
     fn split(&mut self) -> io::Result<()> {
         let (mut at, mut written) = (0, 0);
+        let tabs = self.separator != b'\t';
+        let blank = |b: &&u8| **b == b' ' || **b == b'\t' && tabs;
         loop {
-            at += self.raw[at..].iter().take_while(|b| matches!(b, b' ' | b'\t')).count();
+            at += self.raw[at..].iter().take_while(blank).count();
             let (start, begun) = (at, written);
             loop {
                 // The text of the cells is never longer than the record.
@@ -113,6 +125,7 @@ impl<R: BufRead> Records<R> {
                     ReadFieldResult::Field { record_end } => {
                         self.cells.push(Place { start, text: begun..written });
                         if record_end {
+                            self.drop_last_blank();
                             return Ok(());
                         }
                         break;
@@ -126,13 +139,23 @@ impl<R: BufRead> Records<R> {
     }
 }
 
+impl<R> Records<R> {
+    /// Blanks at the end of a line part no cell from another.
+    fn drop_last_blank(&mut self) {
+        let blank = |cell: &Place| self.text[cell.text.clone()].trim_ascii().is_empty();
+        if self.separator == b' ' && self.cells.last().is_some_and(blank) {
+            self.cells.pop();
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;
 
     fn all(text: &[u8]) -> Vec<Vec<Vec<u8>>> {
-        let mut records = Records::new(text);
+        let mut records = Records::new(text, b',');
         let mut found = Vec::new();
         while records.advance().unwrap() {
             found.push((0..records.len()).map(|i| records.cell(i).to_vec()).collect());
@@ -147,7 +170,7 @@ mod tests {
 
     #[test]
     fn places_are_those_of_an_editor() {
-        let mut records = Records::new("\u{feff}é, \"b\n\"\"c\" ,d\r\n\r\n1,2".as_bytes());
+        let mut records = Records::new("\u{feff}é, \"b\n\"\"c\" ,d\r\n\r\n1,2".as_bytes(), b',');
         assert!(records.advance().unwrap());
         assert_eq!((0..3).map(|i| records.place(i)).collect::<Vec<_>>(), [(1, 1), (1, 4), (2, 7)]);
         assert_eq!(records.cell(1), b"b\n\"c".as_slice());
@@ -168,6 +191,26 @@ mod tests {
         }
     }
 
+    #[test]
+    fn other_marks_part_cells_too() {
+        let cells = |text: &str, mark: u8| {
+            let mut records = Records::new(text.as_bytes(), mark);
+            let mut found = vec![];
+            while records.advance().unwrap() {
+                let row = (0..records.len()).map(|i| String::from_utf8_lossy(records.cell(i)).into_owned());
+                found.push(row.collect::<Vec<_>>().join("/"));
+            }
+            found
+        };
+        assert_eq!(cells("a;b,c;\n1,5;;2\r\n", b';'), ["a/b,c/", "1,5//2"]);
+        assert_eq!(cells("a\tb c\t\n\t\t2\r\n", b'\t'), ["a/b c/", "//2"]);
+        assert_eq!(cells("  a  b\tc \r\n1 2 3\n", b' '), ["a/b/c", "1/2/3"]);
+        let mut records = Records::new(b"#\n# \"a\n1 22\n".as_slice(), b' ');
+        records.skip(2).unwrap();
+        assert!(records.advance().unwrap());
+        assert_eq!((records.line(), records.place(1), records.len()), (3, (3, 3), 2));
+    }
+
     /// A doubled quote is one, wherever it stands: beside each other, at an end, before a line end within the cell.
     #[test]
     fn doubled_quotes_do_not_end_a_cell() {
@@ -175,7 +218,7 @@ mod tests {
         assert_eq!(cells("\"a\"\"b\",c"), [b"a\"b".to_vec(), b"c".to_vec()]);
         assert_eq!(cells("\"\"\"\"\"\",c"), [b"\"\"".to_vec(), b"c".to_vec()]);
         assert_eq!(cells("\"x\"\"\ny\"\",\",c"), [b"x\"\ny\",".to_vec(), b"c".to_vec()]);
-        let mut records = Records::new(b"1\n\"a\nb\"\n2\n".as_slice());
+        let mut records = Records::new(b"1\n\"a\nb\"\n2\n".as_slice(), b',');
         let spans = std::iter::from_fn(|| records.advance().unwrap().then(|| (records.line(), records.spans_lines())));
         assert_eq!(spans.collect::<Vec<_>>(), [(1, false), (2, true), (4, false)]);
     }

@@ -1,24 +1,29 @@
 //! Some columns of a CSV file as numbers, in one pass.
 
 use super::csv_cell::{Cell, advice};
+use super::csv_dialect::{Beginning, Dialect, decimal};
 use super::csv_records::Records;
+use super::place::{Form, Place};
+use super::stream::{Bytes, Hash, unpacked};
+use super::time_stamp::{Origin, iso_8601, nanoseconds};
 use crate::error::{Error, Result};
 use crate::files::toml::suggestions::shown;
-use crate::files::toml::text::{hex, not_text, not_utf8, open, unreadable};
-use sha2::{Digest, Sha256};
+use crate::files::toml::text::{not_text, not_utf8, open, unreadable};
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read};
+use std::io::{self, BufRead, Chain, Cursor, Read};
 use std::path::{Path, PathBuf};
 
-/// Bytes read at a time.
-const BUFFER: usize = 1 << 16;
-
-/// An open CSV file whose header has been read.
-pub(crate) struct Sheet<R: Read = File> {
+/// An open table of text whose header has been read.
+pub(crate) struct Sheet {
     path: PathBuf,
-    records: Records<BufReader<Hashing<R>>>,
+    records: Records<Chain<Cursor<Vec<u8>>, Bytes>>,
+    hash: Hash,
+    separator: u8,
+    /// The record last read is the first row.
+    at_first_row: bool,
     pub header: Vec<String>,
+    /// What times are counted from, where they are whole numbers or dates.
+    pub origin: Origin,
 }
 
 /// The usable rows of some columns.
@@ -31,24 +36,8 @@ pub(crate) struct Numbers {
     pub dropped: BTreeMap<String, usize>,
     /// SHA-256 of the whole file, hexadecimal.
     pub sha256: String,
-}
-
-/// A reader that takes the hash of what passes.
-struct Hashing<R> {
-    input: R,
-    hash: Sha256,
-}
-
-impl<R: Read> Read for Hashing<R> {
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        loop {
-            match self.input.read(buffer) {
-                // A signal on the way is no fault of the file.
-                Err(e) if e.kind() == io::ErrorKind::Interrupted => {}
-                read => return read.inspect(|&read| self.hash.update(&buffer[..read])),
-            }
-        }
-    }
+    /// What times are counted from.
+    pub origin: Origin,
 }
 
 impl Sheet {
@@ -56,21 +45,36 @@ impl Sheet {
     pub fn open(path: &Path) -> Result<Self> {
         Self::new(open(path)?, path)
     }
-}
 
-impl<R: Read> Sheet<R> {
     /// Reads the header of what a reader gives; errors speak of the path.
-    pub fn new(input: R, path: &Path) -> Result<Self> {
-        let mut input = BufReader::with_capacity(BUFFER, Hashing { input, hash: Sha256::new() });
+    pub fn new(input: impl Read + Send + 'static, path: &Path) -> Result<Self> {
+        let (mut input, hash) = unpacked(input, path)?;
         let start = input.fill_buf().map_err(|e| unreadable(path, &e))?;
+        if let Some(error) = bag_of_another_kind(start) {
+            return Err(error.at_file(path));
+        }
         if start.contains(&0) || start.starts_with(b"\xff\xfe") || start.starts_with(b"\xfe\xff") {
             return Err(not_text(start).at_file(path));
         }
-        let mut sheet = Self { path: path.to_path_buf(), records: Records::new(input), header: Vec::new() };
-        if !sheet.advance()? {
+        let (beginning, read) = beginning(&mut input).map_err(|e| unreadable(path, &e))?;
+        let Dialect { separator, skipped, names } = beginning.dialect();
+        let mut sheet = Self {
+            path: path.to_path_buf(),
+            records: Records::new(Cursor::new(read).chain(input), separator),
+            hash,
+            separator,
+            at_first_row: names.is_some(),
+            header: Vec::new(),
+            origin: Origin::default(),
+        };
+        sheet.records.skip(skipped).map_err(|e| unreadable(path, &e))?;
+        if !sheet.next_record()? {
             return Err(Error::input("is empty").help("check that this is the file you meant").at_file(path));
         }
-        sheet.read_header()?;
+        match names {
+            Some(names) => sheet.header = names,
+            None => sheet.read_header()?,
+        }
         Ok(sheet)
     }
 
@@ -80,12 +84,14 @@ impl<R: Read> Sheet<R> {
     }
 
     /// Reads all rows; `wanted` are places in the header.
+    #[cfg(test)]
     pub fn numbers(self, wanted: &[usize]) -> Result<Numbers> {
-        self.numbers_and(wanted, &[])
+        let wanted: Vec<Place> = wanted.iter().map(|&index| Place { index, form: Form::Number }).collect();
+        self.numbers_and(&wanted, &[])
     }
 
     /// Reads all rows, and with them columns for which no row is left out: a cell without a finite number is NaN there.
-    pub fn numbers_and(mut self, wanted: &[usize], more: &[usize]) -> Result<Numbers> {
+    pub fn numbers_and(mut self, wanted: &[Place], more: &[Place]) -> Result<Numbers> {
         let all = [wanted, more].concat();
         let mut columns = vec![Vec::new(); all.len()];
         let mut row = vec![0.0; all.len()];
@@ -98,12 +104,29 @@ impl<R: Read> Sheet<R> {
                 Some(why) => *dropped.entry(why).or_insert(0) += 1,
             }
         }
-        let sha256 = hex(&self.records.into_input().into_inner().hash.finalize());
-        Ok(Numbers { columns, rows, dropped, sha256 })
+        Ok(Numbers { columns, rows, dropped, sha256: self.hash.finish(), origin: self.origin })
     }
 
-    fn advance(&mut self) -> Result<bool> {
+    /// The texts of the first rows, a row each, for someone to look at.
+    pub fn texts(mut self, rows: usize) -> Result<Vec<Vec<String>>> {
+        let mut found = Vec::new();
+        while found.len() < rows && self.advance()? {
+            let cell = |i: usize| {
+                let cell = self.records.cell(i);
+                String::from_utf8_lossy(&decimal(cell, self.separator)).into_owned()
+            };
+            found.push((0..self.records.len()).map(cell).collect());
+        }
+        Ok(found)
+    }
+
+    fn next_record(&mut self) -> Result<bool> {
         self.records.advance().map_err(|e| unreadable(&self.path, &e))
+    }
+
+    /// Goes to the next row.
+    fn advance(&mut self) -> Result<bool> {
+        if std::mem::take(&mut self.at_first_row) { Ok(true) } else { self.next_record() }
     }
 
     fn read_header(&mut self) -> Result<()> {
@@ -114,7 +137,7 @@ impl<R: Read> Sheet<R> {
             })?;
             self.header.push(name.trim().to_string());
         }
-        match separator(&self.header) {
+        match no_header(&self.header) {
             Some((message, advice)) => Err(self.at_header(Error::input(message).help(advice))),
             None => Ok(()),
         }
@@ -134,10 +157,11 @@ impl<R: Read> Sheet<R> {
     }
 
     /// Fills the row, or says why it must be left out: for one of the first cells, so many as are needed.
-    fn read_row(&self, places: &[usize], needed: usize, row: &mut [f64]) -> Result<Option<String>> {
+    fn read_row(&mut self, places: &[Place], needed: usize, row: &mut [f64]) -> Result<Option<String>> {
         let mut why = None;
-        for (i, (value, &index)) in row.iter_mut().zip(places).enumerate() {
-            match Cell::read(self.records.cell(index)) {
+        for (i, (value, &place)) in row.iter_mut().zip(places).enumerate() {
+            let index = place.index;
+            match self.cell(place) {
                 Cell::Number(number) => *value = number,
                 Cell::Word => return Err(self.word(index)),
                 Cell::Blank | Cell::Infinite if i >= needed => *value = f64::NAN,
@@ -150,6 +174,21 @@ impl<R: Read> Sheet<R> {
         Ok(why.map(|(why, index)| format!("{why} in column \"{}\"", self.header[index])))
     }
 
+    fn cell(&mut self, place: Place) -> Cell {
+        let cell = decimal(self.records.cell(place.index), self.separator);
+        let stamp = |text: &str| match place.form {
+            Form::Stamp(digits) => nanoseconds(text, digits),
+            _ => iso_8601(text),
+        };
+        match (place.form, Cell::read(&cell)) {
+            (Form::Time, Cell::Word) | (Form::Stamp(_), Cell::Number(_)) => {
+                let found = std::str::from_utf8(&cell).ok().and_then(stamp);
+                found.map_or(Cell::Word, |ns| Cell::Number(self.origin.seconds(ns)))
+            }
+            (_, cell) => cell,
+        }
+    }
+
     fn word(&self, index: usize) -> Error {
         let word = String::from_utf8_lossy(self.records.cell(index));
         let (line, column) = self.records.place(index);
@@ -160,36 +199,63 @@ impl<R: Read> Sheet<R> {
     }
 }
 
-/// Another separator of cells than a comma, or of lines than a line feed.
-fn separator(header: &[String]) -> Option<(String, &'static str)> {
+/// The first lines up to one that is no comment, and their bytes.
+fn beginning(input: &mut Bytes) -> io::Result<(Beginning, Vec<u8>)> {
+    let (mut lines, mut all) = (vec![], vec![]);
+    loop {
+        let mut line = vec![];
+        let read = input.read_until(b'\n', &mut line)?;
+        all.extend(&line);
+        let comment = Beginning::is_comment(&line);
+        if read > 0 {
+            lines.push(line);
+        }
+        if read == 0 || !comment {
+            return Ok((Beginning::new(lines), all));
+        }
+    }
+}
+
+/// What is a bag of messages that is not read here, and how it becomes one that is.
+fn bag_of_another_kind(start: &[u8]) -> Option<Error> {
+    let (what, how) = match () {
+        () if start.starts_with(b"SQLite format 3\0") => {
+            ("a ROS 2 bag in SQLite (.db3)", "mcap convert BAG.db3 BAG.mcap")
+        }
+        () if start.starts_with(b"#ROSBAG V2.0") => ("a ROS 1 bag", "mcap convert BAG.bag BAG.mcap"),
+        () => return None,
+    };
+    let help = format!("convert it with `{how}` (the tool of mcap.dev) and give the MCAP file");
+    Some(Error::input(format!("is {what}, which is not read as it stands")).help(help))
+}
+
+/// A first line that heads no table, or another mark of the ends of lines than a line feed.
+fn no_header(header: &[String]) -> Option<(&'static str, &'static str)> {
     if header.iter().any(|name| name.contains('\r') && !name.contains('\n')) {
-        return Some(("lines end in bare carriage returns".into(), "save it with Unix or Windows line ends"));
+        return Some(("lines end in bare carriage returns", "save it with Unix or Windows line ends"));
     }
-    let [only] = header else { return None };
-    if only.contains('=') {
-        return Some((
-            "the first line is not the header of a CSV file".into(),
-            "give a log with a column for each quantity",
-        ));
+    match header {
+        [only] if only.contains('=') => {
+            Some(("the first line is not the header of a CSV file", "give a log with a column for each quantity"))
+        }
+        _ => None,
     }
-    let marks = [(';', "semicolons"), ('\t', "tabs"), ('|', "bars"), (' ', "blanks")];
-    let (mark, name) = marks.into_iter().find(|(mark, _)| only.contains(*mark))?;
-    let advice = "save it with commas between the cells, and points in the decimals";
-    Some((format!("the header is separated by {name} ({mark:?}), not commas"), advice))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files::toml::text::hex;
+    use sha2::{Digest, Sha256};
 
     fn read(text: &str, wanted: &[usize]) -> Result<Numbers> {
-        Sheet::new(text.as_bytes(), Path::new("run.csv"))?.numbers(wanted)
+        Sheet::new(Cursor::new(text.to_string()), Path::new("run.csv"))?.numbers(wanted)
     }
 
     /// Every other read is interrupted by a signal.
-    struct Disturbed<'a>(&'a [u8], bool);
+    struct Disturbed(&'static [u8], bool);
 
-    impl Read for Disturbed<'_> {
+    impl Read for Disturbed {
         fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
             self.1 = !self.1;
             if self.1 { Err(io::ErrorKind::Interrupted.into()) } else { self.0.read(buffer) }
@@ -214,7 +280,7 @@ mod tests {
     fn columns_not_wanted_may_hold_anything() {
         let mut bytes = b"\"a \", 'b' ,c\n1,word,\n".to_vec();
         bytes.extend(b"2,\xff\xfe,\"x,\ny\"\n");
-        let sheet = Sheet::new(bytes.as_slice(), Path::new("run.csv")).unwrap();
+        let sheet = Sheet::new(Cursor::new(bytes), Path::new("run.csv")).unwrap();
         assert_eq!(sheet.header, ["a", "'b'", "c"]);
         assert_eq!(sheet.numbers(&[0]).unwrap().columns, [[1.0, 2.0]]);
     }
@@ -236,8 +302,8 @@ mod tests {
     /// A signal on the way is passed over; a disk that fails is told at once and not asked for ever.
     #[test]
     fn a_signal_is_passed_over_and_a_fault_is_not() {
-        struct Faulty<'a>(&'a [io::ErrorKind], &'a [u8]);
-        impl Read for Faulty<'_> {
+        struct Faulty(&'static [io::ErrorKind], &'static [u8]);
+        impl Read for Faulty {
             fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
                 let Some((kind, rest)) = self.0.split_first() else { return self.1.read(buffer) };
                 self.0 = rest;

@@ -1,9 +1,12 @@
 //! The inputs of a simulation: times, inputs, and perhaps the pose it begins with.
 
+use super::cells::Cells;
 use super::columns::Resolved;
 use super::csv_table::Numbers;
 use super::log_file::Log;
-use super::run::{arrange, enough};
+use super::reading;
+use super::run::{self, arrange, enough};
+use super::tangent_plane::tangent_plane;
 use crate::error::Result;
 use crate::files::{Initial, ModelFile};
 use std::path::Path;
@@ -17,6 +20,8 @@ pub struct Inputs {
     pub roles: Vec<String>,
     /// The inputs, one `Vec` per role.
     pub columns: Vec<Vec<f64>>,
+    /// As in a [`Run`](crate::files::Run): of an input that is read as differences, the least of them.
+    pub differences: Vec<Option<f64>>,
     /// The measured pose in the first row, where it has one.
     pub pose: Option<Initial>,
     /// SHA-256 of the file's bytes, hexadecimal.
@@ -51,11 +56,13 @@ impl Inputs {
         columns.inputs = model.dynamics.as_ref().map_or(columns.inputs, |d| d.inputs.clone());
         let whole = columns.resolve(sheet.header()).ok().filter(|r| r.heading.is_some() && !sheet.has_topics());
         let (time, inputs) = columns.resolve_inputs(sheet.header()).map_err(|e| sheet.at_header(e))?;
-        let mut wanted = vec![time];
-        wanted.extend(inputs.iter().map(|i| i.index));
-        let places: Vec<usize> = whole.iter().flat_map(pose_columns).collect();
-        let mut numbers = sheet.numbers_and(&wanted, &places)?;
-        let poses = numbers.columns.split_off(wanted.len());
+        let driven: Vec<&Cells> = std::iter::once(&time).chain(inputs.iter().map(|i| &i.cells)).collect();
+        let measured: Vec<&Cells> = whole.iter().flat_map(Resolved::pose).collect();
+        let mut numbers = reading::read(sheet, &driven, &measured)?;
+        let mut poses = numbers.columns.split_off(driven.len());
+        if let (true, [x, y, ..]) = (columns.geographic, poses.as_mut_slice()) {
+            (*x, *y) = tangent_plane(y, x);
+        }
         let times = numbers.columns[0].clone();
         let mut warnings = arrange(&mut numbers);
         enough(&numbers).map_err(|e| e.at_file(path))?;
@@ -65,23 +72,18 @@ impl Inputs {
             warnings
                 .push("the first row has no whole pose, and no other row's is used: it begins at the origin".into());
         }
-        let mut columns = numbers.columns;
+        let mut columns = numbers.columns.into_iter();
+        let time = columns.next().unwrap_or_default();
         Ok(Self {
-            time: columns.remove(0),
-            roles: inputs.into_iter().map(|i| i.role).collect(),
-            columns,
+            columns: run::inputs(&time, columns, &driven[1..]),
+            differences: driven[1..].iter().map(|cells| run::difference(cells)).collect(),
+            time,
+            roles: inputs.iter().map(|i| i.role.clone()).collect(),
             pose: first.map(|pose| initial(&pose, model.trailers())),
             sha256: numbers.sha256,
             warnings,
         })
     }
-}
-
-fn pose_columns(r: &Resolved) -> Vec<usize> {
-    let mut wanted = vec![r.x, r.y];
-    wanted.extend(r.heading);
-    wanted.extend(&r.trailer_headings);
-    wanted
 }
 
 /// How many rows are not used, and why.

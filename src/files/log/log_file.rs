@@ -1,18 +1,21 @@
 //! A log of whatever format: columns by name, rows of numbers.
 
 use super::csv_table::{Numbers, Sheet};
+use super::folder::Folder;
 #[cfg(feature = "mcap")]
 use super::mcap::bag::Bag;
 #[cfg(feature = "parquet")]
 use super::parquet::ParquetLog;
+use super::place::Place;
+use super::time_stamp::Origin;
 use crate::error::{Error, Result};
-use crate::files::toml::text::open;
+use crate::files::toml::text::{is_folder, open};
 use std::io::Read;
 use std::path::Path;
 
 /// An open log whose columns are known.
 pub(crate) enum Log {
-    /// Comma-separated values.
+    /// A table of text.
     Csv(Box<Sheet>),
     /// Apache Parquet.
     #[cfg(feature = "parquet")]
@@ -20,6 +23,8 @@ pub(crate) enum Log {
     /// A bag of ROS 2 messages in an MCAP file.
     #[cfg(feature = "mcap")]
     Bag(Bag),
+    /// Tables of text in a folder.
+    Folder(Box<Folder>),
 }
 
 /// What a file is, by its first bytes or its name.
@@ -28,6 +33,7 @@ enum Format {
     Csv,
     Parquet,
     Mcap,
+    Folder,
 }
 
 /// What files begin with.
@@ -41,6 +47,10 @@ impl Log {
             Format::Csv => Ok(Self::Csv(Box::new(Sheet::open(path)?))),
             Format::Parquet => parquet(path),
             Format::Mcap => bag(path),
+            Format::Folder => match Folder::open(path)? {
+                Some(folder) => Ok(Self::Folder(Box::new(folder))),
+                None => Err(is_folder(path)),
+            },
         }
     }
 
@@ -52,6 +62,7 @@ impl Log {
             Self::Parquet(log) => &log.header,
             #[cfg(feature = "mcap")]
             Self::Bag(bag) => &bag.header,
+            Self::Folder(folder) => &folder.header,
         }
     }
 
@@ -63,36 +74,50 @@ impl Log {
             Self::Parquet(log) => error.at_file(&log.path),
             #[cfg(feature = "mcap")]
             Self::Bag(bag) => error.at_file(&bag.path),
+            Self::Folder(folder) => error.at_file(&folder.path),
         }
     }
 
-    /// Whether columns come from topics that have times of their own.
+    /// Whether columns come from topics or files that have times of their own.
     pub fn has_topics(&self) -> bool {
-        #[cfg(feature = "mcap")]
-        if matches!(self, Self::Bag(_)) {
-            return true;
+        match self {
+            #[cfg(feature = "mcap")]
+            Self::Bag(_) => true,
+            Self::Folder(_) => true,
+            _ => false,
         }
-        false
     }
 
-    /// Reads all rows; `wanted` are places in the header, the time first.
-    pub fn numbers(self, wanted: &[usize]) -> Result<Numbers> {
-        self.numbers_and(wanted, &[])
+    /// Counts times that are whole numbers or dates from where another file's are.
+    pub fn counted_from(&mut self, origin: Origin) {
+        match self {
+            Self::Csv(sheet) => sheet.origin = origin,
+            #[cfg(feature = "parquet")]
+            Self::Parquet(log) => log.origin = origin,
+            #[cfg(feature = "mcap")]
+            Self::Bag(_) => {}
+            Self::Folder(folder) => folder.origin = origin,
+        }
     }
 
-    /// Reads all rows, and with them columns for which no row is left out; topics, with times of their own, have none.
-    pub fn numbers_and(self, wanted: &[usize], more: &[usize]) -> Result<Numbers> {
+    /// Reads all rows, and with them columns for which no row is left out; `wanted` are cells of a row, the time first.
+    /// Topics, with times of their own, have none.
+    pub fn numbers_and(self, wanted: &[Place], more: &[Place]) -> Result<Numbers> {
         match self {
             Self::Csv(sheet) => sheet.numbers_and(wanted, more),
             #[cfg(feature = "parquet")]
             Self::Parquet(log) => log.numbers_and(wanted, more),
             #[cfg(feature = "mcap")]
-            Self::Bag(bag) => bag.numbers(wanted),
+            Self::Bag(bag) => bag.numbers(&wanted.iter().map(|place| place.index).collect::<Vec<_>>()),
+            Self::Folder(folder) => Err(is_folder(&folder.path)),
         }
     }
 }
 
 fn format(path: &Path) -> Result<Format> {
+    if path.is_dir() {
+        return Ok(Format::Folder);
+    }
     // What stands in a pipe can be read once.
     if std::fs::metadata(path).is_ok_and(|m| !m.is_file() && !m.is_dir()) {
         return Ok(Format::Csv);

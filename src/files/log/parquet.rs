@@ -1,6 +1,8 @@
 //! Logs in Apache Parquet files: flat columns of numbers.
 
 use super::csv_table::Numbers;
+use super::place::{Form, Place};
+use super::time_stamp::{Origin, of_number};
 use super::usable_rows::{hash, usable};
 use crate::error::{Error, Result};
 use crate::files::toml::suggestions::shown;
@@ -22,6 +24,8 @@ pub(crate) struct ParquetLog {
     pub path: PathBuf,
     pub header: Vec<String>,
     reader: SerializedFileReader<File>,
+    /// What times are counted from, where they are whole numbers.
+    pub origin: Origin,
 }
 
 impl ParquetLog {
@@ -30,25 +34,38 @@ impl ParquetLog {
         let reader = SerializedFileReader::new(open(path)?).map_err(|e| unreadable(path, &e))?;
         let columns = reader.metadata().file_metadata().schema_descr().columns();
         let header = columns.iter().map(|c| c.path().string()).collect();
-        Ok(Self { path: path.to_path_buf(), header, reader })
+        Ok(Self { path: path.to_path_buf(), header, reader, origin: Origin::default() })
     }
 
     /// Reads all rows; `wanted` are places in the header.
-    pub fn numbers_and(self, wanted: &[usize], more: &[usize]) -> Result<Numbers> {
-        let columns = wanted.iter().chain(more).map(|c| self.column(*c)).collect::<Result<Vec<Vec<f64>>>>()?;
+    pub fn numbers_and(mut self, wanted: &[Place], more: &[Place]) -> Result<Numbers> {
+        let columns = wanted.iter().chain(more).map(|place| self.column(*place)).collect::<Result<Vec<Vec<f64>>>>()?;
         if columns.windows(2).any(|pair| pair[0].len() != pair[1].len()) {
             return Err(broken(&self.path, "its columns have different lengths"));
         }
-        let names: Vec<&str> = wanted.iter().map(|c| self.header[*c].as_str()).collect();
-        Ok(usable(columns, &names, hash(&self.path)?))
+        let names: Vec<&str> = wanted.iter().map(|c| self.header[c.index].as_str()).collect();
+        Ok(usable(columns, &names, hash(&self.path)?, self.origin))
     }
 
-    fn column(&self, c: usize) -> Result<Vec<f64>> {
+    fn column(&mut self, place: Place) -> Result<Vec<f64>> {
+        let c = place.index;
         let metadata = self.reader.metadata();
         let described = metadata.file_metadata().schema_descr().column(c);
-        let scale = self.scale(&described)?;
+        let mut scale = self.scale(&described)?;
+        // A time stamp knows its own unit.
+        let digits = match (place.form, described.physical_type(), scale) {
+            (Form::Stamp(_), Type::INT64, 1e-3) => Some(3),
+            (Form::Stamp(_), Type::INT64, 1e-6) => Some(6),
+            (Form::Stamp(_), Type::INT64, 1e-9) => Some(9),
+            (Form::Stamp(digits), Type::INT64, _) => Some(digits),
+            _ => None,
+        };
+        if digits.is_some() {
+            scale = 1.0;
+        }
         let unsigned = is_unsigned(&described);
         let failed = |e: ParquetError| unreadable(&self.path, &e);
+        let mut origin = self.origin;
         let mut values = Vec::new();
         for group in 0..self.reader.num_row_groups() {
             let rows = self.reader.get_row_group(group).map_err(failed)?;
@@ -63,6 +80,11 @@ impl ParquetLog {
                     let number = |x: i32| if unsigned { f64::from(x.cast_unsigned()) } else { f64::from(x) };
                     all(&mut r, &described, &mut values, number).map_err(failed)?;
                 }
+                ColumnReader::Int64ColumnReader(mut r) if digits.is_some() => {
+                    let unit = 10i128.pow(9 - digits.unwrap_or(9));
+                    let number = |x: i64| origin.seconds(i128::from(x) * unit);
+                    all(&mut r, &described, &mut values, number).map_err(failed)?;
+                }
                 ColumnReader::Int64ColumnReader(mut r) => {
                     let number = |x: i64| if unsigned { x.cast_unsigned() as f64 } else { x as f64 };
                     all(&mut r, &described, &mut values, number).map_err(failed)?;
@@ -71,6 +93,11 @@ impl ParquetLog {
             }
         }
         values.iter_mut().for_each(|v| *v *= scale);
+        if let (Form::Stamp(digits), false) = (place.form, digits.is_some()) {
+            let seconds = |v: f64| of_number(v, digits).map_or(f64::NAN, |ns| origin.seconds(ns));
+            values = values.into_iter().map(seconds).collect();
+        }
+        self.origin = origin;
         Ok(values)
     }
 
@@ -114,7 +141,7 @@ fn all<T: DataType>(
     reader: &mut ColumnReaderImpl<T>,
     column: &ColumnDescriptor,
     to: &mut Vec<f64>,
-    number: impl Fn(T::T) -> f64,
+    mut number: impl FnMut(T::T) -> f64,
 ) -> std::result::Result<(), ParquetError>
 where
     T::T: Copy,

@@ -1,12 +1,16 @@
 //! A logged run: times, measured poses and inputs, ready to compute with.
 
+use super::cells::{self, Cells};
 use super::columns::Resolved;
 use super::csv_table::{Numbers, Sheet};
 use super::log_file::Log;
+use super::reading;
 use super::row_order;
+use super::tangent_plane::tangent_plane;
 use crate::error::{Error, Result};
 use crate::files::model::model_file::ModelFile;
 use std::collections::BTreeMap;
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 /// The fewest rows of a run: an interval has two ends.
@@ -31,10 +35,15 @@ pub struct Run {
     pub heading: Option<Vec<f64>>,
     /// Measured absolute headings of each trailer, rad, without jumps; empty when not measured.
     pub trailer_headings: Vec<Vec<f64>>,
+    /// Standard deviations of the pose that the log gives.
+    pub deviations: Deviations,
     /// What each of the inputs is.
     pub roles: Vec<String>,
     /// The inputs as logged, one `Vec` per role.
     pub inputs: Vec<Vec<f64>>,
+    /// Of an input that is read as differences of a count or a position, and so is the mean since the row before: the least
+    /// difference, in the input's unit times s, zero where it is not known. `None` for any other input.
+    pub differences: Vec<Option<f64>>,
     /// How many rows of the file were left out.
     pub rows_dropped: usize,
     /// How many rows were left out for each reason.
@@ -58,6 +67,17 @@ pub struct Apart {
     pub one_clock: bool,
 }
 
+/// Standard deviations of the measured pose, row by row, NaN where a row has none.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Deviations {
+    /// Of x, m.
+    pub x: Option<Vec<f64>>,
+    /// Of y, m.
+    pub y: Option<Vec<f64>>,
+    /// Of the heading, rad.
+    pub heading: Option<Vec<f64>>,
+}
+
 impl Run {
     /// Reads a log by the columns of a model file, in one pass; a bag, whose topics have times of their own, in two.
     pub fn read(path: impl AsRef<Path>, model: &impl AsRef<ModelFile>) -> Result<Self> {
@@ -66,13 +86,7 @@ impl Run {
         if log.has_topics() {
             return Self::read_bag(path, model);
         }
-        let found = model.columns.resolve(log.header()).map_err(|e| log.at_header(e))?;
-        let inputs = driven(&found);
-        let run = Self::of(path, log.numbers(&wanted(&found))?, found)?;
-        if !run.lacks_cells() {
-            return Ok(run);
-        }
-        Ok(run.with_inputs(Log::open(path)?.numbers(&inputs)?))
+        Self::of(path, log, &|| Log::open(path), model)
     }
 
     /// A log that is at hand as text; `name` stands for its file.
@@ -81,14 +95,29 @@ impl Run {
     /// As [`Run::read`].
     pub fn parse(name: &str, text: &str, model: &ModelFile) -> Result<Self> {
         let path = Path::new(name);
-        let sheet = Sheet::new(text.as_bytes(), path)?;
-        let found = model.columns.resolve(&sheet.header).map_err(|e| sheet.at_header(e))?;
-        let inputs = driven(&found);
-        let run = Self::of(path, sheet.numbers(&wanted(&found))?, found)?;
+        let open = || Ok(Log::Csv(Box::new(Sheet::new(Cursor::new(text.to_string()), path)?)));
+        Self::of(path, open()?, &open, model)
+    }
+
+    fn of(path: &Path, log: Log, again: &dyn Fn() -> Result<Log>, model: &ModelFile) -> Result<Self> {
+        let found = model.columns.resolve(log.header()).map_err(|e| log.at_header(e))?;
+        let mut numbers = reading::read(log, &found.needed(), &found.spare())?;
+        cells::mark_absent(&mut numbers, found.needed().len());
+        let whole = numbers.columns[0].len();
+        if 2 * whole < numbers.rows
+            && let Some(run) = Self::read_outer_join(path, again()?, &found, whole)?
+        {
+            return Ok(run);
+        }
+        let warnings = arrange(&mut numbers);
+        enough(&numbers).map_err(|e| e.at_file(path))?;
+        let driven: Vec<Cells> = found.driven().into_iter().cloned().collect();
+        let run = Self::build(path, found, numbers, warnings);
         if !run.lacks_cells() {
             return Ok(run);
         }
-        Ok(run.with_inputs(Sheet::new(text.as_bytes(), path)?.numbers(&inputs)?))
+        let driven: Vec<&Cells> = driven.iter().collect();
+        Ok(run.with_inputs(reading::read(again()?, &driven, &[])?, &driven))
     }
 
     /// Whether rows were left out for what a cell of them holds.
@@ -98,35 +127,35 @@ impl Run {
 
     /// The run with the inputs of all rows that have them. A row whose pose is blank says nothing of where the vehicle is,
     /// and still what was done to it: without its inputs those around it would be taken to go on.
-    fn with_inputs(mut self, mut numbers: Numbers) -> Self {
+    fn with_inputs(mut self, mut numbers: Numbers, driven: &[&Cells]) -> Self {
         arrange(&mut numbers);
         let mut columns = numbers.columns.into_iter();
         let time = columns.next().unwrap_or_default();
         if time.len() <= self.time.len() {
             return self;
         }
-        self.inputs = columns.collect();
+        self.inputs = inputs(&time, columns, &driven[1..]);
         self.apart = Some(Apart { time, truth: self.path.clone(), truth_sha256: self.sha256.clone(), one_clock: true });
         self
-    }
-
-    fn of(path: &Path, mut numbers: Numbers, found: Resolved) -> Result<Self> {
-        let warnings = arrange(&mut numbers);
-        enough(&numbers).map_err(|e| e.at_file(path))?;
-        Ok(Self::build(path, found, numbers, warnings))
     }
 
     pub(crate) fn build(path: &Path, found: Resolved, numbers: Numbers, warnings: Vec<String>) -> Self {
         let mut columns = numbers.columns.into_iter();
         let mut next = || columns.next().unwrap_or_default();
-        let (time, x, y) = (next(), next(), next());
-        let mut angle = || {
-            let mut angles = next();
-            row_order::unwrap(&mut angles);
-            angles
+        let (time, mut x, mut y) = (next(), next(), next());
+        if found.geographic {
+            (x, y) = tangent_plane(&y, &x);
+        }
+        let heading = found.heading.as_ref().map(|_| cells::unwrapped(next()));
+        let trailer_headings = found.trailer_headings.iter().map(|_| cells::unwrapped(next())).collect();
+        let driven: Vec<&Cells> = found.inputs.iter().map(|input| &input.cells).collect();
+        let inputs = inputs(&time, columns.by_ref(), &driven);
+        let mut deviation = |cells: &Option<Cells>| {
+            let column = cells.as_ref().and_then(|_| columns.next())?;
+            Some(cells::deviations(column))
         };
-        let heading = found.heading.map(|_| angle());
-        let trailer_headings = found.trailer_headings.iter().map(|_| angle()).collect();
+        let [x_of, y_of, heading_of] = &found.deviations;
+        let deviations = Deviations { x: deviation(x_of), y: deviation(y_of), heading: deviation(heading_of) };
         Self {
             name: path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
             path: path.to_path_buf(),
@@ -136,7 +165,9 @@ impl Run {
             y,
             heading,
             trailer_headings,
-            inputs: found.inputs.iter().map(|_| next()).collect(),
+            deviations,
+            inputs,
+            differences: found.inputs.iter().map(|input| difference(&input.cells)).collect(),
             roles: found.inputs.into_iter().map(|input| input.role).collect(),
             rows_dropped: numbers.dropped.values().sum(),
             why_dropped: numbers.dropped,
@@ -146,18 +177,14 @@ impl Run {
     }
 }
 
-/// The columns to read, in the order [`Run::build`] takes them.
-pub(crate) fn wanted(found: &Resolved) -> Vec<usize> {
-    let mut wanted = vec![found.time, found.x, found.y];
-    wanted.extend(found.heading);
-    wanted.extend(&found.trailer_headings);
-    wanted.extend(found.inputs.iter().map(|input| input.index));
-    wanted
+/// Inputs at the times of their rows.
+pub(crate) fn inputs(time: &[f64], columns: impl Iterator<Item = Vec<f64>>, cells: &[&Cells]) -> Vec<Vec<f64>> {
+    cells.iter().zip(columns).map(|(cells, column)| cells.rates(time, cells.positions(column))).collect()
 }
 
-/// The columns of times and inputs.
-fn driven(found: &Resolved) -> Vec<usize> {
-    std::iter::once(found.time).chain(found.inputs.iter().map(|input| input.index)).collect()
+/// The resolution of an input that is the difference of counts or positions.
+pub(crate) fn difference(cells: &Cells) -> Option<f64> {
+    cells.reading.is_difference().then(|| cells.reading.resolution())
 }
 
 /// Sorts rows and settles repeated times; gives warnings.

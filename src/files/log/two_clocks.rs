@@ -1,8 +1,13 @@
 //! A run in two files, inputs and measured poses, each with a clock and a rate of its own.
 
+use super::cells::{self, Cells};
+use super::columns::Resolved;
 use super::csv_table::Numbers;
 use super::log_file::Log;
-use super::run::{Apart, Run, arrange, enough, wanted};
+use super::reading;
+use super::run::{self, Apart, Deviations, Run, arrange, difference, enough};
+use super::time_stamp::Origin;
+use super::trajectories;
 use crate::error::{Error, Result};
 use crate::files::model::model_file::ModelFile;
 use std::collections::BTreeMap;
@@ -57,11 +62,9 @@ impl Run {
         let (inputs, truth) = (inputs.as_ref(), truth.as_ref());
         let sheet = Log::open(inputs)?;
         let (time, found) = model.columns.resolve_inputs(sheet.header()).map_err(|e| sheet.at_header(e))?;
-        let places: Vec<usize> = std::iter::once(time).chain(found.iter().map(|i| i.index)).collect();
-        let (driven, mut warnings) = read(sheet, &places, inputs)?;
-        let sheet = Log::open(truth)?;
-        let pose = model.columns.resolve_truth(sheet.header()).map_err(|e| sheet.at_header(e))?;
-        let (measured, more) = read(sheet, &wanted(&pose), truth)?;
+        let cells: Vec<&Cells> = std::iter::once(&time).chain(found.iter().map(|i| &i.cells)).collect();
+        let (driven, mut warnings) = read(sheet, &cells, &[], inputs)?;
+        let (pose, measured, more) = poses(truth, driven.origin, model)?;
         warnings.extend(more.into_iter().map(|w| format!("{}: {w}", truth.display())));
         let truth_sha256 = measured.sha256.clone();
         let dropped = joined(&driven.dropped, &measured.dropped);
@@ -71,8 +74,9 @@ impl Run {
         let apart = Apart { time, truth: truth.to_path_buf(), truth_sha256, one_clock: false };
         Ok(Self {
             sha256: driven.sha256,
-            roles: found.into_iter().map(|i| i.role).collect(),
-            inputs: columns.collect(),
+            inputs: run::inputs(&apart.time, columns, &cells[1..]),
+            differences: cells[1..].iter().map(|cells| difference(cells)).collect(),
+            roles: found.iter().map(|i| i.role.clone()).collect(),
             rows_dropped: dropped.values().sum(),
             why_dropped: dropped,
             apart: Some(apart),
@@ -84,7 +88,8 @@ impl Run {
     pub(crate) fn read_bag(path: &Path, model: &ModelFile) -> Result<Self> {
         let mut run = Self::read_apart(path, path, model)?;
         let Some(apart) = &mut run.apart else { return Ok(run) };
-        let start = apart.time.first().map_or(0.0, |t| t.floor());
+        // Files of a folder keep their times.
+        let start = apart.time.first().filter(|_| !path.is_dir()).map_or(0.0, |t| t.floor());
         apart.one_clock = true;
         apart.time.iter_mut().chain(&mut run.time).for_each(|t| *t -= start);
         let run = run.aligned(&Clock { offset: 0.0, drift: 0.0, at: 0.0 });
@@ -131,13 +136,37 @@ impl Run {
             y: take(&self.y),
             heading: self.heading.as_ref().map(&take),
             trailer_headings: self.trailer_headings.iter().map(&take).collect(),
+            deviations: Deviations {
+                x: self.deviations.x.as_ref().map(&take),
+                y: self.deviations.y.as_ref().map(&take),
+                heading: self.deviations.heading.as_ref().map(&take),
+            },
             ..self.clone()
         }
     }
 }
 
-fn read(sheet: Log, places: &[usize], path: &Path) -> Result<(Numbers, Vec<String>)> {
-    let mut numbers = sheet.numbers(places)?;
+/// The poses of a file: by the columns of the model file, or as those of a benchmark.
+fn poses(truth: &Path, origin: Origin, model: &ModelFile) -> Result<(Resolved, Numbers, Vec<String>)> {
+    let mut sheet = Log::open(truth)?;
+    // Where the inputs' times are seconds as they stand, so are those of the poses.
+    sheet.counted_from(Origin(origin.0.or(Some(0))));
+    let pose = match model.columns.resolve_truth(sheet.header()) {
+        Ok(pose) => pose,
+        Err(_) if trajectories::is_kitti(sheet.header()) => {
+            let (pose, mut measured) = trajectories::kitti(sheet, truth)?;
+            let warnings = arrange(&mut measured);
+            return Ok((pose, measured, warnings));
+        }
+        Err(error) => trajectories::recognised(sheet.header(), origin).ok_or_else(|| sheet.at_header(error))?,
+    };
+    let (measured, more) = read(sheet, &pose.needed(), &pose.spare(), truth)?;
+    Ok((pose, measured, more))
+}
+
+fn read(sheet: Log, needed: &[&Cells], more: &[&Cells], path: &Path) -> Result<(Numbers, Vec<String>)> {
+    let mut numbers = reading::read(sheet, needed, more)?;
+    cells::mark_absent(&mut numbers, needed.len());
     let warnings = arrange(&mut numbers);
     enough(&numbers).map_err(|e| e.at_file(path))?;
     Ok((numbers, warnings))

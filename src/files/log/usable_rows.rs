@@ -1,6 +1,7 @@
 //! Rows that can be used: every number there and finite.
 
 use super::csv_table::Numbers;
+use super::time_stamp::Origin;
 use crate::error::Result;
 use crate::files::toml::text::{hex, open, unreadable};
 use sha2::{Digest, Sha256};
@@ -9,7 +10,7 @@ use std::io::Read;
 use std::path::Path;
 
 /// Columns without the rows that lack a number in one of those with a name; NaN is a blank cell.
-pub(crate) fn usable(columns: Vec<Vec<f64>>, names: &[&str], sha256: String) -> Numbers {
+pub(crate) fn usable(columns: Vec<Vec<f64>>, names: &[&str], sha256: String, origin: Origin) -> Numbers {
     let rows = columns.first().map_or(0, Vec::len);
     let mut dropped: BTreeMap<String, usize> = BTreeMap::new();
     let mut kept: Vec<usize> = Vec::with_capacity(rows);
@@ -23,7 +24,7 @@ pub(crate) fn usable(columns: Vec<Vec<f64>>, names: &[&str], sha256: String) -> 
         }
     }
     let columns = columns.into_iter().map(|c| kept.iter().map(|i| c[*i]).collect()).collect();
-    Numbers { columns, rows, dropped, sha256 }
+    Numbers { columns, rows, dropped, sha256, origin }
 }
 
 /// SHA-256 of a file, hexadecimal.

@@ -82,6 +82,10 @@ pub struct KnownInput {
     pub role: String,
     /// Another role that may stand for it, as `speed` for `wheel_rate`.
     pub instead: Option<String>,
+    /// Its SI unit; blank where it is not known.
+    pub unit: String,
+    /// SI unit of `instead`.
+    pub instead_unit: String,
 }
 
 /// An effect as a model file sees it.

@@ -39,7 +39,7 @@ pub(crate) fn read_hashed(path: &Path) -> Result<(String, String)> {
 pub(crate) fn open(path: &Path) -> Result<File> {
     let file = File::open(path).map_err(|e| unreadable(path, &e))?;
     match file.metadata() {
-        Ok(data) if data.is_dir() => Err(folder(path)),
+        Ok(data) if data.is_dir() => Err(is_folder(path)),
         _ => Ok(file),
     }
 }
@@ -49,13 +49,14 @@ pub(crate) fn unreadable(path: &Path, why: &std::io::Error) -> Error {
     let error = match why.kind() {
         ErrorKind::NotFound => Error::input("no such file").help("check the path"),
         ErrorKind::PermissionDenied => Error::input("permission denied").help("make the file readable"),
-        ErrorKind::IsADirectory => return folder(path),
+        ErrorKind::IsADirectory => return is_folder(path),
         _ => Error::input(format!("cannot be read: {why}")).help("check the path and the file"),
     };
     error.at_file(path)
 }
 
-fn folder(path: &Path) -> Error {
+/// The error of a folder where a file is meant.
+pub(crate) fn is_folder(path: &Path) -> Error {
     Error::input("is a folder, not a file").help("name a file inside it").at_file(path)
 }
 

@@ -1,7 +1,7 @@
 //! Logged inputs as smooth functions of time: a cubic spline through samples, or through the integral of means.
 
 use super::cubic_spline::curvatures;
-use crate::files::InputTiming;
+use crate::files::{InputTiming, Inputs, Run};
 use std::sync::Arc;
 
 /// What a row of the log says about its inputs.
@@ -39,7 +39,8 @@ impl From<InputTiming> for Timing {
 #[derive(Clone, Debug)]
 pub struct Signals {
     knots: Arc<[f64]>,
-    timing: Timing,
+    /// One per channel.
+    timings: Arc<[Timing]>,
     channels: usize,
     /// Polynomial coefficients, interval by interval, channel by channel; copies share them.
     pieces: Arc<[[f64; 4]]>,
@@ -48,16 +49,31 @@ pub struct Signals {
 impl Signals {
     /// The signals of a log: strictly increasing times, one column a channel.
     pub fn new(time: &[f64], columns: &[Vec<f64>], timing: Timing) -> Self {
+        Self::mixed(time, columns, &vec![timing; columns.len()])
+    }
+
+    /// The signals of a run: what was read as differences is the mean since the row before, whatever else is.
+    pub fn of_run(run: &Run, timing: InputTiming) -> Self {
+        Self::mixed(run.input_time(), &run.inputs, &timings(&run.differences, timing))
+    }
+
+    /// The signals of inputs to simulate, as [`Signals::of_run`].
+    pub fn of_inputs(inputs: &Inputs, timing: InputTiming) -> Self {
+        Self::mixed(&inputs.time, &inputs.columns, &timings(&inputs.differences, timing))
+    }
+
+    /// The signals of a log whose rows say one thing of one channel and another of the next.
+    pub fn mixed(time: &[f64], columns: &[Vec<f64>], timings: &[Timing]) -> Self {
         let intervals = time.len().saturating_sub(1);
         let mut pieces = vec![[0.0; 4]; intervals * columns.len()];
         for (c, column) in columns.iter().enumerate() {
-            let of_channel = match timing {
+            let of_channel = match timings[c] {
                 Timing::Sample => cubics(time, column),
                 Timing::IntervalMean => cubics(time, &running_integral(time, column)).iter().map(slope).collect(),
             };
             of_channel.into_iter().enumerate().for_each(|(i, p)| pieces[i * columns.len() + c] = p);
         }
-        Self { knots: time.into(), timing, channels: columns.len(), pieces: pieces.into() }
+        Self { knots: time.into(), timings: timings.into(), channels: columns.len(), pieces: pieces.into() }
     }
 
     /// The signals of the same log with every second row left out, where rows follow each other evenly; `None` where fewer
@@ -81,7 +97,7 @@ impl Signals {
         let time: Vec<f64> = kept.iter().map(|i| self.knots[*i]).collect();
         let column = |c: usize| -> Vec<f64> {
             let piece = |i: usize| self.pieces[i * self.channels + c];
-            match self.timing {
+            match self.timings[c] {
                 Timing::Sample => kept.iter().map(|i| self.value_at_knot(*i, c)).collect(),
                 Timing::IntervalMean => {
                     let way = |i: usize| integral(&piece(i), self.knots[i + 1] - self.knots[i]);
@@ -91,7 +107,21 @@ impl Signals {
             }
         };
         let columns: Vec<Vec<f64>> = (0..self.channels).map(column).collect();
-        Some(Self::new(&time, &columns, self.timing))
+        Some(Self::mixed(&time, &columns, &self.timings))
+    }
+
+    /// The sum of two signals of the same rows.
+    ///
+    /// ```
+    /// use creepage::motion::{Signals, Timing};
+    /// let of = |u: [f64; 3]| Signals::new(&[0.0, 1.0, 2.0], &[u.to_vec()], Timing::Sample);
+    /// let (mut value, mut slope) = ([0.0], [0.0]);
+    /// of([1.0, 2.0, 4.0]).plus(&of([0.5, 0.0, -1.0])).at(2.0, &mut value, &mut slope);
+    /// assert!((value[0] - 3.0).abs() < 1e-12);
+    /// ```
+    pub fn plus(&self, other: &Self) -> Self {
+        let sum = |(a, b): (&[f64; 4], &[f64; 4])| std::array::from_fn(|k| a[k] + b[k]);
+        Self { pieces: self.pieces.iter().zip(&*other.pieces).map(sum).collect(), ..self.clone() }
     }
 
     fn value_at_knot(&self, i: usize, channel: usize) -> f64 {
@@ -117,7 +147,7 @@ impl Signals {
         let piece = |[a, b, d, e]: &[f64; 4]| [*a, b / by, d / by.powi(2), e / by.powi(3)];
         Self {
             knots: self.knots.iter().map(|t| middle + (t - middle) * by).collect(),
-            timing: self.timing,
+            timings: self.timings.clone(),
             channels: self.channels,
             pieces: self.pieces.iter().map(piece).collect(),
         }
@@ -178,6 +208,12 @@ impl Signals {
             slope[c] = if inside { b + s * (2.0 * d + 3.0 * s * e) } else { 0.0 };
         }
     }
+}
+
+/// What a row says about each input.
+pub(crate) fn timings(differences: &[Option<f64>], timing: InputTiming) -> Vec<Timing> {
+    let one = |difference: &Option<f64>| if difference.is_some() { Timing::IntervalMean } else { timing.into() };
+    differences.iter().map(one).collect()
 }
 
 /// Coefficients of the spline in powers of (t − tᵢ), interval by interval.
@@ -293,6 +329,22 @@ mod tests {
         let samples = Signals::new(&t, &[mean], Timing::Sample).thinned().unwrap();
         assert_eq!([0.0, 4.0, 12.0, 13.0].map(|t| value(&samples, t)), [9.0, 3.0, 0.0, 5.0]);
         assert!(Signals::new(&t[..4], &[vec![0.0; 4]], Timing::Sample).thinned().is_none());
+    }
+
+    /// A channel of means beside one of samples: each is what it is alone.
+    #[test]
+    fn channels_may_say_different_things() {
+        let t = [0.0, 0.2, 0.3, 0.7, 0.8];
+        let columns = [vec![9.0, 1.0, -2.0, 0.5, 3.0], vec![1.0, 2.0, 4.0, 3.0, 0.0]];
+        let both = [Timing::IntervalMean, Timing::Sample];
+        let mixed = Signals::mixed(&t, &columns, &both);
+        for (c, timing) in both.into_iter().enumerate() {
+            let alone = Signals::new(&t, &columns[c..=c], timing);
+            let (mut v, mut d) = ([0.0; 2], [0.0; 2]);
+            mixed.at(0.45, &mut v, &mut d);
+            assert_eq!(v[c], value(&alone, 0.45));
+        }
+        assert_eq!(timings(&[None, Some(0.0)], InputTiming::Sample), [Timing::Sample, Timing::IntervalMean]);
     }
 
     #[test]

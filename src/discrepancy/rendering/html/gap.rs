@@ -4,7 +4,7 @@ use super::head::shrinkage;
 use super::part;
 use crate::discrepancy::report;
 use crate::discrepancy::report::{BeforeAfter, GapCurve, Pictures, Report};
-use crate::discrepancy::report::{judged, middle};
+use crate::discrepancy::report::{judged, judged_alike, middle};
 use crate::number_format::{plain, prefixed};
 use crate::picture::axis::{Axis, extent};
 use crate::picture::plot::{Marker, Panel, Size};
@@ -62,7 +62,7 @@ fn tabled(
     floor: impl Fn(&report::Floor) -> Option<f64>,
 ) -> GapCurve {
     let mut curve = GapCurve::default();
-    for (gap, (_, v)) in report.gap.iter().filter_map(|g| Some((g, judged(g)?))) {
+    for (gap, (_, v)) in judged_alike(&report.gap).into_iter().filter_map(|g| Some((g, judged(g)?))) {
         let [before, after] = values(v).map(|v| v.unwrap_or(f64::NAN));
         curve.horizon.push(gap.horizon_s);
         curve.before.push(before);

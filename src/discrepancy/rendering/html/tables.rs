@@ -13,7 +13,10 @@ pub fn all(report: &Report, pictures: &Pictures) -> Vec<Element> {
     let sections = [
         section(
             "Effects",
-            [effects(report), unnamed(report), steps(report), equations(pictures)].into_iter().flatten().collect(),
+            [effects(report), unnamed(report), refuted(report), steps(report), equations(pictures)]
+                .into_iter()
+                .flatten()
+                .collect(),
         ),
         section("Gap", gaps(report)),
         section(
@@ -50,6 +53,15 @@ fn unnamed(report: &Report) -> Option<Element> {
     };
     let headings = ["place", "equation", "#of the held-out disagreement it removes"];
     table("Repeatable disagreement without a name", &headings, report.unnamed.iter().map(row).collect())
+}
+
+fn refuted(report: &Report) -> Option<Element> {
+    let row = |r: &report::Refuted| {
+        let shown = |(name, p): (&String, &report::Estimate)| parameter(name, p).replace(' ', "\u{a0}");
+        vec![Cell::text(&r.id), Cell::Lines(r.parameters.iter().map(shown).collect()), Cell::text(&r.says)]
+    };
+    let headings = ["effect", "parameter ± std", "why it is not named"];
+    table("Asked for by the fit and not named", &headings, report.refuted.iter().map(row).collect())
 }
 
 fn steps(report: &Report) -> Option<Element> {

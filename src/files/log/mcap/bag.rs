@@ -1,10 +1,12 @@
 //! An MCAP file of ROS 2 messages as a log: its topics looked through once, its columns read in a second pass.
 
 use super::messages::Layout;
-use super::{cdr, merge, messages};
+use super::{cdr, messages};
 use crate::error::{Error, Result};
 use crate::files::log::csv_table::Numbers;
+use crate::files::log::own_times::at_times;
 use crate::files::log::row_order;
+use crate::files::log::time_stamp::Origin;
 use crate::files::log::usable_rows::{hash, usable};
 use crate::files::toml::suggestions;
 use crate::files::toml::text::open;
@@ -100,11 +102,11 @@ impl Bag {
             let Some(own) = topics.get(topic) else { continue };
             columns.push(match *topic == base {
                 true => own[*at].clone(),
-                false => merge::at_times(&own[0], &own[*at], &time),
+                false => at_times(&own[0], &own[*at], &time),
             });
         }
         let names: Vec<&str> = wanted.iter().map(|c| self.header[*c].as_str()).collect();
-        Ok(usable(columns, &names, sha256))
+        Ok(usable(columns, &names, sha256, Origin::default()))
     }
 
     /// The times and wanted fields of each topic.

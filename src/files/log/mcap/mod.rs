@@ -5,5 +5,4 @@
 
 pub(crate) mod bag;
 mod cdr;
-mod merge;
 mod messages;

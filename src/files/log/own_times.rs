@@ -1,4 +1,4 @@
-//! Columns of one topic at the times of another.
+//! A signal with times of its own at other times.
 
 /// Times further apart than this are not bridged, s.
 const GAP: f64 = 0.5;

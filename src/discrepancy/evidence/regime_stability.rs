@@ -1,0 +1,217 @@
+//! The test of Chow (1960): whether an effect has the same value in two regimes of driving.
+//!
+//! What is there has one value. What imitates something else, a saturation, a dead band, a law of the load, takes
+//! another value wherever the imitated thing is larger. The windows of one regime get a value of their own beside the
+//! common one, and the difference d is judged by its deviation:
+//!
+//! χ² = dᵀ·(τ·C)⁻¹·d, with the covariance C of d, all else free, and τ values that say what one independent value would.
+
+use super::cross_validation::Along;
+use crate::discrepancy::estimation::elimination::eliminate;
+use crate::discrepancy::estimation::fit::{Fit, inverse};
+use crate::discrepancy::estimation::problem::Problem;
+use crate::discrepancy::record::local_polynomial::median;
+use crate::discrepancy::record::run_record::Record;
+use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
+use crate::discrepancy::shooting::window_integration::linearise;
+use crate::effects::Applied;
+use crate::error::Result;
+use nalgebra::{DMatrix, DVector};
+use std::ops::Range;
+
+/// Windows that a regime and the rest need at least.
+const FEWEST: usize = 8;
+/// χ² from which on two regimes differ beyond chance, whichever of a dozen is the worst.
+const BEYOND_CHANCE: f64 = 20.0;
+/// A difference of so large a share of the value is that of no constant.
+const LARGE: f64 = 0.5;
+
+/// A regime of driving, told by the inputs' means over windows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Regime {
+    /// An input is larger than its median size.
+    Large(usize),
+    /// An input is positive.
+    Positive(usize),
+    /// An input grows in size.
+    Growing(usize),
+    /// The second half of all data.
+    Late,
+}
+
+/// An effect's values outside and inside of a regime.
+#[derive(Clone, Debug)]
+pub(crate) struct Difference {
+    pub regime: Regime,
+    /// Of the difference.
+    pub chi_squared: f64,
+    /// The largest share of a value that its difference is.
+    pub share: f64,
+    /// The first value outside and inside.
+    pub values: [f64; 2],
+}
+
+impl Difference {
+    /// Whether the effect has two values.
+    pub fn is_real(&self) -> bool {
+        self.chi_squared > BEYOND_CHANCE && self.share > LARGE
+    }
+}
+
+impl Problem {
+    /// The differences of every free effect of a fit between all regimes.
+    pub(crate) fn differences(&self, fit: &Fit) -> Result<Vec<(Applied, Vec<Difference>)>> {
+        let equations = fit.model.free_equations()?;
+        let linear = linearise(&equations, &fit.p, &self.records, &self.plan, &fit.window_states);
+        let Some(linear) = linear else { return Ok(vec![]) };
+        let regimes = self.regimes();
+        let mut at = 0;
+        let of_effect = |effect: &Applied| {
+            let own = at..at + effect.values.len();
+            at = own.end;
+            let each = regimes.iter().filter_map(|(r, inside)| difference(fit, &linear, *r, inside, own.clone()));
+            (effect.clone(), each.collect())
+        };
+        Ok(fit.model.free_effects().map(of_effect).collect())
+    }
+
+    /// The regimes in which some windows are and some are not.
+    fn regimes(&self) -> Vec<(Regime, Inside)> {
+        let inputs: Vec<Vec<Vec<f64>>> = self.plan.iter().map(|s| self.inputs_of(s.record, &s.windows)).collect();
+        let channels = inputs.iter().flatten().map(Vec::len).min().unwrap_or(0);
+        let kinds = [Regime::Large, Regime::Positive, Regime::Growing];
+        let all = (0..channels).flat_map(|c| kinds.map(|k| k(c))).chain([Regime::Late]);
+        let told = all.map(|r| (r, inside(r, &inputs)));
+        told.filter(|(_, inside)| {
+            let some = inside.iter().flatten().filter(|i| **i).count();
+            some >= FEWEST && inside.iter().map(Vec::len).sum::<usize>() - some >= FEWEST
+        })
+        .collect()
+    }
+
+    fn inputs_of(&self, record: usize, windows: &[Range<usize>]) -> Vec<Vec<f64>> {
+        windows.iter().map(|w| mean_inputs(&self.records[record], w)).collect()
+    }
+}
+
+/// Which windows are in a regime, segment by segment.
+type Inside = Vec<Vec<bool>>;
+
+fn inside(regime: Regime, inputs: &[Vec<Vec<f64>>]) -> Inside {
+    let sizes = |c: usize| inputs.iter().flatten().map(|u| u[c].abs()).collect::<Vec<f64>>();
+    let of = |holds: &dyn Fn(&[Vec<f64>], usize) -> bool| {
+        inputs.iter().map(|s| (0..s.len()).map(|k| holds(s, k)).collect()).collect()
+    };
+    match regime {
+        Regime::Large(c) => {
+            let typical = median(&mut sizes(c)).unwrap_or(0.0);
+            of(&|s, k| s[k][c].abs() > typical)
+        }
+        Regime::Positive(c) => of(&|s, k| s[k][c] > 0.0),
+        Regime::Growing(c) => of(&|s, k| k > 0 && s[k][c].abs() > s[k - 1][c].abs()),
+        Regime::Late => {
+            let half = inputs.iter().map(Vec::len).sum::<usize>() / 2;
+            let all: Vec<bool> = (0..2 * half + 1).map(|k| k >= half).collect();
+            let mut rest = &all[..];
+            let mut take = |s: &Vec<Vec<f64>>| {
+                let (first, others) = rest.split_at(s.len());
+                rest = others;
+                first.to_vec()
+            };
+            inputs.iter().map(&mut take).collect()
+        }
+    }
+}
+
+fn mean_inputs(record: &Record, rows: &Range<usize>) -> Vec<f64> {
+    let channels = record.signals.channels();
+    let (mut value, mut slope) = (vec![0.0; channels], vec![0.0; channels]);
+    let mut sum = vec![0.0; channels];
+    for i in rows.clone() {
+        record.signals.at(record.time[i], &mut value, &mut slope);
+        sum.iter_mut().zip(&value).for_each(|(s, v)| *s += v / rows.len() as f64);
+    }
+    sum
+}
+
+fn difference(fit: &Fit, linear: &Along, regime: Regime, inside: &Inside, own: Range<usize>) -> Option<Difference> {
+    let (p, k) = (fit.p.len(), own.len());
+    let segment = |(windows, inside): (&Vec<LinearisedWindow>, &Vec<bool>)| {
+        windows.iter().zip(inside).map(|(w, i)| widened(w, p, own.clone(), *i)).collect()
+    };
+    let wider: Along = linear.iter().zip(inside).map(segment).collect();
+    let (information, gradient) = eliminate(&wider, &fit.variances, p + k)?.normal();
+    let covariance = inverse(&information)?;
+    let step = -(&covariance * gradient);
+    let d = DVector::from_fn(k, |i, _| step[p + i]);
+    let spread = DMatrix::from_fn(k, k, |i, j| covariance[(p + i, p + j)]) * fit.variance_inflation();
+    let chi_squared = d.dot(&spread.cholesky()?.solve(&d));
+    let share = own.clone().zip(d.iter()).map(|(i, d)| (d / fit.p[i]).abs()).fold(0.0, f64::max);
+    let outside = fit.p[own.start] + step[own.start];
+    Some(Difference { regime, chi_squared, share, values: [outside, outside + d[0]] })
+}
+
+/// A window with columns of their own for some of p values: copies where it is inside of a regime, zero elsewhere.
+fn widened(window: &LinearisedWindow, p: usize, own: Range<usize>, inside: bool) -> LinearisedWindow {
+    let poses = window.gram[0].nrows() - 1 - p;
+    let last = poses + p;
+    // The column of the window that a column of the wider one is.
+    let from = |j: usize| match j {
+        j if j < last => Some(j),
+        j if j < last + own.len() => inside.then_some(poses + own.start + j - last),
+        _ => Some(last),
+    };
+    let n = last + own.len() + 1;
+    let entry = |g: &DMatrix<f64>, i: usize, j: usize| from(i).zip(from(j)).map_or(0.0, |at| g[at]);
+    LinearisedWindow {
+        gram: window.gram.iter().map(|g| DMatrix::from_fn(n, n, |i, j| entry(g, i, j))).collect(),
+        back: window.back.as_ref().map(|b| DMatrix::from_fn(poses, n, |i, j| from(j).map_or(0.0, |j| b[(i, j)]))),
+        ..window.clone()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::estimation::fit::Effort;
+    use crate::discrepancy::fixtures::{equations, logged, unicycle};
+
+    #[test]
+    fn windows_are_told_by_their_inputs() {
+        let inputs = vec![vec![vec![1.0], vec![-3.0]], vec![vec![2.0], vec![0.5], vec![-4.0]]];
+        assert_eq!(inside(Regime::Large(0), &inputs), [vec![false, true], vec![false, false, true]]);
+        assert_eq!(inside(Regime::Positive(0), &inputs), [vec![true, false], vec![true, true, false]]);
+        assert_eq!(inside(Regime::Growing(0), &inputs), [vec![false, true], vec![false, false, true]]);
+        assert_eq!(inside(Regime::Late, &inputs), [vec![false, false], vec![true, true, true]]);
+    }
+
+    /// A creep that is there has one value; fitted to one that grows with the speed it has two.
+    #[test]
+    fn a_constant_has_one_value_and_what_imitates_a_law_has_two() {
+        let speed = |t: f64| 2.0 + 1.5 * (0.7 * t).sin();
+        let time = || (0..900).map(|i| 0.05 * f64::from(i)).collect::<Vec<f64>>();
+        let worst = |law: f64| {
+            let (equations, p) = equations(&[("traverse-creep", &[0.05])]);
+            let mut record = logged((&equations, &p), time(), [&speed, &|t| 0.3 * (0.5 * t).cos()], &[0.0; 3], 1e-3);
+            // What a law of the speed adds sideways.
+            let mut off = [0.0; 2];
+            for i in 1..record.time.len() {
+                let (v, heading) = (0.5 * speed(record.time[i]), record.columns[2][i]);
+                let across = 0.05 * 0.05 * law * (v - 1.0) * v;
+                off = [off[0] - across * heading.sin(), off[1] + across * heading.cos()];
+                record.columns[0][i] += off[0];
+                record.columns[1][i] += off[1];
+            }
+            let problem = Problem::new(vec![record], None, None);
+            let model = unicycle(&[("traverse-creep", &[0.01])]);
+            let starts = problem.starts(&model).unwrap();
+            let fit = problem.fit(&model, &starts, &problem.variances, Effort::FULL).unwrap().unwrap();
+            let (_, each) = problem.differences(&fit).unwrap().remove(0);
+            assert!(each.iter().any(|d| d.regime == Regime::Large(0)));
+            each.into_iter().max_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared)).unwrap()
+        };
+        assert!(!worst(0.0).is_real(), "{:?}", worst(0.0));
+        let told = worst(1.0);
+        assert!(told.is_real() && told.regime == Regime::Large(0), "{told:?}");
+    }
+}

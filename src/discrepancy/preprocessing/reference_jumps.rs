@@ -1,0 +1,114 @@
+//! Jumps of the reference: steps of the measured pose that the vehicle did not make, and that stay.
+
+use super::dead_reckoning::DeadReckoning;
+use crate::discrepancy::record::angle::wrapped;
+use crate::discrepancy::record::local_polynomial::median;
+use crate::discrepancy::record::run_record::Record;
+use crate::error::Result;
+use crate::files::{InputTiming, Run};
+use crate::model::Model;
+
+/// A step off by so many times the usual error of a step, and by so many usual steps, is a jump.
+const OFF: f64 = 15.0;
+const STEPS: f64 = 4.0;
+/// What is off by this share of a jump after the next row has come back: a gross error, no jump.
+const BACK: f64 = 0.5;
+/// Jumps so near to one another belong to one stretch, s.
+const NEAR: f64 = 10.0;
+/// Fewest jumps of a stretch in which the reference is lost; others are left out one by one.
+const LOST: usize = 3;
+/// More jumps than this share of the rows are no jumps.
+const MOST: f64 = 0.02;
+/// Rows that tell a usual step.
+const FEWEST: usize = 40;
+
+/// A stretch in which the reference jumps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Jumps {
+    /// Name of the run.
+    pub run: String,
+    /// How often it jumps.
+    pub times: usize,
+    /// Start and end, s.
+    pub span: [f64; 2],
+}
+
+/// Where the reference of a run jumps: the measured step from row to row less the reckoned one is far beyond its usual size,
+/// and stays so at the next row.
+///
+/// # Errors
+/// When the model's formulas are malformed.
+pub fn jumps(model: &Model, timing: InputTiming, run: &Run) -> Result<Vec<Jumps>> {
+    let Some(reckoning) = DeadReckoning::of(model, timing, run)? else { return Ok(vec![]) };
+    if run.time.len() < FEWEST || run.input_time().len() < FEWEST {
+        return Ok(vec![]);
+    }
+    let reckoned = reckoning.path(&run.inputs);
+    let step = run.time.windows(2).map(|w| w[1] - w[0]).collect::<Vec<_>>();
+    let usual_step = median(&mut step.clone()).unwrap_or(0.0);
+    let off = |from: usize, to: usize| off(run, &reckoned, from, to);
+    let each: Vec<f64> = (1..run.time.len()).map(|i| off(i - 1, i)).collect();
+    let usual = median(&mut each.clone()).unwrap_or(0.0);
+    let way = |i: usize| (run.x[i] - run.x[i - 1]).hypot(run.y[i] - run.y[i - 1]);
+    let usual_way = median(&mut (1..run.time.len()).map(way).collect::<Vec<_>>()).unwrap_or(0.0);
+    let bar = (OFF * usual).max(STEPS * usual_way);
+    let is_jump = |i: &usize| {
+        let size = each[*i - 1];
+        let next = (*i + 1).min(run.time.len() - 1);
+        let before = i.saturating_sub(2);
+        let stays = off(i - 1, next) > BACK * size && off(before, *i) > BACK * size;
+        size > bar && stays && step[*i - 1] < 3.0 * usual_step
+    };
+    let found: Vec<usize> = (1..run.time.len()).filter(is_jump).collect();
+    if bar <= 0.0 || found.len() as f64 > MOST * run.time.len() as f64 {
+        return Ok(vec![]);
+    }
+    Ok(stretches(run, &found))
+}
+
+/// How far the measured step lies from the reckoned one, m; without a heading by its length alone.
+fn off(run: &Run, [x, y, heading]: &[Vec<f64>; 3], from: usize, to: usize) -> f64 {
+    let measured = [run.x[to] - run.x[from], run.y[to] - run.y[from]];
+    let reckoned = [x[to] - x[from], y[to] - y[from]];
+    match &run.heading {
+        Some(h) => {
+            let (sin, cos) = wrapped(h[from] - heading[from]).sin_cos();
+            let turned = [cos * reckoned[0] - sin * reckoned[1], sin * reckoned[0] + cos * reckoned[1]];
+            (measured[0] - turned[0]).hypot(measured[1] - turned[1])
+        }
+        None => (measured[0].hypot(measured[1]) - reckoned[0].hypot(reckoned[1])).abs(),
+    }
+}
+
+/// Jumps near one another as one stretch where they are many.
+fn stretches(run: &Run, found: &[usize]) -> Vec<Jumps> {
+    let near = |a: &usize, b: &usize| run.time[*b] - run.time[*a] < NEAR;
+    let one = |rows: &[usize]| {
+        let span = [run.time[rows[0] - 1], run.time[rows[rows.len() - 1]]];
+        Jumps { run: run.name.clone(), times: rows.len(), span }
+    };
+    let of_group = |group: &[usize]| match group.len() >= LOST {
+        true => vec![one(group)],
+        false => group.iter().map(|i| one(&[*i])).collect(),
+    };
+    found.chunk_by(near).flat_map(of_group).collect()
+}
+
+/// A record without the rows in which the reference jumps: it goes on in pieces, behind an interruption each.
+pub fn without(record: &Record, jumps: &[Jumps]) -> Record {
+    if jumps.is_empty() {
+        return record.clone();
+    }
+    let half = 0.6 * record.gap();
+    let is_out = |t: f64| jumps.iter().any(|j| t > j.span[0] - half && t < j.span[1] + half);
+    let kept = |i: &usize| !is_out(record.time[*i]);
+    let rows = |until: usize| (0..until).filter(kept).count();
+    let pick = |column: &[f64]| (0..column.len()).filter(kept).map(|i| column[i]).collect::<Vec<f64>>();
+    let range = rows(record.rows.start)..rows(record.rows.end);
+    Record {
+        time: pick(&record.time),
+        columns: record.columns.iter().map(|c| pick(c)).collect(),
+        rows: range,
+        ..record.clone()
+    }
+}

@@ -1,0 +1,64 @@
+//! An angle that was logged as the command of a servo: a straight line of what is wanted.
+
+use super::repair_trial::{Trial, accepts};
+use super::repairs::{Change, InputRepair, Repair};
+use super::signed_ratios::{Motion, SignedRatios};
+use crate::model::Model;
+use nalgebra::{Matrix2, Vector2};
+
+/// Scales that the search begins with; each with the offset that makes the mean angle zero.
+const SCALES: [f64; 8] = [-2.0, -1.0, -0.5, -0.1, 0.1, 0.5, 1.0, 2.0];
+/// Steps of the fit.
+const STEPS: usize = 8;
+/// Change that shows what a scale or an offset does.
+const TRIED: f64 = 1e-4;
+/// Scales and offsets, rad, that a gain and an offset of the steering explain.
+const USUAL: ([f64; 2], f64) = ([0.6, 1.6], 0.2);
+
+/// The line of one angle that brings the turning to the measured one.
+pub(crate) fn repair(trial: &Trial, model: &Model, before: &SignedRatios) -> Option<Repair> {
+    let is_angle = |role: &&String| model.vehicle.inputs.get(*role).is_some_and(|input| input.unit == "rad");
+    let role = trial.run.roles.iter().find(is_angle)?;
+    let column = &trial.run.inputs[trial.run.roles.iter().position(|r| r == role)?];
+    let mean = column.iter().sum::<f64>() / column.len() as f64;
+    let repair = |[scale, offset]: [f64; 2]| trial.repair(role, role, Change::Line([scale, offset]));
+    let starts = SCALES.map(|scale| [scale, -scale * mean]);
+    let misfit = |line: &[f64; 2]| misfit(trial, &turns(trial, repair(*line)));
+    let mut line = starts.into_iter().min_by(|a, b| misfit(a).total_cmp(&misfit(b)))?;
+    for _ in 0..STEPS {
+        line = improved(trial, line, &repair)?;
+    }
+    let ([low, high], offset) = USUAL;
+    let is_usual = (low..high).contains(&line[0]) && line[1].abs() < offset;
+    let found = vec![repair(line)];
+    (!is_usual && accepts(before, &trial.with(&found), false)).then_some(Repair::Inputs(found))
+}
+
+fn turns(trial: &Trial, repair: InputRepair) -> Vec<Motion> {
+    let inputs = super::repairs::inputs(trial.run, trial.file.input_timing, &[repair]);
+    trial.reckoned(&inputs)
+}
+
+fn misfit(trial: &Trial, reckoned: &[Motion]) -> f64 {
+    Motion::turned(reckoned, &trial.measured).map(|[r, m]| (m - r) * (m - r)).sum()
+}
+
+/// One step of Gauss and Newton.
+fn improved(trial: &Trial, line: [f64; 2], repair: &dyn Fn([f64; 2]) -> InputRepair) -> Option<[f64; 2]> {
+    let here = turns(trial, repair(line));
+    let beside = [0, 1].map(|k| {
+        let mut other = line;
+        other[k] += TRIED;
+        turns(trial, repair(other))
+    });
+    let slope = |k: usize| Motion::turned(&here, &beside[k]).map(|[a, b]| (b - a) / TRIED).collect::<Vec<f64>>();
+    let (by, left) = ([slope(0), slope(1)], Motion::turned(&here, &trial.measured).map(|[r, m]| m - r));
+    let (mut normal, mut right) = (Matrix2::zeros(), Vector2::zeros());
+    for (k, left) in left.enumerate() {
+        let row = Vector2::new(*by[0].get(k)?, *by[1].get(k)?);
+        normal += row * row.transpose();
+        right += left * row;
+    }
+    let step = normal.cholesky()?.solve(&right);
+    Some([line[0] + step[0], line[1] + step[1]])
+}

@@ -1,0 +1,86 @@
+//! Why an effect that a fit asks for is not named, in words.
+
+use crate::discrepancy::evidence::regime_stability::Regime;
+use crate::discrepancy::report::{Estimate, Refuted};
+use crate::discrepancy::selection::choice::{Growth, Refusal, Refused};
+use crate::number_format::significant;
+use std::collections::BTreeMap;
+
+/// A refused effect as the report lists it; `roles` are the names of the inputs.
+pub(crate) fn refuted(refused: &Refused, roles: &[String]) -> Refuted {
+    let a = &refused.applied;
+    let std = |i: usize| refused.std.get(i).copied().flatten();
+    let each = a.effect.parameters.iter().zip(&a.values).enumerate();
+    let parameters: BTreeMap<String, Estimate> = each
+        .map(|(i, ((name, p), value))| (name.clone(), Estimate { value: *value, std: std(i), unit: p.unit.clone() }))
+        .collect();
+    Refuted { id: a.effect.id.clone(), parameters, says: says(refused, roles) }
+}
+
+/// The reason as a line.
+pub fn says(refused: &Refused, roles: &[String]) -> String {
+    let label = refused.applied.label();
+    match &refused.why {
+        Refusal::Impossible => format!("no vehicle has so much {label}, so that is not named"),
+        Refusal::NoDeviation => format!("these runs leave the value of {label} open, so that is not named"),
+        Refusal::BelowBar => format!("beside the others {label} is worth less than it costs, so that is not named"),
+        Refusal::Ridge(other) => {
+            format!("{label} pays only as far as it undoes {}, so that is not named", other.label())
+        }
+        Refusal::LeansOnLaw => format!("{label} stands only beside a law without a name, so that is not named"),
+        Refusal::Regime { regime, values: [elsewhere, there] } => {
+            let [elsewhere, there] = [elsewhere, there].map(|v| significant(*v, 2));
+            let place = place(*regime, roles);
+            format!("{label} is {there} {place} and {elsewhere} elsewhere, so that is not named")
+        }
+        Refusal::InputNoise => {
+            format!("the steps or the noise of the inputs alone make such a {label}, so that is not named")
+        }
+        Refusal::HeldOut(growth) => format!("held-out runs refute {label}: {}", grows(growth)),
+    }
+}
+
+fn place(regime: Regime, roles: &[String]) -> String {
+    let role = |c: usize| roles.get(c).map_or_else(|| format!("input {}", c + 1), Clone::clone);
+    match regime {
+        Regime::Large(c) => format!("at large {}", role(c)),
+        Regime::Positive(c) => format!("at positive {}", role(c)),
+        Regime::Growing(c) => format!("while {} grows", role(c)),
+        Regime::Late => "in the second half".into(),
+    }
+}
+
+fn grows(growth: &Growth) -> String {
+    let [before, after] = growth.gap.map(|gap| significant(gap, 3));
+    let (of, unit) = if growth.of_heading { ("heading gap", "rad") } else { ("gap", "m") };
+    format!("their {of} after {} s grows with it from {before} to {after} {unit}", growth.horizon_s)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::fixtures::applied;
+
+    fn said(why: Refusal) -> String {
+        says(&Refused { applied: applied("traverse-creep"), std: vec![], why }, &["wheel_rate".into()])
+    }
+
+    #[test]
+    fn every_reason_names_its_effect() {
+        let growth = Growth { horizon_s: 5.0, of_heading: true, gap: [0.01, 0.05], floor: 0.01 };
+        assert_eq!(
+            said(Refusal::HeldOut(growth)),
+            "held-out runs refute traverse-creep: their heading gap after 5 s grows with it from 0.0100 to 0.0500 rad"
+        );
+        assert_eq!(
+            said(Refusal::Regime { regime: Regime::Large(0), values: [0.1, -0.02] }),
+            "traverse-creep is −0.020 at large wheel_rate and 0.10 elsewhere, so that is not named"
+        );
+        let reasons = [Refusal::Impossible, Refusal::NoDeviation, Refusal::BelowBar, Refusal::LeansOnLaw];
+        let others = [Refusal::InputNoise, Refusal::Ridge(applied("lever-arm").into())];
+        for why in reasons.into_iter().chain(others) {
+            let line = said(why);
+            assert!(line.contains("traverse-creep") && line.ends_with("is not named"), "{line}");
+        }
+    }
+}

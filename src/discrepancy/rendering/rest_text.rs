@@ -1,0 +1,72 @@
+//! What remains above the noise floor, in words.
+
+use super::regime_text;
+use crate::discrepancy::diagnosis::rest::Rest;
+use crate::discrepancy::localisation::driving_regimes::DrivingRegime;
+use crate::discrepancy::report::{Remains, Verdict};
+use crate::number_format::significant;
+
+/// A rest as the report has it.
+pub(crate) fn remains(rest: &Rest) -> Remains {
+    let most = regime_text::disagreement(&rest.most);
+    let says = says(rest);
+    Remains { ratio: rest.ratio, place: most.place, from: most.from, to: most.to, regime: most.regime, says }
+}
+
+/// A verdict's sentence with what remains as its second half.
+pub(crate) fn admitted(sentence: &str, verdict: Verdict, rest: Option<&Rest>) -> String {
+    let Some(rest) = rest.filter(|_| verdict != Verdict::UnusableData) else { return sentence.into() };
+    let first = sentence.trim_end_matches('.');
+    match verdict {
+        Verdict::Unexplained => format!("{first}: {}.", says(rest)),
+        _ => format!("{first}, and something remains: {}.", says(rest)),
+    }
+}
+
+fn says(rest: &Rest) -> String {
+    let most = &rest.most;
+    let judged = if rest.is_held_out { "held-out" } else { "fitted" };
+    let along = match most.place {
+        "rotation constraint" => "along the vehicle",
+        "traverse constraint" => "across the vehicle",
+        "yaw rate" => "in yaw",
+        _ => "at the trailers",
+    };
+    let during = match most.regime {
+        DrivingRegime::Whole => String::new(),
+        regime => format!(", in {}", regime_text::regime(regime)),
+    };
+    let [from, to] = most.span.map(|t| significant(t, 3));
+    let ratio = significant(rest.ratio, 2);
+    format!(
+        "{judged} error is {ratio} times the noise, most of it {along}, from {from} s to {to} s of {}{during}",
+        most.run
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::localisation::driving_regimes::Stretch;
+
+    #[test]
+    fn what_remains_is_the_second_half_of_the_sentence() {
+        let rest = |regime| Rest {
+            ratio: 5.02,
+            is_held_out: true,
+            most: Stretch { run: "a.csv".into(), place: "yaw rate", span: [27.0, 58.04], regime, share: 0.8 },
+        };
+        let said = |verdict, regime| admitted("The model misses track-width.", verdict, Some(&rest(regime)));
+        assert_eq!(
+            said(Verdict::MissingEffect, DrivingRegime::Whole),
+            "The model misses track-width, and something remains: held-out error is 5.0 times the noise, most of it in yaw, \
+             from 27.0 s to 58.0 s of a.csv."
+        );
+        let unexplained = said(Verdict::Unexplained, DrivingRegime::LeftTurns);
+        assert!(unexplained.starts_with("The model misses track-width: held-out"), "{unexplained}");
+        assert!(unexplained.ends_with("to 58.0 s of a.csv, in left turns."), "{unexplained}");
+        assert_eq!(said(Verdict::UnusableData, DrivingRegime::Whole), "The model misses track-width.");
+        assert_eq!(admitted("Fine.", Verdict::NoMissingEffect, None), "Fine.");
+        assert_eq!(remains(&rest(DrivingRegime::Fast)).regime, "fast driving");
+    }
+}

@@ -1,0 +1,188 @@
+//! Names that were found and do not stand: what a fit asks for is no finding by that alone.
+
+use super::input_noise;
+use super::search::{Search, SearchState, find, forget};
+use crate::discrepancy::estimation::bounds::is_possible;
+use crate::discrepancy::estimation::fit::{Effort, Fit};
+use crate::discrepancy::evidence::jackknife::Jackknife;
+use crate::discrepancy::evidence::wald_test::neutral_at_zero;
+use crate::discrepancy::selection::choice::{Refusal, Refused, SelectedEffect};
+use crate::effects::Applied;
+use crate::error::Result;
+use crate::model::effect_equation::is_term;
+use crate::progress::OnProgress;
+
+/// Two effects whose values are correlated by this much and more are one effect, or none.
+const RIDGE: f64 = 0.97;
+/// A value that moves by so large a share of itself when a law without a name is taken out leans on it.
+const LEANS: f64 = 0.5;
+
+/// What the selection ends with: the effects that stand, and those that do not.
+pub(crate) struct Standing {
+    pub chosen: Vec<SelectedEffect>,
+    pub refused: Vec<Refused>,
+}
+
+impl Search<'_> {
+    /// Drops what does not stand, one effect after another.
+    ///
+    /// `missed` is what the interpolation of the inputs may make up of each value.
+    pub(crate) fn keep_standing(
+        &self,
+        grown: &mut SearchState,
+        mut scatter: Option<&Jackknife>,
+        mut missed: Vec<f64>,
+        progress: &OnProgress,
+    ) -> Result<Standing> {
+        let mut refused: Vec<Refused> = vec![];
+        loop {
+            let chosen = self.examined(&grown.fit, scatter, &missed, progress)?;
+            let Some((applied, why)) = self.fallen(&grown.fit, &chosen)? else {
+                return Ok(Standing { chosen, refused });
+            };
+            let Some(smaller) = self.without(&grown.fit, &applied)? else {
+                return Ok(Standing { chosen, refused });
+            };
+            forget(&mut missed, &grown.fit, &applied);
+            scatter = None;
+            grown.go_back_to(smaller);
+            refused.push(Refused::of(&chosen, applied, why));
+        }
+    }
+
+    /// The next effect that does not stand, the cheapest question first.
+    fn fallen(&self, fit: &Fit, chosen: &[SelectedEffect]) -> Result<Option<(Applied, Refusal)>> {
+        if let Some(fallen) = self.fallen_by_value(fit, chosen) {
+            return Ok(Some(fallen));
+        }
+        if let Some(applied) = self.leaning(fit, chosen)? {
+            return Ok(Some((applied, Refusal::LeansOnLaw)));
+        }
+        if let Some(fallen) = self.changing(fit)? {
+            return Ok(Some(fallen));
+        }
+        Ok(input_noise::made_up(self, fit)?.map(|applied| (applied, Refusal::InputNoise)))
+    }
+
+    /// What falls by the values, deviations and evidence that are known: of several the one that is worth least.
+    fn fallen_by_value(&self, fit: &Fit, chosen: &[SelectedEffect]) -> Option<(Applied, Refusal)> {
+        let worst = |of: &dyn Fn(&SelectedEffect) -> bool| {
+            let all = chosen.iter().filter(|c| of(c));
+            all.min_by(|a, b| a.delta_bic.total_cmp(&b.delta_bic)).map(|c| c.applied.clone())
+        };
+        let is_open = |c: &SelectedEffect| c.std.iter().any(Option::is_none);
+        let is_cheap = |c: &SelectedEffect| c.delta_bic <= self.margin() || self.is_faint(fit, c);
+        worst(&|c| !is_possible(&c.applied))
+            .map(|a| (a, Refusal::Impossible))
+            .or_else(|| worst(&is_open).map(|a| (a, Refusal::NoDeviation)))
+            .or_else(|| worst(&is_cheap).map(|a| (a, Refusal::BelowBar)))
+            .or_else(|| ridge(fit, chosen).map(|(a, other)| (a, Refusal::Ridge(Box::new(other)))))
+    }
+
+    /// Whether an effect's values stand out of their own deviations by less than what a parameter costs.
+    fn is_faint(&self, fit: &Fit, c: &SelectedEffect) -> bool {
+        let own = neutral_at_zero(fit, &c.applied);
+        let first = first_of(fit, &c.applied);
+        let ratio = |(i, v): &(usize, f64)| c.std[i - first].map_or(0.0, |std| (v / std).powi(2));
+        !own.is_empty() && own.iter().map(ratio).fold(0.0, f64::max) <= self.margin() + fit.sample_size.ln()
+    }
+
+    /// The effect that has another value in a regime of driving, the one whose difference is largest beyond chance.
+    fn changing(&self, fit: &Fit) -> Result<Option<(Applied, Refusal)>> {
+        let names = self.problem.differences(fit)?.into_iter().filter(|(a, _)| !is_term(a));
+        let real = names.flat_map(|(a, each)| each.into_iter().filter(|d| d.is_real()).map(move |d| (a.clone(), d)));
+        let worst = real.max_by(|a, b| a.1.chi_squared.total_cmp(&b.1.chi_squared));
+        Ok(worst.map(|(a, d)| (a, Refusal::Regime { regime: d.regime, values: d.values })))
+    }
+
+    /// The name that moves most when the laws without a name are taken out.
+    fn leaning(&self, fit: &Fit, chosen: &[SelectedEffect]) -> Result<Option<Applied>> {
+        if !fit.model.free_effects().any(is_term) || fit.model.free_effects().all(is_term) {
+            return Ok(None);
+        }
+        let mut bare = fit.model.clone();
+        bare.effects.retain(|e| !is_term(e));
+        let Some(bare) = self.problem.fit(&bare, &fit.window_states, &self.before.variances, Effort::FULL)? else {
+            return Ok(None);
+        };
+        let names = chosen.iter().filter(|c| !is_term(&c.applied));
+        let moved = names.filter_map(|c| Some((moved(fit, &bare, &c.applied)?, &c.applied)));
+        let most = moved.filter(|(by, _)| *by > LEANS).max_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(most.map(|(_, a)| a.clone()))
+    }
+}
+
+/// Where the values of an effect begin among the free ones.
+fn first_of(fit: &Fit, effect: &Applied) -> usize {
+    fit.model.free_effects().take_while(|e| !e.same_as(effect)).map(|e| e.values.len()).sum()
+}
+
+/// By what share of themselves the values of an effect move from one fit to another.
+fn moved(fit: &Fit, other: &Fit, effect: &Applied) -> Option<f64> {
+    let there = find(&other.model, effect)?;
+    let pairs = neutral_at_zero(fit, effect).into_iter().zip(neutral_at_zero(other, &there));
+    let (far, by) = pairs.fold((0.0, 0.0), |(far, by), ((_, a), (_, b))| (far + a * a, by + (b - a) * (b - a)));
+    (far > 0.0).then(|| f64::sqrt(by / far))
+}
+
+/// Of two effects on a ridge, not both of them terms, the one that is worth less, and the other.
+fn ridge(fit: &Fit, chosen: &[SelectedEffect]) -> Option<(Applied, Applied)> {
+    let covariance = fit.covariance.as_ref()?;
+    let correlation = |i: usize, j: usize| covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt();
+    let along = |a: &SelectedEffect, b: &SelectedEffect| {
+        let [a, b] = [a, b].map(|c| neutral_at_zero(fit, &c.applied));
+        a.iter().any(|(i, _)| b.iter().any(|(j, _)| correlation(*i, *j).abs() > RIDGE))
+    };
+    for (k, a) in chosen.iter().enumerate() {
+        let is_pair = |b: &&SelectedEffect| !(is_term(&a.applied) && is_term(&b.applied)) && along(a, b);
+        if let Some(b) = chosen[k + 1..].iter().find(is_pair) {
+            let (less, more) = if a.delta_bic < b.delta_bic { (a, b) } else { (b, a) };
+            return Some((less.applied.clone(), more.applied.clone()));
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::fixtures::{KNOWN, applied, fit_of, unicycle};
+    use nalgebra::DMatrix;
+
+    fn chosen(fit: &Fit) -> Vec<SelectedEffect> {
+        let of = |(k, applied): (usize, &Applied)| SelectedEffect {
+            applied: applied.clone(),
+            std: vec![Some(0.01); applied.values.len()],
+            delta_bic: 50.0 + k as f64,
+            p_value: 0.0,
+            rivals: vec![],
+        };
+        fit.model.free_effects().enumerate().map(of).collect()
+    }
+
+    /// Of the four values the first belongs to the first effect, two to the second, the last to the third.
+    #[test]
+    fn two_on_a_ridge_are_one() {
+        let mut fit = fit_of(unicycle(&KNOWN));
+        let chosen = chosen(&fit);
+        let mut at = |rho: f64| {
+            let mut c = DMatrix::identity(4, 4);
+            (c[(0, 3)], c[(3, 0)]) = (rho, rho);
+            fit.covariance = Some(c);
+            ridge(&fit, &chosen).map(|(less, more)| [less.effect.id, more.effect.id])
+        };
+        assert_eq!(at(0.96), None);
+        let both = Some(["traction-creep".to_string(), "traverse-creep".to_string()]);
+        assert_eq!((at(0.98), at(-0.98)), (both.clone(), both));
+    }
+
+    #[test]
+    fn a_value_that_moves_with_a_law_is_told_by_its_share() {
+        let of = |creep: f64| fit_of(unicycle(&[("traction-creep", &[0.3]), ("traverse-creep", &[creep])]));
+        let by = |other: f64| moved(&of(-0.05), &of(other), &applied("traverse-creep")).unwrap();
+        for (other, share) in [(-0.05, 0.0), (-0.04, 0.2), (0.05, 2.0)] {
+            assert!((by(other) - share).abs() < 1e-12, "{other}: {}", by(other));
+        }
+        assert_eq!(moved(&of(0.1), &of(0.1), &applied("lever-arm")), None);
+    }
+}

@@ -1,0 +1,96 @@
+//! What held-out runs refute: taken out of a choice after the last of it was made.
+
+use super::search::{MOST, Search, SearchState};
+use super::transients;
+use crate::discrepancy::estimation::fit::Fit;
+use crate::discrepancy::estimation::problem::Problem;
+use crate::discrepancy::selection::choice::{Growth, Refusal, Refused, Selected, SelectedEffect};
+use crate::effects::{Applied, Effect};
+use crate::error::Result;
+use crate::model::Model;
+use crate::progress::OnProgress;
+
+/// Held-out runs.
+pub(crate) trait HeldOut {
+    /// The gaps of position and heading with the first of two models in the place of the second.
+    fn gaps(&self, with: &Model, without: &Model) -> Result<Vec<Growth>>;
+}
+
+/// Takes out of a choice what held-out runs are predicted worse with, an effect beside all others or what was found as a
+/// whole.
+pub(crate) fn refute(
+    problem: &Problem,
+    library: &[Effect],
+    choice: Selected,
+    held_out: &dyn HeldOut,
+    progress: &OnProgress,
+) -> Result<Selected> {
+    let Selected { before, after, mut chosen, steps, candidates, inconsistent, sampling_sensitive, mut refused } =
+        choice;
+    let quick = transients::without_transients(library);
+    let size = before.model.applicable(&quick).len().max(1) as f64;
+    let search = Search { problem, before: &before, library: &quick, size, most: MOST, exchanges: true, drops: true };
+    let mut grown = SearchState { fit: after, steps, candidates, refused: vec![] };
+    while let Some((applied, why, smaller)) = next(&search, &grown.fit, &chosen, held_out)? {
+        grown.go_back_to(smaller);
+        refused.push(Refused::of(&chosen, applied, why));
+        // What is left of the others stands or falls anew.
+        let standing = search.keep_standing(&mut grown, None, vec![], progress)?;
+        chosen = standing.chosen;
+        refused.extend(standing.refused);
+    }
+    let SearchState { fit: after, steps, candidates, .. } = grown;
+    Ok(Selected { before, after, chosen, steps, candidates, inconsistent, sampling_sensitive, refused })
+}
+
+/// The next effect to be taken out, why, and the fit without it.
+fn next(
+    search: &Search,
+    fit: &Fit,
+    chosen: &[SelectedEffect],
+    held_out: &dyn HeldOut,
+) -> Result<Option<(Applied, Refusal, Fit)>> {
+    let mut worst: Option<(f64, Applied, Refusal, Fit)> = None;
+    for c in chosen {
+        let Some(smaller) = search.without(fit, &c.applied)? else { continue };
+        let gaps = held_out.gaps(&fit.model, &smaller.model)?;
+        let Some(growth) = most_grown(&gaps) else { continue };
+        let (factor, why) = (growth.factor(), Refusal::HeldOut(growth));
+        if worst.as_ref().is_none_or(|(f, ..)| factor > *f) {
+            worst = Some((factor, c.applied.clone(), why, smaller));
+        }
+    }
+    if let Some((_, applied, why, smaller)) = worst {
+        return Ok(Some((applied, why, smaller)));
+    }
+    // Where only all together make it grow, the one that is worth least goes.
+    let least = chosen.iter().min_by(|a, b| a.delta_bic.total_cmp(&b.delta_bic));
+    let Some(least) = least else { return Ok(None) };
+    let Some(growth) = most_grown(&held_out.gaps(&fit.model, &search.before.model)?) else { return Ok(None) };
+    let smaller = search.without(fit, &least.applied)?;
+    Ok(smaller.map(|smaller| (least.applied.clone(), Refusal::HeldOut(growth), smaller)))
+}
+
+/// The gap that grows most, of those that do: what shrinks the gap of the same quantity at another horizon is not refuted.
+fn most_grown(gaps: &[Growth]) -> Option<Growth> {
+    let is_one_way = |g: &&Growth| !gaps.iter().any(|other| other.of_heading == g.of_heading && other.shrinks());
+    gaps.iter().filter(|g| g.is_real()).filter(is_one_way).max_by(|a, b| a.factor().total_cmp(&b.factor())).copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_gap_grows_beyond_its_floor_and_the_largest_counts() {
+        let gap = |gap: [f64; 2], floor: f64| Growth { horizon_s: 1.0, of_heading: false, gap, floor };
+        assert_eq!(most_grown(&[gap([0.1, 0.12], 0.01), gap([0.01, 0.02], 0.02)]), None);
+        let grown = [gap([0.1, 0.2], 0.01), gap([0.1, 0.3], 0.01)];
+        assert!((most_grown(&grown).unwrap().factor() - 3.0).abs() < 1e-12);
+        // What helps at another horizon is not refuted, what helps the heading alone is.
+        let shrunk = gap([0.1, 0.05], 0.01);
+        assert_eq!(most_grown(&[grown[0], grown[1], shrunk]), None);
+        assert!(most_grown(&[grown[0], Growth { of_heading: true, ..shrunk }]).is_some());
+        assert!(gap([0.1, 0.08], 0.01).shrinks() && !gap([0.1, 0.095], 0.01).shrinks());
+    }
+}

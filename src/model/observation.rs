@@ -1,0 +1,97 @@
+//! The observation: what is measured of a vehicle, output by output, and which noise the sensor adds to each.
+
+use super::trailer::trailer_heading;
+use crate::formula::Symbol;
+
+/// A component of the measurement noise: outputs that name the same one share a variance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SensorNoise {
+    /// Its name.
+    pub id: &'static str,
+    /// The unit of its standard deviation.
+    pub unit: &'static str,
+}
+
+/// Where a component of the measurement noise stands among those of [`sensor_noise`]: of a position.
+pub const POSITION: usize = 0;
+/// Of the body's heading.
+pub const HEADING: usize = 1;
+/// Of a trailer's heading.
+pub const TRAILER: usize = 2;
+
+const SENSOR_NOISE: [SensorNoise; 3] = [
+    SensorNoise { id: "position", unit: "m" },
+    SensorNoise { id: "heading", unit: "rad" },
+    SensorNoise { id: "trailer-heading", unit: "rad" },
+];
+
+/// An output of a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Output {
+    source: Source,
+    /// Whether it is an angle, of which whole turns say nothing.
+    pub is_angle: bool,
+    /// Its component of the measurement noise, a place among those of [`sensor_noise`].
+    pub noise: usize,
+}
+
+/// The formula of an output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Source {
+    /// A definition of the model: the state as the sensor sees it.
+    Definition(&'static str),
+    /// The heading of a trailer, as it is.
+    Trailer(usize),
+}
+
+/// What a sensor on the body measures.
+const BODY: [Output; 3] = [
+    Output { source: Source::Definition("x_m"), is_angle: false, noise: POSITION },
+    Output { source: Source::Definition("y_m"), is_angle: false, noise: POSITION },
+    Output { source: Source::Definition("heading_m"), is_angle: true, noise: HEADING },
+];
+
+/// The outputs that are a place in the plane.
+pub const PLACE: [usize; 2] = [0, 1];
+/// The output that is the body's heading; a log may lack its column.
+pub const BODY_HEADING: usize = 2;
+
+impl Output {
+    /// The definition or state that it is.
+    pub fn symbol(&self) -> Symbol {
+        match self.source {
+            Source::Definition(name) => Symbol::from(name),
+            Source::Trailer(i) => trailer_heading(i),
+        }
+    }
+
+    /// Its unit.
+    pub fn unit(&self) -> &'static str {
+        SENSOR_NOISE[self.noise].unit
+    }
+}
+
+/// The outputs of a vehicle with so many trailers, in the order of the equations.
+///
+/// | output | unit | noise | angle |
+/// |---|---|---|---|
+/// | `x_m`, `y_m` | m | position | no |
+/// | `heading_m` | rad | heading | yes |
+/// | `phi_1`, `phi_2` … | rad | trailer-heading | yes |
+///
+/// ```
+/// use creepage::model::observation::outputs;
+/// let names: Vec<String> = outputs(1).map(|y| y.symbol().to_string()).collect();
+/// assert_eq!(names, ["x_m", "y_m", "heading_m", "phi_1"]);
+/// assert_eq!(outputs(1).map(|y| y.unit()).collect::<Vec<_>>(), ["m", "m", "rad", "rad"]);
+/// ```
+pub fn outputs(trailers: usize) -> impl Iterator<Item = Output> {
+    let of_trailer = |i: usize| Output { source: Source::Trailer(i), is_angle: true, noise: TRAILER };
+    BODY.into_iter().chain((1..=trailers).map(of_trailer))
+}
+
+/// The components of the measurement noise that these outputs have.
+pub fn sensor_noise(trailers: usize) -> &'static [SensorNoise] {
+    let last = outputs(trailers).map(|y| y.noise).max().unwrap_or(POSITION);
+    &SENSOR_NOISE[..=last]
+}

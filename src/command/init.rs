@@ -3,7 +3,7 @@
 use super::output::print;
 use super::user_catalogues::UserVehicles;
 use clap::Args;
-use creepage::files::{ModelFile, read_header, read_texts, write_whole};
+use creepage::files::{ModelFile, read_beginning, write_whole};
 use creepage::scaffold::{Measures, Starter, Wanted};
 use creepage::{Error, Result, effects, model};
 use std::path::{Path, PathBuf};
@@ -55,10 +55,12 @@ const LOOKED_AT: usize = 2000;
 
 /// Carries out the command.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
-    let read = |path: &PathBuf| Ok((path.display().to_string(), read_header(path)?));
-    let log = arguments.from.as_ref().map(read).transpose()?;
-    let truth = arguments.truth.as_ref().map(read).transpose()?;
-    let rows = |path: &Option<PathBuf>| path.as_ref().map_or(Ok(vec![]), |path| read_texts(path, LOOKED_AT));
+    let read = |path: &PathBuf| {
+        let (header, rows) = read_beginning(path, LOOKED_AT)?;
+        Ok(((path.display().to_string(), header), rows))
+    };
+    let (log, rows) = arguments.from.as_ref().map(read).transpose()?.unzip();
+    let (truth, truth_rows) = arguments.truth.as_ref().map(read).transpose()?.unzip();
     let vehicles = arguments.own.all()?;
     let is_own = |id: &Option<String>| vehicles.iter().any(|v| Some(&v.id) == id.as_ref() && v.origin.is_some());
     let named = is_own(&Some(arguments.vehicle.clone())) || is_own(&arguments.tractor);
@@ -71,8 +73,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
             trailers: arguments.trailers.map(usize::from),
             log,
             truth,
-            rows: rows(&arguments.from)?,
-            truth_rows: rows(&arguments.truth)?,
+            rows: rows.unwrap_or_default(),
+            truth_rows: truth_rows.unwrap_or_default(),
             measures: arguments.urdf.as_ref().map(Measures::read).transpose()?,
             own,
         },

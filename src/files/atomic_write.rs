@@ -5,7 +5,7 @@ use crate::error::Result;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
-use tempfile::Builder;
+use tempfile::{Builder, NamedTempFile};
 
 /// Writes a file in one step: whatever fails, `path` holds the new bytes whole or what it held before.
 ///
@@ -49,11 +49,21 @@ pub(crate) fn write_whole_with(path: &Path, write: impl FnOnce(&File) -> Result<
         // A pipe or /dev/null takes bytes as they come; renaming a file over it would destroy it.
         return write(&OpenOptions::new().write(true).open(&target).map_err(|e| failed(&e))?);
     }
-    let new = builder(&target).tempfile_in(folder_of(&target)).map_err(|e| failed(&e))?;
-    write(new.as_file())?;
-    new.as_file().sync_all().map_err(|e| failed(&e))?;
-    new.persist(&target).map_err(|e| failed(&e.error))?;
+    prepared(&target, path, write)?.persist(&target).map_err(|e| failed(&e.error))?;
     Ok(())
+}
+
+/// A finished file beside the target, gone when dropped; errors name the path that was asked for.
+pub(super) fn prepared(
+    target: &Path,
+    path: &Path,
+    write: impl FnOnce(&File) -> Result<()>,
+) -> Result<NamedTempFile<File>> {
+    let failed = |e: &io::Error| unwritable(path, e);
+    let file = builder(target).tempfile_in(folder_of(target)).map_err(|e| failed(&e))?;
+    write(file.as_file())?;
+    file.as_file().sync_all().map_err(|e| failed(&e))?;
+    Ok(file)
 }
 
 /// Puts a finished file from the same folder in the place of another, in one step, with the permissions of the other.
@@ -92,19 +102,20 @@ pub(super) fn builder(target: &Path) -> Builder<'static, 'static> {
     builder
 }
 
+/// The names in a folder, sorted.
+#[cfg(test)]
+pub(super) fn names(dir: &Path) -> Vec<String> {
+    let mut names: Vec<_> = fs::read_dir(dir).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::files::output_path::is_link;
     use crate::files::write_all_or_nothing;
     use std::path::PathBuf;
-
-    fn names(dir: &Path) -> Vec<String> {
-        let mut names: Vec<_> =
-            fs::read_dir(dir).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
-        names.sort();
-        names
-    }
 
     #[test]
     fn a_file_is_replaced_and_nothing_else_is_left() {

@@ -22,7 +22,7 @@ pub use extension::vehicles::VehiclesFile;
 pub use log::cells::Cells;
 pub use log::column_entry::{ColumnEntry, Kind, Reading};
 pub use log::columns::{Columns, InputColumn, Resolved, ResolvedInput};
-pub use log::header::{read_header, read_texts};
+pub use log::header::read_beginning;
 pub use log::inputs::Inputs;
 pub use log::run::{Apart, Deviations, Run};
 pub use log::two_clocks::Clock;
@@ -41,5 +41,7 @@ pub(crate) use toml::text::open;
 pub use toml::text::read_text;
 pub use write_together::write_all_or_nothing;
 
+pub(crate) use log::cells::is_without_names;
+pub(crate) use log::csv_cell::Cell;
 pub(crate) use log::time_stamp::is_iso_8601;
 pub(crate) use toml::suggestions::{advice, shown};

@@ -1,10 +1,10 @@
 //! Several files written into a folder together: all of them are renamed into their places, or none stays.
 
-use super::atomic_write::{buffered, builder};
+use super::atomic_write::{buffered, builder, prepared};
 use super::output_path::{folder_of, is_link, target, unwritable};
 use crate::error::{Error, Result};
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 use tempfile::{NamedTempFile, TempPath};
 
@@ -39,15 +39,15 @@ pub fn write_all_or_nothing(dir: impl AsRef<Path>, files: &[(&str, &[u8])]) -> R
 type Ready = (PathBuf, NamedTempFile<File>, Option<TempPath>);
 
 fn put_all(dir: &Path, files: &[(&str, &[u8])]) -> Result<()> {
-    let mut ready = Vec::new();
+    let mut all = Vec::new();
     for (name, bytes) in files {
         let path = dir.join(name);
         let target = target(&path)?;
-        let new = prepare(&target, |to| to.write_all(bytes)).map_err(|e| unwritable(&path, &e))?;
+        let new = ready(&target, &path, bytes)?;
         let old = keep_old(&target).map_err(|e| unwritable(&path, &e))?;
-        ready.push((target, new, old));
+        all.push((target, new, old));
     }
-    install(ready)
+    install(all)
 }
 
 /// Renames every file into its place; when one fails, those before it are undone.
@@ -83,12 +83,9 @@ fn keep_old(target: &Path) -> io::Result<Option<TempPath>> {
     Ok(Some(builder(target).make_in(folder_of(target), link)?.into_temp_path()))
 }
 
-/// What is written in a finished file beside the target, gone when dropped.
-fn prepare(target: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<NamedTempFile<File>> {
-    let file = builder(target).tempfile_in(folder_of(target))?;
-    buffered(file.as_file(), write)?;
-    file.as_file().sync_all()?;
-    Ok(file)
+/// Bytes in a finished file beside the target, gone when dropped; errors name the path that was asked for.
+fn ready(target: &Path, path: &Path, bytes: &[u8]) -> Result<NamedTempFile<File>> {
+    prepared(target, path, |file| buffered(file, |to| to.write_all(bytes)).map_err(|e| unwritable(path, &e)))
 }
 
 /// Makes the folder; gives those that were missing, innermost first.
@@ -110,13 +107,7 @@ fn make_dir(dir: &Path) -> Result<Vec<PathBuf>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn names(dir: &Path) -> Vec<String> {
-        let mut names: Vec<_> =
-            fs::read_dir(dir).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
-        names.sort();
-        names
-    }
+    use crate::files::atomic_write::names;
 
     #[test]
     fn several_files_are_written_together_or_not_at_all() {
@@ -144,7 +135,7 @@ mod tests {
         let [old, new, folder] = ["old", "new", "folder"].map(|name| dir.path().join(name));
         fs::write(&old, b"old").unwrap();
         fs::create_dir(&folder).unwrap();
-        let ready = |target: &Path| (target.to_path_buf(), prepare(target, |to| to.write_all(b"changed")).unwrap());
+        let ready = |target: &Path| (target.to_path_buf(), super::ready(target, target, b"changed").unwrap());
         let with = |(target, file): (PathBuf, _), kept| (target, file, kept);
         let kept = keep_old(&old).unwrap();
         let all = vec![with(ready(&old), kept), with(ready(&new), None), with(ready(&folder), None)];

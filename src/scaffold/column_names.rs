@@ -140,11 +140,6 @@ const COUNTS: &[&str] = &["tick", "ticks", "count", "counts", "enc", "encoder", 
 /// Words of a heading from north, clockwise.
 const COMPASS: &[&str] = &["compass", "bearing", "azimuth", "course", "cog"];
 
-/// The words of a column's name without its unit.
-pub(crate) fn plain_words(column: &str) -> Vec<String> {
-    words(column)
-}
-
 /// The unit that a column's name ends in.
 pub(crate) fn unit_of(column: &str) -> Option<&'static str> {
     suffix(&all_words(column)).map(|(unit, _)| unit)
@@ -210,7 +205,7 @@ fn against(role: &str) -> &'static [&'static str] {
 }
 
 /// The words of a column's name in lower case, a unit at the end left out.
-fn words(column: &str) -> Vec<String> {
+pub(crate) fn words(column: &str) -> Vec<String> {
     let mut words = all_words(column);
     let unit = suffix(&words).map_or(0, |(_, taken)| taken);
     words.truncate(words.len() - unit);

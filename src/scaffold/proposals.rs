@@ -1,7 +1,7 @@
 //! Entries of `[columns]` that say more than a name: proposed from names and values of a log.
 
 use super::column_matching::Match;
-use super::column_names::{is_compass, is_count, is_place, plain_words, side_words, unit_of};
+use super::column_names::{is_compass, is_count, is_place, side_words, unit_of, words};
 use super::column_units::{in_degrees, of_times};
 use super::samples::Sample;
 
@@ -97,10 +97,15 @@ fn sample<'a>(column: &str, header: &[String], samples: &'a [Sample]) -> Option<
     samples.get(header.iter().position(|name| name == column)?)
 }
 
+/// The columns of latitude and longitude.
+fn geographic(header: &[String]) -> Option<[&String; 2]> {
+    let one = |wanted: &[&str]| header.iter().find(|name| words(name).iter().any(|w| wanted.contains(&w.as_str())));
+    Some([one(&["latitude", "lat"])?, one(&["longitude", "lon", "lng", "long"])?])
+}
+
 /// Latitude and longitude.
 fn position(header: &[String]) -> Option<Proposal> {
-    let one = |words: &[&str]| header.iter().find(|name| plain_words(name).iter().any(|w| words.contains(&w.as_str())));
-    let (latitude, longitude) = (one(&["latitude", "lat"])?, one(&["longitude", "lon", "lng", "long"])?);
+    let [latitude, longitude] = geographic(header)?;
     let value = format!("{{ latitude = {}, longitude = {} }}", quoted(latitude), quoted(longitude));
     Some(Proposal { role: "position".into(), value, placeholder: None })
 }
@@ -141,8 +146,8 @@ fn counted(role: &str, header: &[String], samples: &[Sample], matches: &[Match])
     let sides = side_words(role)?;
     let free = |name: &&String| !matches.iter().any(|m| m.column.as_ref() == Some(*name));
     let fits = |name: &&String, holds: &dyn Fn(&[String]) -> bool| {
-        let words = plain_words(name);
-        holds(&words) && (sides.is_empty() || words.iter().any(|w| sides.contains(&w.as_str())))
+        let words = words(name);
+        holds(&words) && words.iter().any(|w| sides.contains(&w.as_str()))
     };
     let is_counter = |name: &&String| {
         let counts = sample(name, header, samples).is_some_and(Sample::is_count);
@@ -190,9 +195,8 @@ fn places(asked: &[Asked], matches: &[Match], found: &[Option<Proposal>], header
     let at = |role: &str| asked.iter().position(|a| a.role == role);
     let (x, y) = (at("x")?, at("y")?);
     if found[x].as_ref().is_some_and(|p| p.role == "position") {
-        let one =
-            |words: &[&str]| header.iter().find(|name| plain_words(name).iter().any(|w| words.contains(&w.as_str())));
-        return Some([one(&["longitude", "lon", "lng", "long"])?.clone(), one(&["latitude", "lat"])?.clone()]);
+        let [latitude, longitude] = geographic(header)?;
+        return Some([longitude.clone(), latitude.clone()]);
     }
     Some([matches[x].column.clone()?, matches[y].column.clone()?])
 }

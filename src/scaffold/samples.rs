@@ -1,6 +1,6 @@
 //! The first rows of a log, looked at column by column.
 
-use crate::files::is_iso_8601;
+use crate::files::{Cell, is_iso_8601};
 
 /// What the first rows of a column hold.
 #[derive(Clone, Debug, Default)]
@@ -19,10 +19,14 @@ impl Sample {
         let one = |c: usize| {
             let cells = rows.iter().filter_map(|row| row.get(c)).map(String::as_str);
             let mut found = Self::default();
-            for cell in cells.filter(|cell| !cell.is_empty()) {
+            for cell in cells {
+                match Cell::read(cell.as_bytes()) {
+                    Cell::Blank => continue,
+                    Cell::Number(value) => found.numbers.push(value),
+                    _ => {}
+                }
                 found.filled += 1;
                 found.dates += usize::from(is_iso_8601(cell));
-                found.numbers.extend(cell.parse::<f64>().ok().filter(|v| v.is_finite()));
             }
             found
         };
@@ -73,5 +77,17 @@ impl Sample {
         let mut steps: Vec<f64> = self.numbers.windows(2).map(|w| (w[1] - w[0]).abs()).collect();
         steps.sort_by(f64::total_cmp);
         steps.get(steps.len() / 2).copied().unwrap_or(0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_word_for_nothing_is_no_cell() {
+        let rows: Vec<Vec<String>> = ["1.5", "nan", "NA", "", "2.5", "null"].map(|c| vec![c.to_string()]).to_vec();
+        let [sample] = &Sample::of(1, &rows)[..] else { panic!("one column") };
+        assert!(sample.may_hold_numbers() && sample.numbers == [1.5, 2.5]);
     }
 }

@@ -6,6 +6,7 @@ use super::samples::Sample;
 use super::urdf::Measures;
 use crate::error::{Error, Result};
 use crate::files::advice;
+use crate::files::is_without_names;
 use crate::model::WITH_TRAILERS;
 use crate::vehicles;
 use crate::vehicles::Vehicle;
@@ -288,7 +289,7 @@ fn looked_at(
         }
     };
     let mut matches = matched(&names, stands, header, &may_hold);
-    let without_names = !header.is_empty() && header.iter().enumerate().all(|(i, name)| *name == (i + 1).to_string());
+    let without_names = is_without_names(header);
     if let (true, Some(c)) =
         (without_names, (0..header.len()).find(|c| samples[*c].rises() || samples[*c].holds_dates()))
     {

@@ -63,13 +63,13 @@ impl Measures {
                 .at_file(path)
                 .help("leave --urdf out, and put wheel_radius and the others into the model file"));
         }
-        let rounded = |v: f64| (v * 1e9).round() / 1e9;
+        let rounded = |v: f64| Some((v * 1e9).round() / 1e9).filter(|v| v.is_finite());
         let spread = |of: &dyn Fn(&Wheel) -> f64| {
             let (least, most) =
                 wheels.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
-            (most - least > 1e-6).then(|| rounded(most - least))
+            (most - least > 1e-6).then(|| rounded(most - least)).flatten()
         };
-        let mut radii: Vec<f64> = wheels.iter().filter_map(|w| w.radius).collect();
+        let mut radii: Vec<f64> = wheels.iter().filter_map(|w| w.radius).filter(|r| *r > 0.0).collect();
         radii.sort_by(f64::total_cmp);
         Ok(Self {
             source: path.display().to_string(),

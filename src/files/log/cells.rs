@@ -15,6 +15,8 @@ pub struct Cells {
     pub places: Vec<usize>,
     /// How the quantity follows from them.
     pub reading: Reading,
+    /// Whether it is a heading, which may be wrapped.
+    pub wraps: bool,
 }
 
 /// A standard deviation that a row does not have, among finite numbers.
@@ -26,13 +28,17 @@ impl Cells {
     /// The cells of a role in the header of a log; errors do not know the file yet.
     pub(crate) fn find(header: &[String], role: &str, column: &str, entry: Option<&ColumnEntry>) -> Result<Self> {
         let Some(entry) = entry else {
-            return Ok(Self { places: vec![find(header, role, column)?], reading: Reading::plain(Kind::Number) });
+            return Ok(Self {
+                places: vec![find(header, role, column)?],
+                reading: Reading::plain(Kind::Number),
+                wraps: false,
+            });
         };
         let places = match entry.columns.as_slice() {
             [name] if entry.reading.kind == Kind::Quaternion => quaternion(header, role, name)?,
             names => names.iter().map(|name| find(header, role, name)).collect::<Result<_>>()?,
         };
-        Ok(Self { places, reading: entry.reading })
+        Ok(Self { places, reading: entry.reading, wraps: false })
     }
 
     pub(crate) fn places(&self) -> impl Iterator<Item = Place> {
@@ -72,8 +78,11 @@ impl Cells {
         }
     }
 
-    /// Counts or positions without their jumps, in the unit of their cells.
+    /// Headings, counts or positions without their jumps, in the unit of their cells.
     pub(crate) fn continued(&self, column: Vec<f64>) -> Vec<f64> {
+        if self.wraps {
+            return unwrapped(column);
+        }
         if !self.reading.is_difference() {
             return column;
         }
@@ -159,13 +168,18 @@ fn find(header: &[String], role: &str, column: &str) -> Result<usize> {
     }
 }
 
+/// Whether columns have no names of their own: they are called by their numbers.
+pub(crate) fn is_without_names(header: &[String]) -> bool {
+    !header.is_empty() && header.iter().enumerate().all(|(i, name)| *name == (i + 1).to_string())
+}
+
 pub(crate) fn missing(header: &[String], role: &str, column: &str, instead: Option<&str>) -> Error {
     let names: Vec<&str> = header.iter().map(String::as_str).collect();
     let advice = suggestions::advice(column, "the file has", &names);
     let or = instead.map(|other| format!(" or \"{other}\"")).unwrap_or_default();
     let purpose = if role == column { String::new() } else { format!(" for {role}") };
     let error = Error::input(format!("column \"{column}\"{or}{purpose} is missing"));
-    if !names.is_empty() && names.iter().enumerate().all(|(i, name)| *name == (i + 1).to_string()) {
+    if is_without_names(header) {
         let n = names.len();
         return error.help(format!(
             "the file has no names of columns: they are called 1 to {n}; name the right one under [columns] of the model \
@@ -181,7 +195,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     fn cells(kind: Kind, scale: f64, offset: f64) -> Cells {
-        Cells { places: vec![0], reading: Reading { kind, scale, offset } }
+        Cells { places: vec![0], reading: Reading { kind, scale, offset }, wraps: false }
     }
 
     #[test]

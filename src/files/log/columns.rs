@@ -97,6 +97,12 @@ impl Columns {
         for (role, dimension) in DEVIATIONS.iter().zip([Dimension::Length, Dimension::Length, Dimension::Angle]) {
             if let Some(value) = get(role) {
                 let found = column_entry::read(&value, Some(dimension))?;
+                let Reading { kind, scale, offset } = found.reading;
+                if kind != Kind::Number || offset != 0.0 || scale <= 0.0 {
+                    return Err(value
+                        .error(format!("{role} takes a column and its unit alone"))
+                        .help(format!("write {role} = {{ column = \"…\", unit = \"…\" }}")));
+                }
                 entries.insert((*role).to_string(), found);
             }
         }
@@ -142,12 +148,13 @@ impl Columns {
             true => Ok(Cells { reading: DEGREES, ..find(role, column)? }),
             false => find(role, column),
         };
+        let angle = |role: &str, column: &str| Ok(Cells { wraps: true, ..find(role, column)? });
         let heading = match &self.heading {
-            Some(column) => Some(find("heading", column)?),
-            None if header.iter().any(|name| name == "heading") => Some(find("heading", "heading")?),
+            Some(column) => Some(angle("heading", column)?),
+            None if header.iter().any(|name| name == "heading") => Some(angle("heading", "heading")?),
             None => None,
         };
-        let trailer = |(i, column): (usize, &String)| find(&format!("trailer_headings[{}]", i + 1), column);
+        let trailer = |(i, column): (usize, &String)| angle(&format!("trailer_headings[{}]", i + 1), column);
         let deviation = |role: &str| self.entries.get(role).map(|e| find(role, &e.columns[0])).transpose();
         Ok(Resolved {
             time: self.time_cells(header, role, time)?,

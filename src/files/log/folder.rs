@@ -44,10 +44,13 @@ impl Folder {
         if found.is_empty() {
             return Ok(None);
         }
-        let files: Vec<(PathBuf, Vec<String>)> = found
-            .into_iter()
-            .map(|file| Sheet::open(&file).map(|sheet| (file, sheet.header)))
-            .collect::<Result<_>>()?;
+        let headers = found.into_iter().map(|file| Sheet::open(&file).map(|sheet| (file, sheet.header)));
+        let (files, others): (Vec<_>, Vec<_>) = headers.partition(Result::is_ok);
+        // A file that is no table has no column to be named; where all are so, the first one says why.
+        if let (true, Some(Err(error))) = (files.is_empty(), others.into_iter().next()) {
+            return Err(error);
+        }
+        let files: Vec<(PathBuf, Vec<String>)> = files.into_iter().flatten().collect();
         let mut times: BTreeMap<&String, usize> = BTreeMap::new();
         files.iter().flat_map(|(_, header)| header).for_each(|name| *times.entry(name).or_default() += 1);
         let shared = times.into_iter().filter(|(_, n)| *n > 1 || files.len() == 1).map(|(name, _)| name.clone());
@@ -118,7 +121,7 @@ impl Folder {
     /// Cells by the header of their own file.
     fn own_cells(&self, cells: &Cells) -> Cells {
         let place = |p: &usize| self.places.get(p - self.bare).map_or(0, |(_, column)| *column);
-        Cells { places: cells.places.iter().map(place).collect(), reading: cells.reading }
+        Cells { places: cells.places.iter().map(place).collect(), ..cells.clone() }
     }
 
     /// The cells of the time in a file.
@@ -135,7 +138,7 @@ impl Folder {
                     .help("the time must have one name in all files of a run")
             })
         };
-        Ok(Cells { places: time.places.iter().map(place).collect::<Result<_>>()?, reading: time.reading })
+        Ok(Cells { places: time.places.iter().map(place).collect::<Result<_>>()?, ..time.clone() })
     }
 }
 
@@ -163,4 +166,20 @@ fn on_one_time(read: &[(Vec<Vec<f64>>, Vec<usize>)], quantities: &[&Cells]) -> V
     found.insert(0, time.clone());
     let kept: Vec<usize> = (0..time.len()).filter(|i| found.iter().all(|c| c[*i].is_finite())).collect();
     found.iter().map(|c| kept.iter().map(|i| c[*i]).collect()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::files::log::column_entry::{Kind, Reading};
+
+    /// A heading of 3.1 and then −3.1 rad has passed π in between, and not zero.
+    #[test]
+    fn a_wrapped_heading_is_interpolated_the_short_way() {
+        let cells = |wraps| Cells { places: vec![0], reading: Reading::plain(Kind::Number), wraps };
+        let read =
+            [(vec![vec![0.0, 0.1, 0.2], vec![1.0; 3]], vec![0]), (vec![vec![0.0, 0.2], vec![3.1, -3.1]], vec![1])];
+        let between = |wraps| on_one_time(&read, &[&cells(false), &cells(wraps)])[2][1];
+        assert!((between(true) - std::f64::consts::PI).abs() < 1e-12 && between(false).abs() < 1e-12);
+    }
 }

@@ -6,7 +6,6 @@ use super::csv_table::Numbers;
 use super::log_file::Log;
 use super::reading;
 use super::run::{self, arrange, enough};
-use super::tangent_plane::tangent_plane;
 use crate::error::Result;
 use crate::files::{Initial, ModelFile};
 use std::path::Path;
@@ -59,15 +58,16 @@ impl Inputs {
         let driven: Vec<&Cells> = std::iter::once(&time).chain(inputs.iter().map(|i| &i.cells)).collect();
         let measured: Vec<&Cells> = whole.iter().flat_map(Resolved::pose).collect();
         let mut numbers = reading::read(sheet, &driven, &measured)?;
-        let mut poses = numbers.columns.split_off(driven.len());
-        if let (true, [x, y, ..]) = (columns.geographic, poses.as_mut_slice()) {
-            (*x, *y) = tangent_plane(y, x);
-        }
+        let poses = numbers.columns.split_off(driven.len());
         let times = numbers.columns[0].clone();
         let mut warnings = arrange(&mut numbers);
         enough(&numbers).map_err(|e| e.at_file(path))?;
         warnings.extend(left_out(&numbers));
-        let first = whole.and_then(|_| first_pose(&times, numbers.columns[0][0], &poses));
+        let mut first = whole.and_then(|_| first_pose(&times, numbers.columns[0][0], &poses));
+        if let (true, Some([x, y, ..])) = (columns.geographic, first.as_deref_mut()) {
+            // The plane touches the globe where the run begins.
+            (*x, *y) = (0.0, 0.0);
+        }
         if !poses.is_empty() && first.is_none() && model.initial.is_none() {
             warnings
                 .push("the first row has no whole pose, and no other row's is used: it begins at the origin".into());

@@ -124,9 +124,8 @@ fn format(path: &Path) -> Result<Format> {
     }
     let mut file = open(path)?;
     let mut start = [0; 5];
-    // A pipe gives its bytes once, so only a file is looked into.
-    let known = file.metadata().is_ok_and(|m| m.is_file()).then(|| file.read(&mut start).unwrap_or(0));
-    let begins = |magic: &[u8]| known.is_some_and(|n| n >= magic.len() && start.starts_with(magic));
+    let known = file.read(&mut start).unwrap_or(0);
+    let begins = |magic: &[u8]| known >= magic.len() && start.starts_with(magic);
     let ends = |name: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(name));
     Ok(match () {
         () if begins(PARQUET) || ends("parquet") => Format::Parquet,

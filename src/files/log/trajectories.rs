@@ -1,6 +1,6 @@
 //! Measured poses in the files of benchmarks: TUM, EuRoC and KITTI.
 
-use super::cells::Cells;
+use super::cells::{Cells, is_without_names};
 use super::column_entry::{Kind, Reading};
 use super::columns::Resolved;
 use super::csv_table::Numbers;
@@ -22,7 +22,7 @@ const KITTI: usize = 12;
 /// | TUM | time in s, x, y, z, and a quaternion x, y, z, w; no header |
 /// | EuRoC | time in ns, `p_RS_R_x`, …, `q_RS_w`, `q_RS_x`, … |
 pub(crate) fn recognised(header: &[String], origin: Origin) -> Option<Resolved> {
-    let cells = |places: Vec<usize>, kind| Cells { places, reading: Reading::plain(kind) };
+    let cells = |places: Vec<usize>, kind| Cells { places, reading: Reading::plain(kind), wraps: false };
     let trajectory = |time, x, y, turn: Vec<usize>| Resolved {
         time,
         x: cells(vec![x], Kind::Number),
@@ -54,10 +54,6 @@ pub(crate) fn is_kitti(header: &[String]) -> bool {
     header.len() == KITTI && is_without_names(header)
 }
 
-fn is_without_names(header: &[String]) -> bool {
-    header.iter().enumerate().all(|(i, name)| *name == (i + 1).to_string())
-}
-
 /// The poses of KITTI, whose times stand in `times.txt` beside them.
 ///
 /// The camera looks along z, x points to the right and y down; where z is what changes least, the poses are those of a
@@ -67,7 +63,7 @@ fn is_without_names(header: &[String]) -> bool {
 /// When there is no such file, or it has another number of rows.
 pub(crate) fn kitti(log: Log, path: &Path) -> Result<(Resolved, Numbers)> {
     let places: Vec<Cells> =
-        (0..KITTI).map(|i| Cells { places: vec![i], reading: Reading::plain(Kind::Number) }).collect();
+        (0..KITTI).map(|i| Cells { places: vec![i], reading: Reading::plain(Kind::Number), wraps: false }).collect();
     let wanted: Vec<&Cells> = places.iter().collect();
     let numbers = reading::read(log, &wanted, &[])?;
     let beside = path.with_file_name("times.txt");
@@ -92,7 +88,7 @@ pub(crate) fn kitti(log: Log, path: &Path) -> Result<(Resolved, Numbers)> {
         true => (c[11].clone(), c[3].iter().map(|v| -v).collect(), rows.map(|i| (-c[2][i]).atan2(c[10][i])).collect()),
         false => (c[3].clone(), c[7].clone(), rows.map(|i| c[4][i].atan2(c[0][i])).collect()),
     };
-    let one = |index: usize| Cells { places: vec![index], reading: Reading::plain(Kind::Number) };
+    let one = |index: usize| Cells { places: vec![index], reading: Reading::plain(Kind::Number), wraps: false };
     let found = Resolved {
         time: one(0),
         x: one(1),

@@ -5,6 +5,9 @@ use std::borrow::Borrow;
 /// Why rows are left out whose measured pose is grossly wrong.
 pub(crate) const GROSS: &str = "gross error of the measured pose";
 
+/// Why rows are left out around a jump of the reference.
+pub(crate) const JUMPED: &str = "the reference jumps";
+
 /// Names as a phrase: "a", "a and b", "a, b and c".
 pub(crate) fn listed<S: Borrow<str>>(names: impl IntoIterator<Item = S>) -> String {
     let names: Vec<S> = names.into_iter().collect();

@@ -5,6 +5,7 @@ use super::clock_alignment::refinement::refined;
 use super::estimation::problem::Problem;
 use super::pipeline::{discover, discover_by_clocks, unfitted};
 use super::preprocessing::dataset::{Data, FITTED_SHARE};
+use super::preprocessing::slips;
 use super::selection::select::choose;
 use crate::discrepancy::clock_alignment::aligned_run::{is_aligned, without_delay};
 use crate::discrepancy::diagnosis::verdict;
@@ -72,6 +73,9 @@ pub fn discover_aligned(request: &Request, near: Option<f64>, progress: &OnProgr
 fn with_effects(request: &Request, model: &Model, first: &[Aligned], progress: &OnProgress) -> Result<Model> {
     let runs: Vec<Run> = first.iter().map(|a| a.run.clone()).collect();
     let request = Request { runs: &runs, held_out: &[], ..*request };
+    if slips::any(request.file, model, request.runs)?.is_some() {
+        return Ok(model.clone());
+    }
     // Three quarters of the rows are enough to choose by.
     let data = Data::of(&request, model)?;
     let problem = Problem::new(data.fitted, request.file.noise.position, request.file.noise.heading);

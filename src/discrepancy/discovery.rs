@@ -13,7 +13,6 @@ use crate::discrepancy::preprocessing::dataset::Data;
 use crate::discrepancy::request::Request;
 use crate::discrepancy::selection::choice::Refused;
 use crate::files::{EffectEntry, ModelFile};
-use crate::wording::GROSS;
 use std::collections::BTreeMap;
 
 /// What `discover` finds.
@@ -83,8 +82,8 @@ pub(crate) fn report(request: &Request, data: &Data, verdict: Verdict, found: Fi
         steps: found.steps,
         data: DataSummary {
             runs: runs().count(),
-            rows: runs().map(|r| r.time.len()).sum::<usize>() - data.gross,
-            rows_dropped: runs().map(|r| r.rows_dropped).sum::<usize>() + data.gross,
+            rows: runs().map(|r| r.time.len()).sum::<usize>() - data.left_out.rows(),
+            rows_dropped: runs().map(|r| r.rows_dropped).sum::<usize>() + data.left_out.rows(),
             why_dropped: why_dropped(request, data),
             warnings: warnings.map(|w| warning_text::line(&w)).collect(),
             clocks: clocks.clocks,
@@ -101,9 +100,7 @@ fn why_dropped(request: &Request, data: &Data) -> BTreeMap<String, usize> {
     let mut why_dropped: BTreeMap<String, usize> = BTreeMap::new();
     let each = request.runs.iter().chain(request.held_out).flat_map(|r| &r.why_dropped);
     each.for_each(|(why, n)| *why_dropped.entry(why.clone()).or_default() += n);
-    if data.gross > 0 {
-        *why_dropped.entry(GROSS.into()).or_default() += data.gross;
-    }
+    data.left_out.tell(&mut why_dropped);
     why_dropped
 }
 

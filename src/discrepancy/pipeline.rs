@@ -17,7 +17,8 @@ use super::experiment::design;
 use super::experiment::next_step::NextStep;
 use super::localisation::driving_regimes;
 use super::localisation::unexplained_motion::remaining;
-use super::preprocessing::dataset::Data;
+use super::preprocessing::dataset::{Data, FITTED_SHARE};
+use super::preprocessing::prepared_run::PreparedRun;
 use super::preprocessing::quantisation::{CoarseInput, coarse_inputs};
 use super::preprocessing::{slips, unit_errors};
 use super::rendering::figure_data;
@@ -50,13 +51,17 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
     if let Some(sparse) = unit_errors::too_sparse(&model, all())? {
         return Ok(unfitted(request, clocks, verdict::unusable(slip.unwrap_or(sparse))));
     }
-    let data = Data::of(request, &model)?;
     if let Some(slip) = slip {
-        let given = |r| figure_data::path_as_given(r, &model);
-        let paths = data.fitted.iter().map(given).collect::<Result<_>>()?;
+        let given = |r| {
+            let whole = PreparedRun::as_it_is(r, &model, request.file.input_timing).record;
+            let fitted = if request.held_out.is_empty() { whole.split(FITTED_SHARE).0 } else { whole };
+            figure_data::path_as_given(&fitted, &model)
+        };
+        let paths = request.runs.iter().map(given).collect::<Result<_>>()?;
         // What follows from the slip is not told beside it.
         return Ok(early(request, &Data::default(), clocks, paths, verdict::unusable(slip)));
     }
+    let data = Data::of(request, &model)?;
     let problem = Problem::new(data.fitted.clone(), request.file.noise.position, request.file.noise.heading)
         .knowing_its_inputs(&model)?;
     if let Some(outcome) = verdict::before_fitting(&problem, &model)? {

@@ -1,10 +1,11 @@
 //! The way and the turn of every second, from inputs and from poses: what both clocks have in common.
 
+use crate::discrepancy::preprocessing::dead_reckoning::body_rates;
 use crate::discrepancy::record::angle::wrapped;
 use crate::error::Result;
 use crate::files::Run;
 use crate::model::Model;
-use crate::motion::{Timing, initial_hidden};
+use crate::motion::Timing;
 
 /// Ways and turns are taken over this time, s.
 pub(crate) const SPAN: f64 = 1.0;
@@ -22,20 +23,10 @@ impl Driven {
     /// By the model's rates at every row of inputs.
     pub fn of(model: &Model, run: &Run, timing: Timing) -> Result<Self> {
         let equations = model.equations(&[])?;
-        let mut workspace = equations.workspace(&[]);
         let time = run.input_time().to_vec();
-        let visible = vec![0.0; equations.visible];
-        let mut rates = vec![0.0; equations.n()];
-        let (mut v, mut w) = (Vec::with_capacity(time.len()), Vec::with_capacity(time.len()));
-        for i in 0..time.len() {
-            let u: Vec<f64> = run.inputs.iter().map(|c| c[i]).collect();
-            let hidden = initial_hidden(&equations, &[], &u, &visible);
-            equations.rates(&mut workspace, &[visible.as_slice(), &hidden].concat(), &u, &mut rates);
-            let defined = |x: f64| if x.is_finite() { x } else { 0.0 };
-            v.push(defined(rates[0]));
-            w.push(defined(rates[2]));
-        }
-        let (way, turn) = (sums(&time, &v, timing), sums(&time, &w, timing));
+        let rates = body_rates(&equations, &run.inputs, time.len());
+        let of = |k: usize| sums(&time, &rates.iter().map(|r| r[k]).collect::<Vec<f64>>(), timing);
+        let (way, turn) = (of(0), of(2));
         Ok(Self { time, way, turn })
     }
 

@@ -132,7 +132,6 @@ fn noise_of(records: &[Record], component: usize) -> f64 {
         let columns = r.channels().into_iter().zip(&r.columns).filter(|(c, _)| c.noise == component);
         found.extend(columns.filter_map(|(_, y)| local_polynomial::noise(&r.time[r.rows.clone()], &y[r.rows.clone()])));
     }
-    found.sort_by(f64::total_cmp);
     // A column without any noise still has its last digit.
-    found.get(found.len() / 2).copied().unwrap_or(1e-3).max(1e-9)
+    local_polynomial::median(&mut found).unwrap_or(1e-3).max(1e-9)
 }

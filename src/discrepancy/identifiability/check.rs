@@ -15,9 +15,10 @@ use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::experiment::next_step::NextStep;
-use crate::discrepancy::preprocessing::clock_jumps::{ClockJump, clock_jump};
+use crate::discrepancy::preprocessing::clock_jumps::ClockJump;
 use crate::discrepancy::preprocessing::outliers::without_gross_errors;
-use crate::discrepancy::preprocessing::reference_jumps::{self, Jumps};
+use crate::discrepancy::preprocessing::prepared_run::{LeftOut, PreparedRun};
+use crate::discrepancy::preprocessing::reference_jumps::Jumps;
 use crate::discrepancy::preprocessing::slips;
 use crate::discrepancy::preprocessing::unit_errors::too_sparse;
 use crate::discrepancy::record::run_record::Record;
@@ -73,19 +74,23 @@ pub(crate) fn assess(of: &Checked, progress: &OnProgress) -> Result<Assessment> 
     let is_slip = slip.is_some();
     let sparse = if is_slip { slip } else { too_sparse(&model, of.runs)? };
     let timing = of.file.input_timing;
-    let jumps_of = |r: &Run| if sparse.is_some() { Ok(vec![]) } else { reference_jumps::jumps(&model, timing, r) };
-    let jumps: Vec<Vec<Jumps>> = of.runs.par_iter().map(jumps_of).collect::<Result<_>>()?;
-    let clock_of = |r: &Run| if sparse.is_some() { Ok(None) } else { clock_jump(&model, timing, r) };
-    let clocks: Vec<Option<ClockJump>> = of.runs.par_iter().map(clock_of).collect::<Result<_>>()?;
-    let record = |(r, jumps): (&Run, &Vec<Jumps>)| {
-        let record = reference_jumps::without(&Record::of_run(r, timing, model.trailer_count()), jumps);
-        if sparse.is_some() { Ok((record, 0)) } else { without_gross_errors(&record, &model) }
+    let prepared = |r: &Run| -> Result<(PreparedRun, LeftOut)> {
+        if sparse.is_some() {
+            return Ok((PreparedRun::as_it_is(r, &model, timing), LeftOut::default()));
+        }
+        let run = PreparedRun::of(r, &model, timing)?;
+        let (record, gross) = without_gross_errors(&run.record, &model)?;
+        let left_out = LeftOut { gross, jumped: run.jumped };
+        Ok((PreparedRun { record, ..run }, left_out))
     };
-    let clean: Vec<(Record, usize)> = of.runs.par_iter().zip(&jumps).map(record).collect::<Result<_>>()?;
-    let (records, gross): (Vec<Record>, Vec<usize>) = clean.into_iter().unzip();
-    let (data, mut findings) = health(&model, of.runs, &records, &gross)?;
-    findings.extend(clocks.into_iter().flatten().map(DataFinding::ClockJump));
-    findings.extend(jumps.into_iter().flatten().map(DataFinding::Jumps));
+    let prepared: Vec<(PreparedRun, LeftOut)> = of.runs.par_iter().map(prepared).collect::<Result<_>>()?;
+    let (prepared, left_out): (Vec<PreparedRun>, Vec<LeftOut>) = prepared.into_iter().unzip();
+    let clocks: Vec<ClockJump> = prepared.iter().filter_map(|r| r.clock.clone()).collect();
+    let jumps: Vec<Jumps> = prepared.iter().flat_map(|r| r.jumps.clone()).collect();
+    let records: Vec<Record> = prepared.into_iter().map(|r| r.record).collect();
+    let (data, mut findings) = health(&model, of.runs, &records, &left_out)?;
+    findings.extend(clocks.into_iter().map(DataFinding::ClockJump));
+    findings.extend(jumps.into_iter().map(DataFinding::Jumps));
     if let Some(slip) = sparse {
         // What follows from the slip is no finding of its own.
         if is_slip {

@@ -6,6 +6,7 @@ use super::driving_statistics::{driving, quantile};
 use crate::discrepancy::estimation::autocorrelation::NOTICEABLE;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::noise_model::Component;
+use crate::discrepancy::preprocessing::prepared_run::LeftOut;
 use crate::discrepancy::preprocessing::quantisation::coarse_inputs;
 use crate::discrepancy::preprocessing::unit_errors::{SPARSE, turning_cause, way_cause};
 use crate::discrepancy::record::run_record::Record;
@@ -13,7 +14,7 @@ use crate::error::Result;
 use crate::files::Run;
 use crate::model::Model;
 use crate::model::observation::{HEADING, POSITION};
-use crate::wording::GROSS;
+use rayon::prelude::*;
 
 /// Share of rows left out that is worth a word.
 const MANY_DROPPED: f64 = 0.05;
@@ -33,13 +34,13 @@ pub(crate) fn health(
     model: &Model,
     runs: &[Run],
     records: &[Record],
-    gross: &[usize],
+    left_out: &[LeftOut],
 ) -> Result<(Health, Vec<DataFinding>)> {
-    let one = |((run, record), gross): ((&Run, &Record), &usize)| -> Result<RunHealth> {
+    let one = |((run, record), left_out): ((&Run, &Record), &LeftOut)| -> Result<RunHealth> {
         let noise = record.position_noise();
-        driving(model, record, rows(run, record, *gross), noise)
+        driving(model, record, rows(run, record, *left_out), noise)
     };
-    let each: Vec<RunHealth> = runs.iter().zip(records).zip(gross).map(one).collect::<Result<_>>()?;
+    let each: Vec<RunHealth> = runs.par_iter().zip(records).zip(left_out).map(one).collect::<Result<_>>()?;
     let mut found = findings(&each, records);
     for run in runs {
         let reading = |says: &String| DataFinding::Reading { run: run.name.clone(), says: says.clone() };
@@ -74,18 +75,16 @@ pub(crate) fn of_fit(fit: &Fit) -> Vec<DataFinding> {
 }
 
 /// What the rows of a run say by themselves.
-fn rows(run: &Run, record: &Record, gross: usize) -> RunHealth {
+fn rows(run: &Run, record: &Record, left_out: LeftOut) -> RunHealth {
     let steps: Vec<f64> = record.time.windows(2).map(|w| w[1] - w[0]).collect();
     let step = record.step();
     let spread = |q| quantile(steps.clone(), q).unwrap_or(step);
     let mut why_dropped = run.why_dropped.clone();
-    if gross > 0 {
-        why_dropped.insert(GROSS.into(), gross);
-    }
+    left_out.tell(&mut why_dropped);
     RunHealth {
         run: run.name.clone(),
         rows: record.time.len(),
-        rows_dropped: run.rows_dropped + gross,
+        rows_dropped: run.rows_dropped + left_out.rows(),
         why_dropped,
         duration_s: record.time[record.time.len() - 1] - record.time[0],
         rate_hz: 1.0 / step,
@@ -148,6 +147,7 @@ mod tests {
     use super::*;
     use crate::discrepancy::fixtures::unicycle_file;
     use crate::discrepancy::preprocessing::unit_errors::{TurningCause, WayCause};
+    use crate::wording::GROSS;
     use std::collections::BTreeMap;
 
     /// A run with nothing to say about.
@@ -229,7 +229,7 @@ mod tests {
         time.for_each(|t| log += &format!("{t},0,0,0,1,0\n"));
         let run = Run::parse("run.csv", &log, &file).unwrap();
         let record = Record::of_run(&run, file.input_timing, 0);
-        let told = rows(&run, &record, 3);
+        let told = rows(&run, &record, LeftOut { gross: 3, jumped: 0 });
         let close = |a: f64, b: f64| (a - b).abs() < 1e-9;
         assert!(close(told.duration_s, 5.8) && close(told.rate_hz, 10.0) && close(told.longest_gap_s, 2.0), "{told:?}");
         // Of 39 steps five are 0.14 s and five 0.06 s.

@@ -1,11 +1,9 @@
 //! A clock that jumps within a run: from one time on the pose lags the inputs by another delay.
 
-use super::dead_reckoning::DeadReckoning;
 use crate::discrepancy::record::local_polynomial::median;
-use crate::error::Result;
-use crate::files::{InputTiming, Run};
-use crate::model::Model;
-use nalgebra::{Matrix3, Vector3};
+use crate::files::Run;
+use nalgebra::{DMatrix, DVector, SMatrix, SVector, Vector2, Vector3};
+use std::ops::Range;
 
 /// Windows over which a delay is told, and how far one lies behind the other, s.
 const WINDOW: f64 = 8.0;
@@ -42,20 +40,13 @@ struct Turning<'a> {
 }
 
 /// The jump of the clock of one sensor of a run, where its turns tell one.
-///
-/// # Errors
-/// When the model's formulas are malformed.
-pub fn clock_jump(model: &Model, timing: InputTiming, run: &Run) -> Result<Option<ClockJump>> {
-    let (Some(reckoning), Some(measured)) = (DeadReckoning::of(model, timing, run)?, &run.heading) else {
-        return Ok(None);
-    };
-    let [_, _, reckoned] = reckoning.path(&run.inputs);
-    let turning = Turning { time: &run.time, measured, reckoned: &reckoned };
+pub fn clock_jump(run: &Run, [_, _, reckoned]: &[Vec<f64>; 3]) -> Option<ClockJump> {
+    let turning = Turning { time: &run.time, measured: run.heading.as_ref()?, reckoned };
     let (first, last) = (run.time[0] + LONGEST, run.time[run.time.len() - 1] - LONGEST);
     let starts = (0..).map(|k| first + APART * f64::from(k)).take_while(|t| t + WINDOW <= last).take(2000);
     let delays: Vec<[f64; 2]> = starts.filter_map(|t| Some([t + 0.5 * WINDOW, turning.delay(t)?])).collect();
     let row = (last - first) / run.time.len() as f64;
-    Ok(step(&delays, row).map(|[at, by]| ClockJump { run: run.name.clone(), at, by }))
+    step(&delays, row).map(|[at, by]| ClockJump { run: run.name.clone(), at, by })
 }
 
 impl Turning<'_> {
@@ -65,8 +56,12 @@ impl Turning<'_> {
         if rows.len() < 20 {
             return None;
         }
+        // Where nothing turns no delay leaves less than another.
+        let without = self.level(rows.clone()).filter(|left| *left > 1e-3 * rows.len() as f64)?;
         let tried = (LONGEST / STEP).round() as i32;
-        let each: Vec<f64> = (-tried..=tried).map(|k| self.misfit(rows.clone(), STEP * f64::from(k))).collect();
+        let misfit =
+            |k: i32| self.misfit(rows.clone(), STEP * f64::from(k)).map_or(f64::INFINITY, |with| with / without);
+        let each: Vec<f64> = (-tried..=tried).map(|k| misfit(k).max(0.0)).collect();
         let best = (0..each.len()).min_by(|a, b| each[*a].total_cmp(&each[*b]))?;
         let far = (JUMP / STEP) as usize;
         let (before, after) = (*each.get(best.checked_sub(far)?)?, *each.get(best + far)?);
@@ -74,30 +69,46 @@ impl Turning<'_> {
         tells.then(|| STEP * (best as f64 - f64::from(tried)))
     }
 
-    /// The share of the measured turning, about its mean and trend, that the reckoned one at a delay leaves.
-    fn misfit(&self, rows: std::ops::Range<usize>, delay: f64) -> f64 {
-        let (mut normal, mut right, mut all) = (Matrix3::zeros(), Vector3::zeros(), 0.0);
-        let middle = rows.start + rows.len() / 2;
-        let reckoned = |t: f64| {
-            let next = self.time.partition_point(|s| *s < t).clamp(1, self.time.len() - 1);
+    /// The measured turning about its mean and trend, a sum of squares.
+    fn level(&self, rows: Range<usize>) -> Option<f64> {
+        self.left::<2>(rows, |_, since| Vector2::new(1.0, since))
+    }
+
+    /// What the reckoned turning at a delay leaves of it.
+    fn misfit(&self, rows: Range<usize>, delay: f64) -> Option<f64> {
+        let last = self.time.len() - 1;
+        let at_middle = self.reckoned[rows.start + rows.len() / 2];
+        let mut next = self.time.partition_point(|t| *t < self.time[rows.start] - delay).clamp(1, last);
+        self.left::<3>(rows, |i, since| {
+            let t = self.time[i] - delay;
+            while next < last && self.time[next] < t {
+                next += 1;
+            }
             let share = (t - self.time[next - 1]) / (self.time[next] - self.time[next - 1]);
-            self.reckoned[next - 1] + share * (self.reckoned[next] - self.reckoned[next - 1]) - self.reckoned[middle]
-        };
-        for i in rows.clone() {
-            let row = Vector3::new(1.0, self.time[i] - self.time[middle], reckoned(self.time[i] - delay));
+            let reckoned = self.reckoned[next - 1] + share * (self.reckoned[next] - self.reckoned[next - 1]);
+            Vector3::new(1.0, since, reckoned - at_middle)
+        })
+    }
+
+    /// The sum of squares that regressors leave of the measured headings; they are asked row by row, with the time since the
+    /// middle.
+    fn left<const N: usize>(
+        &self,
+        rows: Range<usize>,
+        mut regressors: impl FnMut(usize, f64) -> SVector<f64, N>,
+    ) -> Option<f64> {
+        let (mut normal, mut right, mut all) = (SMatrix::<f64, N, N>::zeros(), SVector::<f64, N>::zeros(), 0.0);
+        let middle = rows.start + rows.len() / 2;
+        for i in rows {
+            let row = regressors(i, self.time[i] - self.time[middle]);
             let y = self.measured[i] - self.measured[middle];
             normal += row * row.transpose();
             right += y * row;
             all += y * y;
         }
-        let left = |k: usize| {
-            let (n, r) = (normal.view((0, 0), (k, k)).into_owned(), right.rows(0, k).into_owned());
-            n.cholesky().map(|c| all - r.dot(&c.solve(&r)))
-        };
-        match (left(3), left(2)) {
-            (Some(with), Some(without)) if without > 1e-3 * rows.len() as f64 => (with / without).max(0.0),
-            _ => f64::INFINITY,
-        }
+        let normal = DMatrix::from_column_slice(N, N, normal.as_slice());
+        let right = DVector::from_column_slice(right.as_slice());
+        normal.cholesky().map(|c| all - right.dot(&c.solve(&right)))
     }
 }
 

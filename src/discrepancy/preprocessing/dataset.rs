@@ -1,8 +1,9 @@
 //! What a request gives: the records to fit and those to judge by.
 
-use super::clock_jumps::{ClockJump, clock_jump};
+use super::clock_jumps::ClockJump;
 use super::outliers;
-use super::reference_jumps::{self, Jumps};
+use super::prepared_run::{LeftOut, PreparedRun};
+use super::reference_jumps::Jumps;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::request::Request;
 use crate::discrepancy::shooting::windows::has_windows;
@@ -19,8 +20,8 @@ pub(crate) const FITTED_SHARE: f64 = 0.75;
 pub(crate) struct Data {
     pub fitted: Vec<Record>,
     pub held_out: Vec<Record>,
-    /// Rows left out because their measured pose is grossly wrong.
-    pub gross: usize,
+    /// Rows left out.
+    pub left_out: LeftOut,
     /// Stretches in which the reference jumps; they are left out.
     pub jumps: Vec<Jumps>,
     /// Jumps of a clock.
@@ -31,35 +32,26 @@ impl Data {
     /// The records of a request's runs.
     pub fn of(request: &Request, model: &Model) -> Result<Self> {
         let timing = request.file.input_timing;
-        let record = |r: &Run| -> Result<(Record, Vec<Jumps>)> {
-            let jumps = reference_jumps::jumps(model, timing, r)?;
-            let record = Record::of_run(r, timing, model.trailer_count());
-            Ok((reference_jumps::without(&record, &jumps), jumps))
+        let each = |runs: &[Run]| -> Result<Vec<PreparedRun>> {
+            runs.par_iter().map(|r| PreparedRun::of(r, model, timing)).collect()
         };
-        let each = |runs: &[Run]| -> Result<(Vec<Record>, Vec<Vec<Jumps>>)> {
-            Ok(runs.par_iter().map(record).collect::<Result<Vec<_>>>()?.into_iter().unzip())
-        };
-        let (whole, mut jumps) = each(request.runs)?;
-        let (judged, of_judged) = each(request.held_out)?;
-        jumps.extend(of_judged);
-        let all: Vec<&Run> = request.runs.iter().chain(request.held_out).collect();
-        let clocks = all.into_par_iter().map(|r| clock_jump(model, timing, r)).collect::<Result<Vec<_>>>()?;
-        let (fitted, held_out): (Vec<Record>, Vec<Record>) = match request.held_out.is_empty() {
+        let (runs, judged) = (each(request.runs)?, each(request.held_out)?);
+        let all = || runs.iter().chain(&judged);
+        let (jumps, clocks) =
+            (all().flat_map(|r| r.jumps.clone()).collect(), all().filter_map(|r| r.clock.clone()).collect());
+        let jumped = all().map(|r| r.jumped).sum();
+        let records = |runs: Vec<PreparedRun>| runs.into_iter().map(|r| r.record).collect::<Vec<Record>>();
+        let whole = records(runs);
+        let (fitted, held_out): (Vec<Record>, Vec<Record>) = match judged.is_empty() {
             true => whole.iter().map(|r| r.split(FITTED_SHARE)).unzip(),
-            false => (whole, judged),
+            false => (whole, records(judged)),
         };
         let clean = |records: &[Record]| -> Result<(Vec<Record>, Vec<usize>)> {
             let each = records.par_iter().map(|r| outliers::without_gross_errors(r, model));
             Ok(each.collect::<Result<Vec<_>>>()?.into_iter().unzip())
         };
         let ((fitted, a), (held_out, b)) = (clean(&fitted)?, clean(&held_out)?);
-        Ok(Self {
-            fitted,
-            held_out,
-            gross: a.iter().chain(&b).sum(),
-            jumps: jumps.into_iter().flatten().collect(),
-            clocks: clocks.into_iter().flatten().collect(),
-        })
+        Ok(Self { fitted, held_out, left_out: LeftOut { gross: a.iter().chain(&b).sum(), jumped }, jumps, clocks })
     }
 
     /// Logs that were interrupted, and such as are too short to be fitted beside others.

@@ -2,8 +2,9 @@
 
 use crate::files::{InputTiming, Run};
 use crate::model::{Equations, Model};
+use crate::motion::initial_hidden;
 
-/// What turns inputs into a path; none for a model with states that no sensor sees.
+/// What turns inputs into a path; none for a model with states that no sensor sees, and for a single row.
 pub(crate) struct DeadReckoning<'a> {
     equations: Equations,
     timing: InputTiming,
@@ -18,13 +19,13 @@ impl<'a> DeadReckoning<'a> {
     pub fn of(model: &Model, timing: InputTiming, run: &'a Run) -> crate::error::Result<Option<Self>> {
         let equations = model.equations(&[])?;
         let is_whole = equations.n() == equations.visible && equations.visible >= 3;
-        Ok(is_whole.then_some(Self { equations, timing, run }))
+        Ok((is_whole && run.input_time().len() > 1).then_some(Self { equations, timing, run }))
     }
 
     /// x, y and heading as the sensor would measure them at the times of the poses, if these were the inputs.
     pub fn path(&self, inputs: &[Vec<f64>]) -> [Vec<f64>; 3] {
         let time = self.run.input_time();
-        let body = self.body_rates(inputs, time.len());
+        let body = body_rates(&self.equations, inputs, time.len());
         let mut at = vec![[0.0; 3]; time.len()];
         for i in 1..time.len() {
             let step = time[i] - time[i - 1];
@@ -38,18 +39,6 @@ impl<'a> DeadReckoning<'a> {
             at[i] = [x + ahead * cos - left * sin, y + ahead * sin + left * cos, heading + step * rate(2)];
         }
         self.measured(time, &at)
-    }
-
-    /// Rates of a body that points along x, row by row; an undefined motion is none.
-    fn body_rates(&self, inputs: &[Vec<f64>], rows: usize) -> Vec<[f64; 3]> {
-        let (mut memory, z) = (self.equations.workspace(&[]), vec![0.0; self.equations.n()]);
-        let (mut u, mut rates) = (vec![0.0; inputs.len()], z.clone());
-        let one = |i: usize| {
-            u.iter_mut().zip(inputs).for_each(|(u, column)| *u = column[i]);
-            self.equations.rates(&mut memory, &z, &u, &mut rates);
-            [0, 1, 2].map(|k| if rates[k].is_finite() { rates[k] } else { 0.0 })
-        };
-        (0..rows).map(one).collect()
     }
 
     /// What the sensor measures at the times of the poses.
@@ -66,4 +55,17 @@ impl<'a> DeadReckoning<'a> {
         }
         found
     }
+}
+
+/// Rates of a body that points along x, row by row, its hidden states at rest; an undefined motion is none.
+pub(crate) fn body_rates(equations: &Equations, inputs: &[Vec<f64>], rows: usize) -> Vec<[f64; 3]> {
+    let (mut memory, visible) = (equations.workspace(&[]), vec![0.0; equations.visible]);
+    let (mut u, mut rates) = (vec![0.0; inputs.len()], vec![0.0; equations.n()]);
+    let one = |i: usize| {
+        u.iter_mut().zip(inputs).for_each(|(u, column)| *u = column[i]);
+        let hidden = initial_hidden(equations, &[], &u, &visible);
+        equations.rates(&mut memory, &[visible.as_slice(), &hidden].concat(), &u, &mut rates);
+        [0, 1, 2].map(|k| if rates[k].is_finite() { rates[k] } else { 0.0 })
+    };
+    (0..rows).map(one).collect()
 }

@@ -5,6 +5,7 @@ pub(crate) mod dataset;
 pub(crate) mod dead_reckoning;
 pub(crate) mod motion_ratios;
 pub mod outliers;
+pub(crate) mod prepared_run;
 pub(crate) mod quantisation;
 pub(crate) mod reference_jumps;
 pub(crate) mod repair_search;

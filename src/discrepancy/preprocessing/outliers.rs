@@ -54,12 +54,8 @@ pub fn without_gross_errors(record: &Record, model: &Model) -> Result<(Record, u
     if !gross.contains(&true) {
         return Ok((record.clone(), 0));
     }
-    let kept = |i: &usize| !gross.get(*i).copied().unwrap_or(false);
-    let before = (0..first).filter(kept).count();
-    let end = (0..record.rows.end).filter(kept).count();
-    let pick = |column: &[f64]| (0..column.len()).filter(kept).map(|i| column[i]).collect::<Vec<f64>>();
-    let columns = record.columns.iter().map(|c| pick(c)).collect();
-    Ok((Record { time: pick(&record.time), columns, rows: before..end, ..record.clone() }, dropped))
+    let kept = |i: usize| !gross.get(i).copied().unwrap_or(false);
+    Ok((record.keeping(kept), dropped))
 }
 
 /// Rows along which the model runs without a restart.

@@ -1,12 +1,8 @@
 //! Jumps of the reference: steps of the measured pose that the vehicle did not make, and that stay.
 
-use super::dead_reckoning::DeadReckoning;
-use crate::discrepancy::record::angle::wrapped;
 use crate::discrepancy::record::local_polynomial::median;
 use crate::discrepancy::record::run_record::Record;
-use crate::error::Result;
-use crate::files::{InputTiming, Run};
-use crate::model::Model;
+use crate::files::Run;
 
 /// A step off by so many times the usual error of a step, and by so many usual steps, is a jump.
 const OFF: f64 = 15.0;
@@ -19,6 +15,8 @@ const NEAR: f64 = 10.0;
 const LOST: usize = 3;
 /// More jumps than this share of the rows are no jumps.
 const MOST: f64 = 0.02;
+/// Stretches that last longer together, as a share of the run, are no exceptions: they are not left out.
+const MOST_LOST: f64 = 0.5;
 /// Rows that tell a usual step.
 const FEWEST: usize = 40;
 
@@ -35,18 +33,13 @@ pub struct Jumps {
 
 /// Where the reference of a run jumps: the measured step from row to row less the reckoned one is far beyond its usual size,
 /// and stays so at the next row.
-///
-/// # Errors
-/// When the model's formulas are malformed.
-pub fn jumps(model: &Model, timing: InputTiming, run: &Run) -> Result<Vec<Jumps>> {
-    let Some(reckoning) = DeadReckoning::of(model, timing, run)? else { return Ok(vec![]) };
+pub fn jumps(run: &Run, reckoned: &[Vec<f64>; 3]) -> Vec<Jumps> {
     if run.time.len() < FEWEST || run.input_time().len() < FEWEST {
-        return Ok(vec![]);
+        return vec![];
     }
-    let reckoned = reckoning.path(&run.inputs);
     let step = run.time.windows(2).map(|w| w[1] - w[0]).collect::<Vec<_>>();
     let usual_step = median(&mut step.clone()).unwrap_or(0.0);
-    let off = |from: usize, to: usize| off(run, &reckoned, from, to);
+    let off = |from: usize, to: usize| off(run, reckoned, from, to);
     let each: Vec<f64> = (1..run.time.len()).map(|i| off(i - 1, i)).collect();
     let usual = median(&mut each.clone()).unwrap_or(0.0);
     let way = |i: usize| (run.x[i] - run.x[i - 1]).hypot(run.y[i] - run.y[i - 1]);
@@ -54,16 +47,18 @@ pub fn jumps(model: &Model, timing: InputTiming, run: &Run) -> Result<Vec<Jumps>
     let bar = (OFF * usual).max(STEPS * usual_way);
     let is_jump = |i: &usize| {
         let size = each[*i - 1];
-        let next = (*i + 1).min(run.time.len() - 1);
-        let before = i.saturating_sub(2);
-        let stays = off(i - 1, next) > BACK * size && off(before, *i) > BACK * size;
+        let stays = off(i - 1, i + 1) > BACK * size && off(i - 2, *i) > BACK * size;
         size > bar && stays && step[*i - 1] < 3.0 * usual_step
     };
-    let found: Vec<usize> = (1..run.time.len()).filter(is_jump).collect();
+    // At either end nothing tells a jump from a gross error.
+    let found: Vec<usize> = (2..run.time.len() - 1).filter(is_jump).collect();
     if bar <= 0.0 || found.len() as f64 > MOST * run.time.len() as f64 {
-        return Ok(vec![]);
+        return vec![];
     }
-    Ok(stretches(run, &found))
+    let found = stretches(run, &found);
+    let lost: f64 = found.iter().map(|j| j.span[1] - j.span[0]).sum();
+    let lasts = run.time[run.time.len() - 1] - run.time[0];
+    if lost > MOST_LOST * lasts { vec![] } else { found }
 }
 
 /// How far the measured step lies from the reckoned one, m; without a heading by its length alone.
@@ -72,7 +67,7 @@ fn off(run: &Run, [x, y, heading]: &[Vec<f64>; 3], from: usize, to: usize) -> f6
     let reckoned = [x[to] - x[from], y[to] - y[from]];
     match &run.heading {
         Some(h) => {
-            let (sin, cos) = wrapped(h[from] - heading[from]).sin_cos();
+            let (sin, cos) = (h[from] - heading[from]).sin_cos();
             let turned = [cos * reckoned[0] - sin * reckoned[1], sin * reckoned[0] + cos * reckoned[1]];
             (measured[0] - turned[0]).hypot(measured[1] - turned[1])
         }
@@ -95,20 +90,45 @@ fn stretches(run: &Run, found: &[usize]) -> Vec<Jumps> {
 }
 
 /// A record without the rows in which the reference jumps: it goes on in pieces, behind an interruption each.
-pub fn without(record: &Record, jumps: &[Jumps]) -> Record {
+pub fn without(record: Record, jumps: &[Jumps]) -> Record {
     if jumps.is_empty() {
-        return record.clone();
+        return record;
     }
     let half = 0.6 * record.gap();
     let is_out = |t: f64| jumps.iter().any(|j| t > j.span[0] - half && t < j.span[1] + half);
-    let kept = |i: &usize| !is_out(record.time[*i]);
-    let rows = |until: usize| (0..until).filter(kept).count();
-    let pick = |column: &[f64]| (0..column.len()).filter(kept).map(|i| column[i]).collect::<Vec<f64>>();
-    let range = rows(record.rows.start)..rows(record.rows.end);
-    Record {
-        time: pick(&record.time),
-        columns: record.columns.iter().map(|c| pick(c)).collect(),
-        rows: range,
-        ..record.clone()
+    record.keeping(|i| !is_out(record.time[i]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::fixtures::unicycle_file;
+
+    /// A straight drive at 1 m/s for 20 s, whose reference is off by a metre from some rows on, and in one row alone.
+    fn run(jumps: &[usize], alone: Option<usize>) -> (Run, [Vec<f64>; 3]) {
+        let mut log = String::from("time,x,y,heading,wheel_rate,yaw_rate\n");
+        for i in 0..200 {
+            let off = jumps.iter().filter(|j| i >= **j).count() as f64 + if alone == Some(i) { 1.0 } else { 0.0 };
+            let t = 0.1 * i as f64;
+            // A millimetre of noise.
+            let noise = 1e-3 * f64::from((7 * i as u32 * i as u32) % 11) / 11.0;
+            log += &format!("{t},{},{off},0,1,0\n", t + noise);
+        }
+        let run = Run::parse("run.csv", &log, &unicycle_file("")).unwrap();
+        let reckoned = [run.time.clone(), vec![0.0; 200], vec![0.0; 200]];
+        (run, reckoned)
+    }
+
+    #[test]
+    fn a_step_that_stays_is_a_jump_and_a_gross_error_is_none() {
+        let of = |at: &[usize], alone| {
+            let (run, reckoned) = run(at, alone);
+            jumps(&run, &reckoned)
+        };
+        let [one] = &of(&[80], None)[..] else { panic!("{:?}", of(&[80], None)) };
+        assert!(one.times == 1 && (one.span[0] - 7.9).abs() < 1e-9 && (one.span[1] - 8.0).abs() < 1e-9, "{one:?}");
+        assert_eq!([Some(80), Some(0), Some(199)].map(|row| of(&[], row)), [vec![], vec![], vec![]]);
+        // A reference that is lost through most of a run is no exception in it.
+        assert_eq!(of(&[20, 100, 180], None), []);
     }
 }

@@ -38,16 +38,18 @@ struct Accepted {
 ///
 /// # Errors
 /// When the model's formulas are malformed.
-pub fn slip<'a>(file: &ModelFile, model: &Model, runs: impl IntoIterator<Item = &'a Run>) -> Result<Option<Slip>> {
-    let runs: Vec<&Run> = runs.into_iter().collect();
-    let each: Vec<Option<Slip>> = runs.into_par_iter().map(|run| of_run(file, model, run)).collect::<Result<_>>()?;
+pub fn slip(file: &ModelFile, model: &Model, runs: &[&Run]) -> Result<Option<Slip>> {
+    let each: Vec<Option<Slip>> = runs.par_iter().map(|run| of_run(file, model, run)).collect::<Result<_>>()?;
     Ok(each.into_iter().flatten().next())
 }
 
 fn of_run(file: &ModelFile, model: &Model, run: &Run) -> Result<Option<Slip>> {
-    let record = Record::of_run(run, file.input_timing, model.trailer_count());
+    if run.inputs.is_empty() || run.time.len() < 20 || run.input_time().len() < 20 {
+        return Ok(None);
+    }
     let Some(reckoning) = DeadReckoning::of(model, file.input_timing, run)? else { return Ok(None) };
-    if run.inputs.is_empty() || run.time.len() < 20 || run.input_time().len() < 20 || record.step() > SPARSE {
+    let record = Record::of_run(run, file.input_timing, model.trailer_count());
+    if record.step() > SPARSE {
         return Ok(None);
     }
     let Some(windows) = Windows::of(&record) else { return Ok(None) };
@@ -122,12 +124,10 @@ impl Trial<'_> {
         let mut found = self.signs_and_places();
         let radius = self.file.parameters.get("wheel_radius").copied();
         let unit = |role: &str| model.vehicle.inputs.get(role).map_or("m/s", |input| input.unit.as_str());
-        let usual = |role: &str| Change::usual(role, unit(role), radius);
+        let usual = |role: &str| Change::of_either_sign(role, unit(role), radius);
         for role in &self.run.roles {
             for (change, cost) in usual(role) {
-                for (change, cost) in [(change, cost), (change.reversed(), cost + 3)] {
-                    found.push((vec![self.repair(role, role, change)], cost));
-                }
+                found.push((vec![self.repair(role, role, change)], cost));
             }
         }
         // Columns of one kind are mistaken together.
@@ -135,9 +135,7 @@ impl Trial<'_> {
             let kin: Vec<&String> = self.run.roles.iter().filter(|r| usual(r) == usual(first)).collect();
             if kin.len() > 1 && self.run.roles.iter().position(|r| r == kin[0]) == Some(i) {
                 for (change, cost) in usual(first) {
-                    for (change, cost) in [(change, cost), (change.reversed(), cost + 3)] {
-                        found.push((kin.iter().map(|r| self.repair(r, r, change)).collect(), cost));
-                    }
+                    found.push((kin.iter().map(|r| self.repair(r, r, change)).collect(), cost));
                 }
             }
         }
@@ -314,7 +312,7 @@ mod tests {
         let each = 0..500_u64;
         let tried = each.into_par_iter().filter_map(|seed| {
             let (file, model, run) = generated(all[seed as usize % all.len()], seed, seed % 3 > 0)?;
-            Some((seed, file.vehicle.clone(), slip(&file, &model, [&run]).unwrap()))
+            Some((seed, file.vehicle.clone(), slip(&file, &model, &[&run]).unwrap()))
         });
         let tried: Vec<_> = tried.collect();
         let wrong: Vec<_> = tried.iter().filter(|t| t.2.is_some()).collect();
@@ -353,7 +351,7 @@ mod tests {
                 let (file, model, mut run) = generated(vehicle, 1000 + 7 * seed, true).unwrap();
                 assert!(role(&run, "").is_some());
                 slipped(&mut run);
-                let found = slip(&file, &model, [&run]).unwrap();
+                let found = slip(&file, &model, &[&run]).unwrap();
                 let said = found.as_ref().map(crate::discrepancy::rendering::slip_text::sentence).unwrap_or_default();
                 assert!(said.contains(word) && said.contains("Paste into"), "{vehicle} {word}: {said:?}");
             }

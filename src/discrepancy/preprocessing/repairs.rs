@@ -182,12 +182,18 @@ impl Change {
         found
     }
 
-    /// The same with the sign reversed.
-    pub fn reversed(self) -> Self {
+    /// The usual ones, and those with a sign the other way round, which are more far-fetched.
+    pub fn of_either_sign(role: &str, unit: &str, radius: Option<f64>) -> Vec<(Self, u32)> {
+        let both = |(change, cost): (Self, u32)| [Some((change, cost)), change.reversed().map(|r| (r, cost + 3))];
+        Self::usual(role, unit, radius).into_iter().flat_map(both).flatten().collect()
+    }
+
+    /// The same with the sign reversed, of what has one.
+    fn reversed(self) -> Option<Self> {
         match self {
-            Self::Scale(factor, unit) => Self::Scale(-factor, unit),
-            Self::Difference(factor) => Self::Difference(-factor),
-            other => other,
+            Self::Scale(factor, unit) => Some(Self::Scale(-factor, unit)),
+            Self::Difference(factor) => Some(Self::Difference(-factor)),
+            _ => None,
         }
     }
 }

@@ -23,8 +23,8 @@ pub(crate) fn repair(trial: &Trial, model: &Model, before: &SignedRatios) -> Opt
     let mean = column.iter().sum::<f64>() / column.len() as f64;
     let repair = |[scale, offset]: [f64; 2]| trial.repair(role, role, Change::Line([scale, offset]));
     let starts = SCALES.map(|scale| [scale, -scale * mean]);
-    let misfit = |line: &[f64; 2]| misfit(trial, &turns(trial, repair(*line)));
-    let mut line = starts.into_iter().min_by(|a, b| misfit(a).total_cmp(&misfit(b)))?;
+    let misfits = starts.map(|line| (misfit(trial, &turns(trial, repair(line))), line));
+    let (_, mut line) = misfits.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
     for _ in 0..STEPS {
         line = improved(trial, line, &repair)?;
     }
@@ -39,8 +39,10 @@ fn turns(trial: &Trial, repair: InputRepair) -> Vec<Motion> {
     trial.reckoned(&inputs)
 }
 
+/// The mean square that the reckoned turns miss of the measured ones.
 fn misfit(trial: &Trial, reckoned: &[Motion]) -> f64 {
-    Motion::turned(reckoned, &trial.measured).map(|[r, m]| (m - r) * (m - r)).sum()
+    let squares: Vec<f64> = Motion::turned(reckoned, &trial.measured).map(|[r, m]| (m - r) * (m - r)).collect();
+    if squares.is_empty() { f64::INFINITY } else { squares.iter().sum::<f64>() / squares.len() as f64 }
 }
 
 /// One step of Gauss and Newton.
@@ -51,13 +53,14 @@ fn improved(trial: &Trial, line: [f64; 2], repair: &dyn Fn([f64; 2]) -> InputRep
         other[k] += TRIED;
         turns(trial, repair(other))
     });
-    let slope = |k: usize| Motion::turned(&here, &beside[k]).map(|[a, b]| (b - a) / TRIED).collect::<Vec<f64>>();
-    let (by, left) = ([slope(0), slope(1)], Motion::turned(&here, &trial.measured).map(|[r, m]| m - r));
+    // The windows in which all of them turn.
+    let windows = here.iter().zip(&beside[0]).zip(&beside[1]).zip(&trial.measured);
+    let turns = windows.filter_map(|(((h, a), b), m)| Some([h.turn?, a.turn?, b.turn?, m.turn?]));
     let (mut normal, mut right) = (Matrix2::zeros(), Vector2::zeros());
-    for (k, left) in left.enumerate() {
-        let row = Vector2::new(*by[0].get(k)?, *by[1].get(k)?);
+    for [here, scaled, shifted, measured] in turns {
+        let row = Vector2::new((scaled - here) / TRIED, (shifted - here) / TRIED);
         normal += row * row.transpose();
-        right += left * row;
+        right += (measured - here) * row;
     }
     let step = normal.cholesky()?.solve(&right);
     Some([line[0] + step[0], line[1] + step[1]])

@@ -24,7 +24,7 @@ pub(crate) struct Motion {
     /// Displacement, forward and to the left; without a heading forward alone, its length.
     moved: Complex<f64>,
     /// Turn, rad; without a heading that of the way since the window before.
-    turn: Option<f64>,
+    pub(super) turn: Option<f64>,
 }
 
 impl Motion {

@@ -14,6 +14,6 @@ pub fn any<'a>(file: &ModelFile, model: &Model, runs: impl IntoIterator<Item = &
     let runs: Vec<&Run> = runs.into_iter().collect();
     match stamp_defects::bursts(runs.iter().copied()) {
         Some(slip) => Ok(Some(slip)),
-        None => repair_search::slip(file, model, runs),
+        None => repair_search::slip(file, model, &runs),
     }
 }

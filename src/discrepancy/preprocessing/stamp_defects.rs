@@ -1,7 +1,7 @@
 //! Times of arrival in the place of times of measuring: rows that come in bursts.
 
 use super::unit_errors::{Slip, SlipKind};
-use crate::discrepancy::record::local_polynomial::median;
+use crate::discrepancy::record::local_polynomial::{self, median};
 use crate::files::Run;
 
 /// Steps shorter than this share of the mean one lie within a burst, longer than so many times behind one.
@@ -48,18 +48,17 @@ fn of_run(run: &Run) -> Option<SlipKind> {
     // The rate that closes a step, and the measured speed over it.
     let of_inputs = run.inputs.iter().filter_map(|column| ratio(&|i| column[i + 1].abs()));
     let speed = |i: usize| (run.x[i + 1] - run.x[i]).hypot(run.y[i + 1] - run.y[i]) / all[i];
-    let of_pose = if run.time.len() == time.len() && fast(run, &all, &within) { ratio(&speed) } else { None };
+    let of_pose = if run.apart.is_none() && fast(run, &within) { ratio(&speed) } else { None };
     let rates = of_inputs.chain(of_pose).find(|r| *r > UNLIKE)?;
     let steps = [&within, &behind].map(|rows| usual(rows, &|i| all[i]).unwrap_or(f64::NAN));
     Some(SlipKind::Bursts { steps, rates })
 }
 
 /// Whether what moves within a burst is more than the noise of a position.
-fn fast(run: &Run, steps: &[f64], within: &[usize]) -> bool {
-    let noise = |column: &[f64]| crate::discrepancy::record::local_polynomial::noise(&run.time, column).unwrap_or(0.0);
+fn fast(run: &Run, within: &[usize]) -> bool {
+    let noise = |column: &[f64]| local_polynomial::noise(&run.time, column).unwrap_or(0.0);
     let noise = noise(&run.x).max(noise(&run.y));
-    let length = (run.time[run.time.len() - 1] - run.time[0]) / steps.len() as f64;
     let way = |i: &usize| (run.x[i + 1] - run.x[*i]).hypot(run.y[i + 1] - run.y[*i]);
     let mean = within.iter().map(way).sum::<f64>() / within.len().max(1) as f64;
-    length > 0.0 && mean > 20.0 * noise
+    mean > 20.0 * noise
 }

@@ -98,6 +98,18 @@ impl Record {
         Record { signals: self.signals.plus(&self.input_noise.drawn(seed)), ..self.clone() }
     }
 
+    /// The run without the rows that are not kept.
+    pub(crate) fn keeping(&self, kept: impl Fn(usize) -> bool) -> Record {
+        let pick = |column: &[f64]| (0..column.len()).filter(|i| kept(*i)).map(|i| column[i]).collect::<Vec<f64>>();
+        let before = |end: usize| (0..end).filter(|i| kept(*i)).count();
+        Record {
+            time: pick(&self.time),
+            columns: self.columns.iter().map(|c| pick(c)).collect(),
+            rows: before(self.rows.start)..before(self.rows.end),
+            ..self.clone()
+        }
+    }
+
     /// What each measured column is.
     pub fn channels(&self) -> Vec<Channel> {
         let outputs = observation::outputs(self.trailers).enumerate();

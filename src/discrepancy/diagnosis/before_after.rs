@@ -6,7 +6,7 @@ use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::record::sensor_noise::Noise;
 use crate::discrepancy::report;
 use crate::discrepancy::report::{BeforeAfter, Floor, Gap, GapCurve, Step};
-use crate::discrepancy::selection::choice::Selected;
+use crate::discrepancy::selection::choice::{Growth, Selected};
 use crate::discrepancy::shooting::rollout::{PredictionError, Rollout};
 use crate::error::Result;
 use crate::model::Model;
@@ -16,10 +16,8 @@ use rayon::prelude::*;
 const CURVE: [f64; 12] = [0.2, 0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0, 45.0];
 /// Times the noise of inputs is drawn.
 const INPUT_DRAWS: u64 = 4;
-/// A held-out gap that is so many times as large with what was found, and as the noise floor, has grown.
-const GREW: f64 = 1.25;
 /// Windows a point of the curve needs.
-const FEWEST_WINDOWS: usize = 2;
+pub(crate) const FEWEST_WINDOWS: usize = 2;
 
 /// A model along all runs of a kind.
 pub struct Rollouts<'a>(Vec<Rollout<'a>>);
@@ -147,13 +145,13 @@ impl<'a> ModelComparison<'a> {
 
 /// Held-out runs that are predicted worse with what was found, at the horizon at which they are worst.
 pub(crate) fn grown(gaps: &[Gap]) -> Option<Warning> {
-    let of = |g: &Gap| g.held_out.as_ref().map(|h| (h.position_rms_before, h.position_rms_after, g.horizon_s));
-    let grew = gaps.iter().filter(|g| of(g).is_some_and(|(_, after, _)| after > GREW * g.noise_floor.position_rms));
-    let (before, after, horizon) = grew
-        .filter_map(of)
-        .filter(|(before, after, _)| *after > GREW * before)
-        .max_by(|a, b| (a.1 / a.0).total_cmp(&(b.1 / b.0)))?;
-    Some(Warning::HeldOutGapGrew { horizon, before, after })
+    let of = |g: &Gap| {
+        let held_out = g.held_out.as_ref()?;
+        let gap = [held_out.position_rms_before, held_out.position_rms_after];
+        Some(Growth { horizon_s: g.horizon_s, of_heading: false, gap, floor: g.noise_floor.position_rms })
+    };
+    let real = gaps.iter().filter_map(of).filter(Growth::is_real);
+    real.max_by(|a, b| a.factor().total_cmp(&b.factor())).map(Warning::HeldOutGapGrew)
 }
 
 /// The horizons asked for that no run is long enough for.
@@ -180,7 +178,8 @@ mod tests {
             noise_floor: Floor { position_rms: 0.1, heading_rms: None },
         };
         let told = grown(&[gap(1.0, 0.2, 0.3), gap(5.0, 0.2, 0.5), gap(30.0, 1.0, 0.4)]);
-        assert!(matches!(told, Some(Warning::HeldOutGapGrew { horizon: 5.0, before: 0.2, after: 0.5 })), "{told:?}");
+        let Some(Warning::HeldOutGapGrew(growth)) = told else { panic!("{told:?}") };
+        assert_eq!((growth.horizon_s, growth.gap), (5.0, [0.2, 0.5]));
         // Within the noise, and by a little, a gap does not grow.
         assert!(grown(&[gap(1.0, 0.05, 0.12), gap(5.0, 1.0, 1.2)]).is_none());
     }

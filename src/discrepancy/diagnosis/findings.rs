@@ -12,22 +12,28 @@ use crate::model::Model;
 use crate::model::effect_equation::{equation, is_term, term_equation};
 use std::collections::BTreeMap;
 
-/// A chosen effect as the report lists it.
-pub(crate) fn named(chosen: &SelectedEffect, relatives: &[EquivalentEffect], model: &Model) -> Named {
-    let a = &chosen.applied;
-    let values = a.effect.parameters.iter().zip(&a.values).zip(&chosen.std);
+/// The values of an effect with their deviations, and its trailer.
+pub(crate) fn estimates(a: &Applied, std: &[Option<f64>]) -> BTreeMap<String, Estimate> {
+    let std = |i: usize| std.get(i).copied().flatten();
+    let values = a.effect.parameters.iter().zip(&a.values).enumerate();
     let mut parameters: BTreeMap<String, Estimate> = values
-        .map(|(((name, p), value), std)| (name.clone(), Estimate { value: *value, std: *std, unit: p.unit.clone() }))
+        .map(|(i, ((name, p), value))| (name.clone(), Estimate { value: *value, std: std(i), unit: p.unit.clone() }))
         .collect();
     if let Some(i) = a.trailer {
         parameters.insert("trailer".into(), Estimate { value: i as f64, std: None, unit: "1".into() });
     }
+    parameters
+}
+
+/// A chosen effect as the report lists it.
+pub(crate) fn named(chosen: &SelectedEffect, relatives: &[EquivalentEffect], model: &Model) -> Named {
+    let a = &chosen.applied;
     let rival = |r: &EquivalentEffect| Rival { id: r.applied.effect.id.clone(), why: r.why.into() };
     Named {
         id: a.effect.id.clone(),
         says: a.effect.says.clone(),
         place: a.effect.place.clone(),
-        parameters,
+        parameters: estimates(a, &chosen.std),
         evidence: Evidence { delta_bic: chosen.delta_bic, p_value: chosen.p_value },
         indistinguishable_from: relatives.iter().map(rival).collect(),
         equation: equation(a, model),

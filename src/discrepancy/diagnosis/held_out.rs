@@ -1,21 +1,18 @@
 //! What held-out runs say of a model: whether they are predicted worse with what was found.
 
-use super::before_after::Rollouts;
+use super::before_after::{FEWEST_WINDOWS, Rollouts};
 use super::warning::Warning;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::record::sensor_noise::Noise;
-use crate::discrepancy::selection::choice::{Growth, Refusal, Selected};
+use crate::discrepancy::selection::choice::{GREW, Growth, Selected};
 use crate::discrepancy::selection::refute::HeldOut;
 use crate::discrepancy::shooting::rollout::PredictionError;
 use crate::error::Result;
 use crate::model::Model;
 
-/// Windows of a horizon at least: what fewer show is chance.
-const FEWEST: usize = 2;
-
 /// What the report warns of first: the effects that held-out runs do not bear out.
 pub(crate) fn refuted(selected: &Selected) -> impl Iterator<Item = Warning> {
-    let of = selected.refused.iter().filter(|r| matches!(r.why, Refusal::HeldOut(_)));
+    let of = selected.refused.iter().filter(|r| r.why.is_held_out());
     of.cloned().map(|r| Warning::Refuted(Box::new(r)))
 }
 
@@ -28,21 +25,30 @@ pub(crate) struct Judge<'a> {
 }
 
 impl HeldOut for Judge<'_> {
+    /// Without a heading each window's start is fitted to it by either model, and the gaps are not of one start.
+    fn can_judge(&self) -> bool {
+        !self.records.is_empty() && self.records.iter().all(|r| r.has_heading)
+    }
+
     fn gaps(&self, with: &Model, without: &Model) -> Result<Vec<Growth>> {
-        // Without a heading each window's start is fitted to it by either model, and the gaps are not of one start.
-        if self.records.iter().any(|r| !r.has_heading) {
-            return Ok(vec![]);
-        }
         let [with, without] = [Rollouts::new(with, self.records)?, Rollouts::new(without, self.records)?];
         let mut found = vec![];
-        for &horizon_s in self.horizons.iter().filter(|h| with.windows(**h) >= FEWEST) {
-            let floor = with.floors(&[horizon_s], &self.noise, self.seed)[0];
-            let errors = [without.errors(horizon_s), with.errors(horizon_s), floor];
-            let [before, after, floor] = errors.each_ref().map(PredictionError::position_rms);
-            found.push(Growth { horizon_s, of_heading: false, gap: [before, after], floor });
-            if let [Some(before), Some(after), Some(floor)] = errors.each_ref().map(PredictionError::heading_rms) {
-                found.push(Growth { horizon_s, of_heading: true, gap: [before, after], floor });
-            }
+        for &horizon_s in self.horizons.iter().filter(|h| with.windows(**h) >= FEWEST_WINDOWS) {
+            let errors = [without.errors(horizon_s), with.errors(horizon_s)];
+            let position = errors.each_ref().map(PredictionError::position_rms);
+            let heading = match errors.each_ref().map(PredictionError::heading_rms) {
+                [Some(before), Some(after)] => Some([before, after]),
+                _ => None,
+            };
+            // The floor is asked where something grows; no gap is beyond one that is not a number.
+            let grows = [Some(position), heading].into_iter().flatten().any(|[before, after]| after > GREW * before);
+            let floor =
+                if grows { with.floors(&[horizon_s], &self.noise, self.seed)[0] } else { PredictionError::default() };
+            found.push(Growth { horizon_s, of_heading: false, gap: position, floor: floor.position_rms() });
+            found.extend(heading.map(|gap| {
+                let floor = floor.heading_rms().unwrap_or(f64::NAN);
+                Growth { horizon_s, of_heading: true, gap, floor }
+            }));
         }
         Ok(found)
     }

@@ -22,6 +22,13 @@ pub struct Rest {
     pub most: Stretch,
 }
 
+impl Rest {
+    /// Whether the gap is beyond its floor; else windows alone stand out of the noise.
+    pub fn exceeds_floor(&self) -> bool {
+        self.ratio > ABOVE
+    }
+}
+
 /// What a model leaves; `None` at the floor.
 pub(crate) fn rest(fit: &Fit, after: &[ConstraintResiduals], gaps: &[Gap]) -> Option<Rest> {
     let ratio = largest_ratio(gaps)?;

@@ -3,6 +3,7 @@
 use crate::discrepancy::preprocessing::dataset::DatasetNote;
 use crate::discrepancy::preprocessing::quantisation::CoarseInput;
 use crate::discrepancy::preprocessing::unit_errors::Slip;
+use crate::discrepancy::selection::choice::Growth;
 use crate::discrepancy::selection::choice::Refused;
 use crate::effects::Applied;
 
@@ -47,14 +48,7 @@ pub enum Warning {
     /// Held-out runs do not bear out an effect.
     Refuted(Box<Refused>),
     /// The held-out gap grew.
-    HeldOutGapGrew {
-        /// s
-        horizon: f64,
-        /// m
-        before: f64,
-        /// m
-        after: f64,
-    },
+    HeldOutGapGrew(Growth),
     /// An input in coarse steps.
     CoarseInput(CoarseInput),
     /// Another offset of a run's clocks, s, fits nearly as well as its own.

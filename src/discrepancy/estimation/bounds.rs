@@ -29,7 +29,7 @@ pub fn is_at_an_end(effect: &Applied) -> bool {
 
 /// Whether an effect of the catalogue takes a share of one and more: no coefficient of creep and no scale that is off by
 /// all of itself describes a vehicle.
-pub fn is_whole(effect: &Applied) -> bool {
+fn is_whole(effect: &Applied) -> bool {
     let mut values = effect.effect.parameters.values().zip(&effect.values);
     effect.effect.origin.is_none() && !is_term(effect) && values.any(|(p, v)| p.unit == "1" && v.abs() >= 1.0)
 }

@@ -16,6 +16,7 @@ use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
 use crate::discrepancy::shooting::window_integration::linearise;
 use crate::effects::Applied;
 use crate::error::Result;
+use crate::model::effect_equation::is_term;
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
 
@@ -59,7 +60,7 @@ impl Difference {
 }
 
 impl Problem {
-    /// The differences of every free effect of a fit between all regimes.
+    /// The differences of every free effect of a fit with a name between all regimes.
     pub(crate) fn differences(&self, fit: &Fit) -> Result<Vec<(Applied, Vec<Difference>)>> {
         let equations = fit.model.free_equations()?;
         let linear = linearise(&equations, &fit.p, &self.records, &self.plan, &fit.window_states);
@@ -69,10 +70,13 @@ impl Problem {
         let of_effect = |effect: &Applied| {
             let own = at..at + effect.values.len();
             at = own.end;
+            if is_term(effect) {
+                return None;
+            }
             let each = regimes.iter().filter_map(|(r, inside)| difference(fit, &linear, *r, inside, own.clone()));
-            (effect.clone(), each.collect())
+            Some((effect.clone(), each.collect()))
         };
-        Ok(fit.model.free_effects().map(of_effect).collect())
+        Ok(fit.model.free_effects().filter_map(of_effect).collect())
     }
 
     /// The regimes in which some windows are and some are not.

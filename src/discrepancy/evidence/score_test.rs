@@ -188,8 +188,8 @@ pub fn settled(
     promises: &[&ScoreTest],
     effort: Effort,
 ) -> Result<Option<Fit>> {
-    let begin = promises.iter().fold(model.clone(), |m, p| m.with_effect(tamed(p)));
     let added: Vec<Applied> = promises.iter().map(|p| tamed(p)).collect();
+    let begin = added.iter().cloned().fold(model.clone(), Model::with_effect);
     let turned = turned_starts(problem, &begin, &added)?;
     problem.fit(&begin, turned.as_ref().unwrap_or(&base.window_states), &base.variances, effort)
 }

@@ -63,10 +63,10 @@ pub struct Manoeuvre {
 pub const LENGTH: f64 = 60.0;
 
 pub(crate) const LEFT: Wave = steady(1.0);
-pub(crate) const RIGHT: Wave = steady(-1.0);
+const RIGHT: Wave = steady(-1.0);
 const AHEAD: Wave = steady(0.0);
 pub(crate) const FAST: Wave = steady(1.0);
-pub(crate) const SLOW: Wave = steady(0.35);
+const SLOW: Wave = steady(0.35);
 
 /// All manoeuvres, the simplest first.
 const LIBRARY: &[Manoeuvre] = &[

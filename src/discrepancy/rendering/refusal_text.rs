@@ -1,31 +1,30 @@
 //! Why an effect that a fit asks for is not named, in words.
 
+use super::effect_names::named;
+use crate::discrepancy::diagnosis::findings::estimates;
 use crate::discrepancy::evidence::regime_stability::Regime;
-use crate::discrepancy::report::{Estimate, Refuted};
+use crate::discrepancy::report::Refuted;
 use crate::discrepancy::selection::choice::{Growth, Refusal, Refused};
 use crate::number_format::significant;
-use std::collections::BTreeMap;
 
 /// A refused effect as the report lists it; `roles` are the names of the inputs.
 pub(crate) fn refuted(refused: &Refused, roles: &[String]) -> Refuted {
     let a = &refused.applied;
-    let std = |i: usize| refused.std.get(i).copied().flatten();
-    let each = a.effect.parameters.iter().zip(&a.values).enumerate();
-    let parameters: BTreeMap<String, Estimate> = each
-        .map(|(i, ((name, p), value))| (name.clone(), Estimate { value: *value, std: std(i), unit: p.unit.clone() }))
-        .collect();
-    Refuted { id: a.effect.id.clone(), parameters, says: says(refused, roles) }
+    Refuted { id: a.effect.id.clone(), parameters: estimates(a, &refused.std), says: says(refused, roles) }
 }
 
 /// The reason as a line.
 pub fn says(refused: &Refused, roles: &[String]) -> String {
-    let label = refused.applied.label();
+    let label = named(std::slice::from_ref(&refused.applied));
     match &refused.why {
         Refusal::Impossible => format!("no vehicle has so much {label}, so that is not named"),
         Refusal::NoDeviation => format!("these runs leave the value of {label} open, so that is not named"),
         Refusal::BelowBar => format!("beside the others {label} is worth less than it costs, so that is not named"),
         Refusal::Ridge(other) => {
-            format!("{label} pays only as far as it undoes {}, so that is not named", other.label())
+            format!(
+                "{label} pays only as far as it undoes {}, so that is not named",
+                named(std::slice::from_ref(other))
+            )
         }
         Refusal::LeansOnLaw => format!("{label} stands only beside a law without a name, so that is not named"),
         Refusal::Regime { regime, values: [elsewhere, there] } => {
@@ -36,7 +35,13 @@ pub fn says(refused: &Refused, roles: &[String]) -> String {
         Refusal::InputNoise => {
             format!("the steps or the noise of the inputs alone make such a {label}, so that is not named")
         }
-        Refusal::HeldOut(growth) => format!("held-out runs refute {label}: {}", grows(growth)),
+        Refusal::HeldOut(growth) => format!("held-out runs refute {label}: {}", grows(growth, "it")),
+        Refusal::HeldOutTogether(growth) => {
+            format!(
+                "held-out runs refute what was found, of which {label} is worth least: {}",
+                grows(growth, "all of it")
+            )
+        }
     }
 }
 
@@ -50,10 +55,10 @@ fn place(regime: Regime, roles: &[String]) -> String {
     }
 }
 
-fn grows(growth: &Growth) -> String {
+fn grows(growth: &Growth, with: &str) -> String {
     let [before, after] = growth.gap.map(|gap| significant(gap, 3));
     let (of, unit) = if growth.of_heading { ("heading gap", "rad") } else { ("gap", "m") };
-    format!("their {of} after {} s grows with it from {before} to {after} {unit}", growth.horizon_s)
+    format!("their {of} after {} s grows with {with} from {before} to {after} {unit}", growth.horizon_s)
 }
 
 #[cfg(test)]
@@ -71,6 +76,10 @@ mod tests {
         assert_eq!(
             said(Refusal::HeldOut(growth)),
             "held-out runs refute traverse-creep: their heading gap after 5 s grows with it from 0.0100 to 0.0500 rad"
+        );
+        let together = said(Refusal::HeldOutTogether(growth));
+        assert!(
+            together.starts_with("held-out runs refute what was found, of which traverse-creep is worth least: their")
         );
         assert_eq!(
             said(Refusal::Regime { regime: Regime::Large(0), values: [0.1, -0.02] }),

@@ -18,6 +18,10 @@ pub(crate) fn admitted(sentence: &str, verdict: Verdict, rest: Option<&Rest>) ->
     let Some(rest) = rest.filter(|_| verdict != Verdict::UnusableData) else { return sentence.into() };
     let first = sentence.trim_end_matches('.');
     match verdict {
+        // What remains is said once, and more than a trace is no trace.
+        Verdict::NoMissingEffect => {
+            format!("No effect is missing that can be named, but something remains: {}.", says(rest))
+        }
         Verdict::Unexplained => format!("{first}: {}.", says(rest)),
         _ => format!("{first}, and something remains: {}.", says(rest)),
     }
@@ -25,7 +29,12 @@ pub(crate) fn admitted(sentence: &str, verdict: Verdict, rest: Option<&Rest>) ->
 
 fn says(rest: &Rest) -> String {
     let most = &rest.most;
-    let judged = if rest.is_held_out { "held-out" } else { "fitted" };
+    let error = match (rest.exceeds_floor(), rest.is_held_out) {
+        (false, _) => "the model disagrees by more than the noise".into(),
+        (true, true) => format!("held-out error is {} times the noise", significant(rest.ratio, 2)),
+        (true, false) => format!("fitted error is {} times the noise", significant(rest.ratio, 2)),
+    };
+    let most_of = if most.share > 0.5 { "most of it" } else { "the largest part of it" };
     let along = match most.place {
         "rotation constraint" => "along the vehicle",
         "traverse constraint" => "across the vehicle",
@@ -37,11 +46,7 @@ fn says(rest: &Rest) -> String {
         regime => format!(", in {}", regime_text::regime(regime)),
     };
     let [from, to] = most.span.map(|t| significant(t, 3));
-    let ratio = significant(rest.ratio, 2);
-    format!(
-        "{judged} error is {ratio} times the noise, most of it {along}, from {from} s to {to} s of {}{during}",
-        most.run
-    )
+    format!("{error}, {most_of} {along}, from {from} s to {to} s of {}{during}", most.run)
 }
 
 #[cfg(test)]
@@ -67,6 +72,11 @@ mod tests {
         assert!(unexplained.ends_with("to 58.0 s of a.csv, in left turns."), "{unexplained}");
         assert_eq!(said(Verdict::UnusableData, DrivingRegime::Whole), "The model misses track-width.");
         assert_eq!(admitted("Fine.", Verdict::NoMissingEffect, None), "Fine.");
+        // What remains is more than a trace of it, and no ratio is given where the gap is at its floor.
+        let none = said(Verdict::NoMissingEffect, DrivingRegime::Whole);
+        assert!(none.starts_with("No effect is missing that can be named, but something remains: held-out"), "{none}");
+        let windows = says(&Rest { ratio: 0.9, ..rest(DrivingRegime::Whole) });
+        assert!(windows.starts_with("the model disagrees by more than the noise, most of it in yaw"), "{windows}");
         assert_eq!(remains(&rest(DrivingRegime::Fast)).regime, "fast driving");
     }
 }

@@ -61,11 +61,12 @@ pub fn line(warning: &Warning) -> String {
             format!("{} {parameter} = {value} is far beyond the usual {usual}{doubt}", applied.label())
         }
         Warning::Refuted(refused) => refusal_text::says(refused, &[]),
-        Warning::HeldOutGapGrew { horizon, before, after } => {
-            let [before, after] = [before, after].map(|gap| significant(*gap, 3));
+        Warning::HeldOutGapGrew(growth) => {
+            let [before, after] = growth.gap.map(|gap| significant(gap, 3));
             format!(
-                "the held-out gap after {horizon} s grows with what was found, from {before} to {after} m: those runs do \
-                 not bear it out"
+                "the held-out gap after {} s grows with what was found, from {before} to {after} m: those runs do not bear \
+                 it out",
+                growth.horizon_s
             )
         }
         Warning::CoarseInput(input) => coarse_input(input),

@@ -45,6 +45,8 @@ pub enum Refusal {
     InputNoise,
     /// Held-out runs are predicted worse with it.
     HeldOut(Growth),
+    /// Held-out runs are predicted worse with all that was found, and it is worth least of that.
+    HeldOutTogether(Growth),
 }
 
 /// How a held-out gap grows, or shrinks.
@@ -61,7 +63,7 @@ pub struct Growth {
 }
 
 /// A gap that is so many times as large as another, and as the noise floor, has grown.
-const GREW: f64 = 1.25;
+pub(crate) const GREW: f64 = 1.25;
 /// A gap of so large a share of another one is as good as the same.
 const SAME: f64 = 0.9;
 
@@ -91,6 +93,13 @@ pub struct Refused {
     pub std: Vec<Option<f64>>,
     /// Why.
     pub why: Refusal,
+}
+
+impl Refusal {
+    /// Whether held-out runs are the reason.
+    pub fn is_held_out(&self) -> bool {
+        matches!(self, Self::HeldOut(_) | Self::HeldOutTogether(_))
+    }
 }
 
 impl Refused {

@@ -89,8 +89,11 @@ impl Search<'_> {
 
     /// The effect that has another value in a regime of driving, the one whose difference is largest beyond chance.
     fn changing(&self, fit: &Fit) -> Result<Option<(Applied, Refusal)>> {
-        let names = self.problem.differences(fit)?.into_iter().filter(|(a, _)| !is_term(a));
-        let real = names.flat_map(|(a, each)| each.into_iter().filter(|d| d.is_real()).map(move |d| (a.clone(), d)));
+        let real = self
+            .problem
+            .differences(fit)?
+            .into_iter()
+            .flat_map(|(a, each)| each.into_iter().filter(|d| d.is_real()).map(move |d| (a.clone(), d)));
         let worst = real.max_by(|a, b| a.1.chi_squared.total_cmp(&b.1.chi_squared));
         Ok(worst.map(|(a, d)| (a, Refusal::Regime { regime: d.regime, values: d.values })))
     }

@@ -12,6 +12,9 @@ use crate::progress::OnProgress;
 
 /// Held-out runs.
 pub(crate) trait HeldOut {
+    /// Whether there are runs that can judge.
+    fn can_judge(&self) -> bool;
+
     /// The gaps of position and heading with the first of two models in the place of the second.
     fn gaps(&self, with: &Model, without: &Model) -> Result<Vec<Growth>>;
 }
@@ -25,6 +28,9 @@ pub(crate) fn refute(
     held_out: &dyn HeldOut,
     progress: &OnProgress,
 ) -> Result<Selected> {
+    if !held_out.can_judge() {
+        return Ok(choice);
+    }
     let Selected { before, after, mut chosen, steps, candidates, inconsistent, sampling_sensitive, mut refused } =
         choice;
     let quick = transients::without_transients(library);
@@ -68,7 +74,7 @@ fn next(
     let Some(least) = least else { return Ok(None) };
     let Some(growth) = most_grown(&held_out.gaps(&fit.model, &search.before.model)?) else { return Ok(None) };
     let smaller = search.without(fit, &least.applied)?;
-    Ok(smaller.map(|smaller| (least.applied.clone(), Refusal::HeldOut(growth), smaller)))
+    Ok(smaller.map(|smaller| (least.applied.clone(), Refusal::HeldOutTogether(growth), smaller)))
 }
 
 /// The gap that grows most, of those that do: what shrinks the gap of the same quantity at another horizon is not refuted.

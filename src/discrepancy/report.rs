@@ -209,6 +209,17 @@ pub struct Unnamed {
 }
 
 /// What the fit asks for, and is neither named nor in the patched model.
+///
+/// ```
+/// use creepage::{Report, report::Refuted};
+/// fn reasons(report: &Report) -> Vec<&str> {
+///     report.refuted.iter().map(|refuted: &Refuted| refuted.says.as_str()).collect()
+/// }
+/// let model = creepage::Model::read("examples/runs/cornering/model.toml")?;
+/// let eights = creepage::Run::read("examples/runs/cornering/eights.csv", &model)?;
+/// assert!(reasons(&creepage::discover(&model, &[eights])?.report).is_empty());
+/// # Ok::<(), creepage::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Refuted {
     /// Its id in the library.
@@ -220,6 +231,13 @@ pub struct Refuted {
 }
 
 /// What remains above the noise floor.
+///
+/// ```
+/// use creepage::report::Remains;
+/// let text = r#"{"ratio": 5.0, "where": "yaw rate", "from": 27.0, "to": 58.0, "regime": "reverse", "says": ""}"#;
+/// let remains: Remains = serde_json::from_str(text).unwrap();
+/// assert_eq!((remains.place.as_str(), remains.to - remains.from), ("yaw rate", 31.0));
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Remains {
     /// The error over the noise floor, where that is largest.
@@ -237,7 +255,15 @@ pub struct Remains {
     pub says: String,
 }
 
-/// The covariance of fitted values.
+/// The covariance of fitted values, as far as rows and windows are independent; the deviations of the report have in them, too,
+/// by how much parts of the data scatter and what lies between the rows of the inputs.
+///
+/// ```
+/// use creepage::report::Covariance;
+/// let text = r#"{"names": ["track-width scale"], "matrix": [[0.0004]]}"#;
+/// let covariance: Covariance = serde_json::from_str(text).unwrap();
+/// assert_eq!(covariance.matrix[0][0].sqrt(), 0.02);
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Covariance {
     /// Effect and parameter of each row, such as `lever-arm a`.

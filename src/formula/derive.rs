@@ -162,6 +162,8 @@ impl Graph {
                 let zero = self.int(0);
                 self.div(zero, size)
             }
+            // A gate is open or closed; what it does at the instant of the change is the integrator's.
+            Fun::Step => self.int(0),
         }
     }
 

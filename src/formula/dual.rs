@@ -160,7 +160,7 @@ impl<D: DualNum<f64> + Parts> Scalar for Dual<D> {
             Fun::Exp => v.exp(),
             Fun::Ln => v.ln(),
             Fun::Sqrt => v.sqrt(),
-            Fun::Abs | Fun::Sign => return piecewise(f, x),
+            Fun::Abs | Fun::Sign | Fun::Step => return piecewise(f, x),
         })
         .checked(x)
     }
@@ -183,7 +183,7 @@ fn tanh<D: DualNum<f64>>(x: &D) -> D {
     (one.clone() - &small) / (one + small) * sign
 }
 
-/// |x| and sgn x, whose derivatives do not exist at zero.
+/// |x|, sgn x and the step, whose derivatives do not exist at zero.
 fn piecewise<D: DualNum<f64> + Parts>(f: Fun, x: &Dual<D>) -> Dual<D> {
     let re = x.0.re();
     let sign = if !x.is_defined() {
@@ -197,6 +197,7 @@ fn piecewise<D: DualNum<f64> + Parts>(f: Fun, x: &Dual<D>) -> Dual<D> {
     };
     match f {
         Fun::Abs => Dual(x.0.clone() * D::from(sign)),
+        Fun::Step => Dual(D::from(f64::max(sign, 0.0))),
         _ => Dual(D::from(sign)),
     }
 }

@@ -160,6 +160,7 @@ fn of_number(f: Fun, v: &BigRational) -> Exact {
         Fun::Sqrt => Exact::of(root(v)),
         Fun::Abs => Exact::rational(v.abs()),
         Fun::Sign => Exact::rational(v.signum()),
+        Fun::Step => Exact::rational(if v.is_positive() { one() } else { BigRational::zero() }),
     }
 }
 

@@ -29,6 +29,8 @@ pub enum Fun {
     Abs,
     /// −1, 0 or 1
     Sign,
+    /// Heaviside's step: 1 where x > 0, 0 elsewhere
+    Step,
 }
 
 /// Every function with its name in the language and in LaTeX.
@@ -46,6 +48,7 @@ const TABLE: &[(Fun, &str, &str)] = &[
     (Fun::Sqrt, "sqrt", r"\sqrt"),
     (Fun::Abs, "abs", r"\operatorname{abs}"),
     (Fun::Sign, "sign", r"\operatorname{sgn}"),
+    (Fun::Step, "step", r"\operatorname{step}"),
 ];
 
 impl Fun {
@@ -77,7 +80,7 @@ impl Fun {
     /// Whether the function is defined for every real argument.
     pub fn is_total(self) -> bool {
         use Fun::*;
-        matches!(self, Sin | Cos | Atan | Tanh | Abs | Sign)
+        matches!(self, Sin | Cos | Atan | Tanh | Abs | Sign | Step)
     }
 }
 
@@ -88,10 +91,10 @@ mod tests {
     #[test]
     fn every_function_is_found_under_its_own_name() {
         use Fun::*;
-        for f in [Sin, Cos, Tan, Cot, Asin, Acos, Atan, Tanh, Exp, Ln, Sqrt, Abs, Sign] {
+        for f in [Sin, Cos, Tan, Cot, Asin, Acos, Atan, Tanh, Exp, Ln, Sqrt, Abs, Sign, Step] {
             assert_eq!(f.row().0, f);
             assert_eq!(Fun::named(f.name()), Some(f));
         }
-        assert_eq!(Fun::all().count(), 13);
+        assert_eq!(Fun::all().count(), 14);
     }
 }

@@ -25,6 +25,7 @@ fn call(f: Fun) -> (&'static str, [&'static str; 2]) {
         Fun::Acos => "arccos",
         Fun::Atan => "arctan",
         Fun::Sign => "op(\"sgn\")",
+        Fun::Step => "op(\"step\")",
         f => f.name(),
     };
     (name, ROUND)

@@ -124,7 +124,7 @@ impl Scalar for Unit {
         match f {
             Fun::Abs => *x,
             Fun::Sqrt => x.map(|e| e.checked_mul(&Rational32::new(1, 2))),
-            Fun::Sign if x.is_defined() => Self::number_unit(),
+            Fun::Sign | Fun::Step if x.is_defined() => Self::number_unit(),
             Fun::Sin | Fun::Tan | Fun::Asin | Fun::Atan | Fun::Tanh if plain => *x,
             Fun::Ln | Fun::Cot if x.0 == Kind::Any => Unit(Kind::Undefined),
             _ if plain => Self::number_unit(),

@@ -56,7 +56,7 @@ impl Rounded {
                 Fun::Cot => self.value.sin().abs() > 1e-4,
                 Fun::Asin | Fun::Acos => self.surely(|x| x.abs() < 1.0),
                 Fun::Ln | Fun::Sqrt => self.surely(|x| x > 0.0),
-                Fun::Abs | Fun::Sign => self.surely(|x| x > 0.0) || self.surely(|x| x < 0.0),
+                Fun::Abs | Fun::Sign | Fun::Step => self.surely(|x| x > 0.0) || self.surely(|x| x < 0.0),
                 _ => true,
             }
     }
@@ -74,7 +74,7 @@ fn slope(f: Fun, x: f64) -> f64 {
         Fun::Exp => x.exp(),
         Fun::Ln => x.recip(),
         Fun::Sqrt => 0.5 / x.sqrt(),
-        Fun::Sign => 0.0,
+        Fun::Sign | Fun::Step => 0.0,
     }
 }
 

@@ -110,6 +110,11 @@ pub(super) fn call<const L: usize>(f: Fun, x: &[f64; L]) -> [f64; L] {
                 y[l] = if x[l].is_finite() { f64::from(i8::from(x[l] > 0.0) - i8::from(x[l] < 0.0)) } else { f64::NAN };
             }
         }
+        Fun::Step => {
+            for l in 0..L {
+                y[l] = if x[l].is_finite() { f64::from(u8::from(x[l] > 0.0)) } else { f64::NAN };
+            }
+        }
         _ => {
             for l in 0..L {
                 y[l] = one_by_one(f, x[l]);

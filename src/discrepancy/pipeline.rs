@@ -18,6 +18,7 @@ use super::experiment::next_step::NextStep;
 use super::localisation::driving_regimes;
 use super::localisation::unexplained_motion::remaining;
 use super::preprocessing::dataset::{Data, FITTED_SHARE};
+use super::preprocessing::input_effects::on_inputs;
 use super::preprocessing::prepared_run::PreparedRun;
 use super::preprocessing::quantisation::{CoarseInput, coarse_inputs};
 use super::preprocessing::{slips, unit_errors};
@@ -61,6 +62,8 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
         // What follows from the slip is not told beside it.
         return Ok(early(request, &Data::default(), clocks, paths, verdict::unusable(slip)));
     }
+    let library = on_inputs(request.library, &model, request.runs);
+    let request = &Request { library: &library, ..*request };
     let data = Data::of(request, &model)?;
     let problem = Problem::new(data.fitted.clone(), request.file.noise.position, request.file.noise.heading)
         .knowing_its_inputs(&model)?;

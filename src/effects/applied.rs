@@ -1,6 +1,8 @@
 //! An effect that stands in a model, with its values.
 
-use super::Effect;
+use super::course::SINCE;
+use super::effect::INPUT;
+use super::{Effect, Scope};
 use crate::formula::{Expr, Symbol};
 use std::collections::BTreeMap;
 
@@ -43,20 +45,29 @@ impl Applied {
 
     /// Whether two entries are the same effect on the same target.
     pub fn same_as(&self, other: &Applied) -> bool {
-        self.effect.id == other.effect.id && self.trailer == other.trailer
+        self.stands_for(&other.effect, other.trailer)
     }
 
-    /// `id`, or `id (trailer i)`.
+    /// Whether it is an effect on a target, whatever its values, its scope and its course.
+    pub fn stands_for(&self, effect: &Effect, trailer: Option<usize>) -> bool {
+        self.effect.id == effect.id && self.effect.on == effect.on && self.trailer == trailer
+    }
+
+    /// `id`, with its target, its scope and its course in brackets where it has them.
     pub fn label(&self) -> String {
-        match self.trailer {
-            Some(i) => format!("{} (trailer {i})", self.effect.id),
-            None => self.effect.id.clone(),
-        }
+        let trailer = self.trailer.map(|i| format!("trailer {i}"));
+        let scope = self.effect.scope.as_ref().map(ToString::to_string);
+        let course = self.effect.course.as_ref().map(|c| format!("{} moving with time", c.parameter));
+        let all: Vec<String> = trailer.into_iter().chain(self.effect.on.clone()).chain(scope).chain(course).collect();
+        if all.is_empty() { self.effect.id.clone() } else { format!("{} ({})", self.effect.id, all.join(", ")) }
     }
 
     /// The symbol of a parameter or state in the model's formulas, such as `rotation_creep.e_rc`.
     pub fn symbol(&self, name: &str) -> Symbol {
-        let stem = self.effect.id.replace('-', "_");
+        let stem = match &self.effect.on {
+            Some(role) => format!("{}_{role}", self.effect.id.replace('-', "_")),
+            None => self.effect.id.replace('-', "_"),
+        };
         Symbol::new(&match self.trailer {
             Some(i) => format!("{stem}_{i}.{name}"),
             None => format!("{stem}.{name}"),
@@ -76,7 +87,26 @@ impl Applied {
     /// A formula of the effect with its own names put in place of the plain ones.
     pub fn localised(&self, formula: &Expr) -> Expr {
         let own = |s: &str| self.effect.parameters.contains_key(s) || self.effect.states.contains_key(s);
-        formula.substitute(&|s| own(s.as_str()).then(|| Expr::sym(self.symbol(s.as_str()))))
+        formula.substitute(&|s| match s.as_str() {
+            INPUT => self.effect.on.as_deref().map(Expr::sym),
+            SINCE if self.effect.course.is_some() => Some(Expr::sym(self.symbol(SINCE))),
+            name => own(name).then(|| Expr::sym(self.symbol(name))),
+        })
+    }
+
+    /// The gate of its scope, with its own names; none where it always holds.
+    pub fn gate(&self) -> Option<Expr> {
+        let scope = self.effect.scope.as_ref()?;
+        let numbers = scope.numbers();
+        let own = |s: &str| numbers.iter().any(|(name, _)| name == s);
+        Some(scope.gate().substitute(&|s| own(s.as_str()).then(|| Expr::sym(self.symbol(s.as_str())))))
+    }
+
+    /// The numbers of its scope and its course, which no fit moves, by their symbols.
+    pub fn constants(&self) -> Vec<(Symbol, f64)> {
+        let of_scope = self.effect.scope.iter().flat_map(Scope::numbers);
+        let of_course = self.effect.course.iter().map(|c| (SINCE.to_string(), c.since));
+        of_scope.chain(of_course).map(|(name, value)| (self.symbol(&name), value)).collect()
     }
 
     /// Its states: symbol and rate.

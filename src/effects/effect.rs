@@ -1,5 +1,6 @@
 //! An effect: the definitions it changes, its parameters, its states.
 
+use super::{Course, Scope};
 use crate::formula::{Expr, Symbol};
 use crate::provenance::Origin;
 use serde::Deserialize;
@@ -28,6 +29,23 @@ pub struct Effect {
     /// Whether it belongs to one trailer.
     #[serde(default)]
     pub per_trailer: bool,
+    /// Whether it acts on one input of the vehicle, which its formulas call `{input}`; `it` is the input after the effects
+    /// before it, `input` the logged one. A parameter whose unit is `input` has that of the input, and its plausible
+    /// size and its starts are shares of the input's own size.
+    #[serde(default)]
+    pub per_input: bool,
+    /// Whether it is of inputs that come in steps alone.
+    #[serde(default)]
+    pub coarse: bool,
+    /// The role of the input it acts on, for an effect that acts on one.
+    #[serde(skip)]
+    pub on: Option<String>,
+    /// When, where or in which regime it holds; always and everywhere where there is none.
+    #[serde(skip)]
+    pub scope: Option<Scope>,
+    /// Which of its parameters moves with time.
+    #[serde(skip)]
+    pub course: Option<Course>,
     /// Whether every vehicle has it in one form or another: where one of plausible size could hide, silence means
     /// nothing. A user's own effect is basic where its file says so.
     #[serde(default)]
@@ -108,6 +126,16 @@ fn neutral_start() -> Vec<f64> {
     vec![0.0]
 }
 
+/// What stands for an input: as a unit its unit, in a formula the logged value.
+pub(super) const INPUT: &str = "input";
+/// What stands for an input among the definitions that an effect changes.
+const INPUT_PATTERN: &str = "{input}";
+
+/// The definition of an input as it acts, after the effects on it.
+pub fn acting(role: &str) -> Symbol {
+    Symbol::new(&format!("{role}.acting"))
+}
+
 /// Where an effect stands that shifts the inputs in time.
 const CLOCK: &str = "clock";
 
@@ -115,6 +143,39 @@ impl Effect {
     /// Whether it is of the clocks: it shifts the inputs in time.
     pub fn is_of_clock(&self) -> bool {
         self.place == CLOCK
+    }
+
+    /// The effect on an input of a unit and a size; one that acts on no single input stays as it is.
+    ///
+    /// ```
+    /// use creepage::effects;
+    /// let limit = effects::named("input-saturation").unwrap().on_input("steering_angle", "rad", 0.4);
+    /// assert_eq!((limit.on.as_deref(), limit.parameters["limit"].unit.as_str()), (Some("steering_angle"), "rad"));
+    /// ```
+    pub fn on_input(&self, role: &str, unit: &str, size: f64) -> Self {
+        let mut effect = self.clone();
+        if !self.per_input {
+            return effect;
+        }
+        effect.on = Some(role.to_string());
+        for p in effect.parameters.values_mut().filter(|p| p.unit == INPUT) {
+            p.unit = unit.to_string();
+            p.size *= size;
+            p.start.iter_mut().for_each(|s| *s *= size);
+        }
+        effect.states.values_mut().filter(|s| s.unit == INPUT).for_each(|s| s.unit = unit.to_string());
+        effect
+    }
+
+    /// The effect within a scope.
+    ///
+    /// ```
+    /// use creepage::effects::{self, DrivingRegime, Scope};
+    /// let creep = effects::named("rotation-creep").unwrap().within(Scope::Regime(DrivingRegime::Reverse));
+    /// assert!(creep.scope.is_some());
+    /// ```
+    pub fn within(&self, scope: Scope) -> Self {
+        Self { scope: Some(scope), ..self.clone() }
     }
 
     /// An effect with one change and no parameters.
@@ -136,6 +197,10 @@ impl Effect {
             let pattern = match trailer {
                 Some(i) => pattern.replace("{trailer}", &i.to_string()),
                 None => pattern.clone(),
+            };
+            let pattern = match &self.on {
+                Some(role) => pattern.replace(INPUT_PATTERN, acting(role).as_str()),
+                None => pattern,
             };
             let before = found.len();
             found.extend(names.iter().filter(|n| matches(&pattern, n.as_str())).map(|n| (n.clone(), formula.clone())));

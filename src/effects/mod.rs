@@ -2,10 +2,15 @@
 //! a user adds one without recompiling, see [`extensions`](crate::extensions).
 
 mod applied;
+mod course;
 mod effect;
+mod scope;
 
 pub use applied::Applied;
+pub use course::Course;
+pub(crate) use effect::acting;
 pub use effect::{Effect, Parameter, State};
+pub use scope::{DrivingRegime, Scope};
 
 use std::sync::LazyLock;
 

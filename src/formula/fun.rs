@@ -48,7 +48,7 @@ const TABLE: &[(Fun, &str, &str)] = &[
     (Fun::Sqrt, "sqrt", r"\sqrt"),
     (Fun::Abs, "abs", r"\operatorname{abs}"),
     (Fun::Sign, "sign", r"\operatorname{sgn}"),
-    (Fun::Step, "step", r"\operatorname{step}"),
+    (Fun::Step, "heaviside", r"\operatorname{H}"),
 ];
 
 impl Fun {

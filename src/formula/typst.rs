@@ -25,7 +25,7 @@ fn call(f: Fun) -> (&'static str, [&'static str; 2]) {
         Fun::Acos => "arccos",
         Fun::Atan => "arctan",
         Fun::Sign => "op(\"sgn\")",
-        Fun::Step => "op(\"step\")",
+        Fun::Step => "op(\"H\")",
         f => f.name(),
     };
     (name, ROUND)

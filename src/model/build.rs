@@ -3,7 +3,8 @@
 use super::constraints::{behind, section_heading, trailer_creep, trailer_direction, trailer_lengths};
 use super::trailer::trailer_heading;
 use super::vehicle_model::Model;
-use crate::effects::{Applied, Effect};
+use super::reference_speeds::REFERENCE;
+use crate::effects::{Applied, Effect, acting};
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Definitions, Velocity, solve};
@@ -77,7 +78,15 @@ impl Model {
     /// What an effect rewrites on this vehicle; `None` when it does not apply.
     pub(crate) fn targets(&self, e: &Effect, trailer: Option<usize>, names: &[Symbol]) -> Option<Vec<(Symbol, Expr)>> {
         let logged = e.needs.iter().all(|role| self.vehicle.inputs.contains_key(role));
-        let found = e.targets(names, trailer).filter(|_| logged)?;
+        let found = match &e.on {
+            Some(role) if self.inputs.contains(role) => {
+                let known = names.iter().filter(|n| **n != acting(role)).cloned();
+                e.targets(&known.chain([acting(role)]).collect::<Vec<_>>(), trailer)
+            }
+            Some(_) => None,
+            None => e.targets(names, trailer),
+        };
+        let found = found.filter(|_| logged)?;
         let free = found.iter().all(|(name, _)| !self.vehicle.holds(name));
         (free && self.stranger(e, names).is_none()).then_some(found)
     }
@@ -85,8 +94,20 @@ impl Model {
     /// The first name in an effect's formulas that means nothing in this model.
     pub(crate) fn stranger(&self, e: &Effect, names: &[Symbol]) -> Option<Symbol> {
         let own = |s: &Symbol| e.parameters.contains_key(s.as_str()) || e.states.contains_key(s.as_str());
-        let used: BTreeSet<Symbol> = e.formulas().flat_map(Expr::symbols).filter(|s| !own(s)).collect();
-        used.into_iter().find(|s| s.as_str() != "it" && !names.contains(s) && !self.gives(s))
+        let mut used: BTreeSet<Symbol> = e.formulas().flat_map(Expr::symbols).filter(|s| !own(s)).collect();
+        if let Some(scope) = &e.scope {
+            let numbers = scope.numbers();
+            let own = |s: &Symbol| numbers.iter().any(|(name, _)| name == s.as_str());
+            let of_gate = |s: &Symbol| !own(s) && !REFERENCE.contains(&s.as_str());
+            used.extend(scope.gate().symbols().into_iter().filter(of_gate));
+        }
+        let stands = |s: &str| match s {
+            "it" | TIME => true,
+            "input" => e.on.is_some(),
+            "since" => e.course.is_some(),
+            _ => false,
+        };
+        used.into_iter().find(|s| !stands(s.as_str()) && !names.contains(s) && !self.gives(s))
     }
 
     /// Whether a name is a state, an input or a parameter of the model without its effects.
@@ -97,6 +118,10 @@ impl Model {
 
     fn with_effects(&self, mut d: Definitions) -> Result<Definitions> {
         let mut effects: Vec<_> = self.effects.iter().collect();
+        if effects.iter().any(|e| e.gate().is_some_and(|g| REFERENCE.iter().any(|name| g.mentions(&(*name).into())))) {
+            self.define_reference_speeds(&mut d)?;
+        }
+        effects.iter().filter_map(|e| e.effect.on.as_ref()).for_each(|role| define_acting(role, &mut d));
         effects.sort_by_key(|e| (e.effect.order, e.trailer));
         for applied in effects {
             let names: Vec<Symbol> = d.iter().map(|(n, _)| n.clone()).collect();
@@ -112,7 +137,9 @@ impl Model {
             for (name, formula) in targets {
                 let own =
                     applied.localised(&formula).substitute(&|s| (s.as_str() == "it").then(|| Expr::sym(name.clone())));
-                d.rewrite(&name, &own);
+                let it = Expr::sym(name.clone());
+                let gated = applied.gate().map(|gate| &it + &(&gate * &(&own - &it)));
+                d.rewrite(&name, &gated.unwrap_or(own));
             }
         }
         Ok(d)
@@ -228,6 +255,24 @@ impl Model {
         d.define(Symbol::new(&format!("vt_{i}")), formula(&format!("e_tc_{i}*v_{i}")));
         Ok(())
     }
+}
+
+/// The time at which inputs are looked up, in formulas.
+pub(super) const TIME: &str = "t";
+
+/// Defines an input as it acts, and puts it in the place of the logged one.
+fn define_acting(role: &str, d: &mut Definitions) {
+    let (logged, acts) = (Symbol::new(role), acting(role));
+    if d.get(&acts).is_some() {
+        return;
+    }
+    let reference = |name: &Symbol| REFERENCE.contains(&name.as_str());
+    let using: Vec<(Symbol, Expr)> =
+        d.iter().filter(|(name, f)| !reference(name) && f.mentions(&logged)).cloned().collect();
+    for (name, formula) in using {
+        d.define(name, formula.substitute(&|s| (*s == logged).then(|| Expr::sym(acts.clone()))));
+    }
+    d.define(acts, Expr::sym(logged));
 }
 
 /// The velocity of the reference point (zero) or of a trailer's axle, by the names of its components.

@@ -1,11 +1,14 @@
 //! The equations of motion of a model compiled: formulas and their exact derivatives to programs over lanes.
 
-use super::equations::Equations;
+use super::build::TIME;
+use super::equations::{Derived, Equations};
 use super::vehicle_model::Model;
 use super::{observation, state};
+use crate::effects::Scope;
 use crate::error::{Error, Result};
 use crate::formula::{Changes, Expr, Graph, Lanes, NodeId, Program, Symbol};
-use std::collections::BTreeMap;
+use crate::mechanism::Definitions;
+use std::collections::{BTreeMap, BTreeSet};
 
 impl Model {
     /// Values of every fixed symbol of the model's formulas.
@@ -20,6 +23,7 @@ impl Model {
         values.insert("sensor.heading_offset".into(), self.sensor.heading_offset);
         for e in &self.effects {
             values.extend(e.parameters().into_iter().zip(e.values.iter().copied()));
+            values.extend(e.constants());
         }
         values
     }
@@ -46,12 +50,34 @@ impl Model {
         own.chain(hidden).collect()
     }
 
+    /// What a symbol is that no column of a log gives, but the log as a whole.
+    fn derived(&self, s: &Symbol) -> Option<Derived> {
+        if s.as_str() == TIME {
+            return Some(Derived::Time);
+        }
+        self.inputs.iter().position(|i| Symbol::new(i).rate() == *s).map(Derived::Rate)
+    }
+
+    /// The logged inputs, then what the formulas ask of the log beside: the time, rates of inputs.
+    fn logged_and_derived(&self, definitions: &Definitions) -> Vec<Symbol> {
+        let logged: Vec<Symbol> = self.inputs.iter().map(|i| Symbol::new(i)).collect();
+        if self.effects.is_empty() {
+            return logged;
+        }
+        let values = self.values();
+        let given = |s: &Symbol| logged.contains(s) || definitions.get(s).is_some() || values.contains_key(s);
+        let formulas = definitions.iter().map(|(_, f)| f.clone()).chain(self.state_rates());
+        let asked: BTreeSet<Symbol> =
+            formulas.flat_map(|f| f.symbols()).filter(|s| self.derived(s).is_some() && !given(s)).collect();
+        logged.into_iter().chain(asked).collect()
+    }
+
     /// Compiles the equations of motion with the given symbols left free.
     ///
     /// # Errors
     /// When a formula uses a name that nothing defines, or formulas refer to each other in a circle.
     pub fn equations(&self, free: &[Symbol]) -> Result<Equations> {
-        let inputs: Vec<Symbol> = self.inputs.iter().map(|i| Symbol::new(i)).collect();
+        let inputs = self.logged_and_derived(&self.definitions()?);
         self.compiled(free, &[&self.states()[..], &inputs, free].concat())
     }
 
@@ -75,7 +101,9 @@ impl Model {
         let states = self.states();
         let visible = self.nodes();
         let rates: Vec<NodeId> = self.state_rates().iter().map(|rate| graph.insert(rate)).collect();
-        let inputs: Vec<Symbol> = self.inputs.iter().map(|i| Symbol::new(i)).collect();
+        let inputs = self.logged_and_derived(&definitions);
+        let derived = inputs[self.inputs.len()..].iter().filter_map(|s| self.derived(s)).collect();
+        let edges = self.effects.iter().filter_map(|e| e.effect.scope.as_ref()).flat_map(Scope::edges).collect();
         let values: Vec<(Symbol, f64)> = self.values().into_iter().filter(|(s, _)| !free.contains(s)).collect();
         let slots: Vec<Symbol> =
             [&states[..], &inputs, free].concat().into_iter().chain(values.iter().map(|(s, _)| s.clone())).collect();
@@ -113,6 +141,8 @@ impl Model {
             states,
             visible,
             inputs,
+            derived,
+            edges,
             free: free.to_vec(),
             constants,
             rates: plain,

@@ -16,8 +16,12 @@ pub struct Equations {
     pub states: Vec<Symbol>,
     /// How many of the states are measured (pose and trailer headings).
     pub visible: usize,
-    /// Logged inputs.
+    /// Logged inputs, then those derived from the log.
     pub inputs: Vec<Symbol>,
+    /// What the last of the inputs are.
+    pub(crate) derived: Vec<Derived>,
+    /// The times at which an effect begins or ends, s.
+    pub(crate) edges: Vec<f64>,
     /// Free parameters.
     pub free: Vec<Symbol>,
     pub(super) constants: Vec<f64>,
@@ -29,6 +33,15 @@ pub struct Equations {
     pub(super) delay: Lanes,
     /// The motion of the hidden states alone, where it does not ask for the pose.
     pub(super) carried: Option<Box<Equations>>,
+}
+
+/// An input that no column of a log gives, but the log as a whole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Derived {
+    /// The time at which inputs are looked up.
+    Time,
+    /// The rate of a logged input.
+    Rate(usize),
 }
 
 /// How far beside a kink derivatives are taken, as a share of one.
@@ -50,6 +63,11 @@ impl Equations {
     /// Number of states.
     pub fn n(&self) -> usize {
         self.states.len()
+    }
+
+    /// How many of the inputs a log gives.
+    pub fn logged(&self) -> usize {
+        self.inputs.len() - self.derived.len()
     }
 
     /// How many of the states, the first ones, no rate depends on: sensitivities to where they start do not change.

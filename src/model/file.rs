@@ -6,7 +6,7 @@ use super::vehicle_model::{Model, Sensor};
 use crate::effects::{Applied, Effect};
 use crate::error::{Error, Result};
 use crate::files::{
-    EffectEntry, Known, KnownDynamics, KnownEffect, KnownInput, KnownParameter, KnownVehicle, ModelFile,
+    CourseEntry, EffectEntry, Known, KnownDynamics, KnownEffect, KnownInput, KnownParameter, KnownVehicle, ModelFile,
 };
 use crate::vehicles;
 use crate::vehicles::Vehicle;
@@ -38,7 +38,7 @@ pub fn known_on(vehicles: &[Vehicle], library: &[Effect]) -> Known {
 fn known_term(id: String) -> KnownEffect {
     let [min, max] = terms::RANGE;
     let k = KnownParameter { name: terms::COEFFICIENT.into(), min, max };
-    KnownEffect { id, parameters: vec![k], per_trailer: false }
+    KnownEffect { id, parameters: vec![k], ..KnownEffect::default() }
 }
 
 fn known_vehicle(v: &Vehicle) -> KnownVehicle {
@@ -75,6 +75,7 @@ fn known_effect(e: &Effect) -> KnownEffect {
         id: e.id.clone(),
         parameters: e.parameters.iter().map(parameter).collect(),
         per_trailer: e.per_trailer,
+        per_input: e.per_input,
     }
 }
 
@@ -112,7 +113,7 @@ impl Model {
         }
         for entry in &file.effects {
             let term = if entry.id.starts_with(terms::PREFIX) { model.term(&entry.id)? } else { None };
-            let known = applied(entry, library).or_else(|| applied(entry, term.as_slice()));
+            let known = applied(entry, library, vehicle).or_else(|| applied(entry, term.as_slice(), vehicle));
             model.effects.push(known.ok_or_else(|| {
                 Error::input(format!("unknown effect {:?}", entry.id)).at_file(&file.path).at(entry.line, 1)
             })?);
@@ -125,19 +126,40 @@ impl Model {
     }
 }
 
-fn applied(entry: &EffectEntry, library: &[Effect]) -> Option<Applied> {
+fn applied(entry: &EffectEntry, library: &[Effect], vehicle: &Vehicle) -> Option<Applied> {
     let effect = library.iter().find(|e| e.id == entry.id)?;
-    let values = effect.parameters.keys().map(|name| entry.parameters.get(name).copied());
-    Some(Applied::new(effect, entry.trailer, values.collect::<Option<_>>()?))
+    let mut effect = effect.clone();
+    if let Some(role) = &entry.input {
+        effect = effect.on_input(role, vehicle.inputs.get(role).map_or("m/s", |input| &input.unit), 1.0);
+    }
+    if let Some(course) = &entry.course {
+        effect = effect.drifting(&course.parameter, course.since)?;
+    }
+    let rate = |name: &String| {
+        let course = entry.course.as_ref().zip(effect.course.as_ref()).filter(|(_, c)| c.rate() == *name);
+        course.map(|(entry, _)| entry.per_s)
+    };
+    let values = effect.parameters.keys().map(|name| entry.parameters.get(name).copied().or_else(|| rate(name)));
+    let values = values.collect::<Option<_>>()?;
+    effect.scope.clone_from(&entry.scope);
+    Some(Applied::new(&effect, entry.trailer, values))
 }
 
 impl Applied {
     /// The effect as an entry of a model file.
     pub fn entry(&self) -> EffectEntry {
+        let mut parameters = self.named_values();
+        let course = self.effect.course.as_ref().and_then(|c| {
+            let per_s = parameters.remove(&c.rate())?;
+            Some(CourseEntry { parameter: c.parameter.clone(), per_s, since: c.since })
+        });
         EffectEntry {
             id: self.effect.id.clone(),
             trailer: self.trailer,
-            parameters: self.named_values(),
+            input: self.effect.on.clone(),
+            scope: self.effect.scope.clone(),
+            course,
+            parameters,
             defined_in: self.effect.origin.as_ref().map(|o| o.path.clone()),
             ..EffectEntry::default()
         }

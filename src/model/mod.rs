@@ -14,6 +14,7 @@ mod file;
 mod free;
 pub mod observation;
 mod own;
+mod reference_speeds;
 mod solution;
 pub mod state;
 mod terms;
@@ -22,6 +23,7 @@ mod vehicle_model;
 
 pub(crate) use constraints::behind as axle_behind;
 pub use constraints::mechanism;
+pub(crate) use equations::Derived;
 pub use equations::{Equations, Workspace};
 pub use file::{WITH_TRAILERS, known, known_on};
 pub use terms::{COEFFICIENT, PREFIX, is_term};

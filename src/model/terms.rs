@@ -242,7 +242,7 @@ fn term(target: &Target, factors: &[&Factor], symbols: &Symbols, model: &Model) 
     let logged = model.vehicle.inputs.contains_key("yaw_rate");
     let steered = model.vehicle.inputs.contains_key("steering_angle");
     let taken = NAMED.contains(&(target.definition, name.as_str()))
-        || (target.definition == "phi'" && (logged && name == "constant" || steered && name == "v2-yaw"));
+        || (target.definition == "phi'" && (logged && (name == "constant" || name == "v") || steered && name == "v2-yaw"));
     // The effects that have these names speak of vehicles that move.
     if taken && !model.vehicle.stays() {
         return None;
@@ -258,19 +258,13 @@ fn term(target: &Target, factors: &[&Factor], symbols: &Symbols, model: &Model) 
         periodic: false,
     };
     Some(Effect {
-        basic: false,
         id: id(target, factors),
         place: target.place.into(),
         says: format!("the {} gains a term of {name}", target.place),
         source: "no name".into(),
-        per_trailer: false,
-        needs: vec![],
         parameters: BTreeMap::from([(COEFFICIENT.to_string(), parameter)]),
-        states: BTreeMap::new(),
         changes: BTreeMap::from([(target.definition.to_string(), added(factors, symbols))]),
-        limit: None,
-        order: 0,
-        origin: None,
+        ..Effect::default()
     })
 }
 

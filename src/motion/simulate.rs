@@ -1,6 +1,6 @@
 //! Simulation of a model under given inputs, as the table a logger would write.
 
-use super::trajectory::simulate_by;
+use super::trajectory::{all_inputs, simulate_by};
 use super::{Drive, Integrator, initial_hidden, visible_state};
 use crate::error::{Error, Result};
 use crate::formula::{Graph, Program, Symbol};
@@ -70,15 +70,15 @@ pub fn simulate_model(
 ) -> Result<Table> {
     let equations = model.equations_to_simulate()?;
     let first = *times.first().ok_or_else(|| Error::input("a simulation needs at least one time"))?;
-    if inputs.channels() != equations.inputs.len() {
-        let (given, wanted) = (inputs.channels(), equations.inputs.len());
+    if inputs.channels() != equations.logged() {
+        let (given, wanted) = (inputs.channels(), equations.logged());
         return Err(Error::input(format!("{given} inputs are given, the model has {wanted}")));
     }
     let mut w = equations.workspace(&[]);
     let delay = equations.delay(&mut w)[0];
     let at = |t: f64| {
-        let (mut u, mut slope) = (vec![0.0; inputs.channels()], vec![0.0; inputs.channels()]);
-        inputs.at(t - delay, &mut u, &mut slope);
+        let (mut u, mut slope) = (vec![0.0; equations.inputs.len()], vec![0.0; equations.inputs.len()]);
+        all_inputs(&equations, inputs, t - delay, &mut u, &mut slope);
         u
     };
     let mut z0 = visible_state(&equations, &[], start)?;

@@ -3,7 +3,7 @@
 use super::integrators::radau::{Differences, Retimed, Slopes};
 use super::{Drive, Integrator};
 use crate::error::{Error, Result};
-use crate::model::Equations;
+use crate::model::{Derived, Equations};
 use nalgebra::DMatrix;
 
 /// The states at `times` of ż = f(z, u(t − d), p) from z = `z0` at the first of them.
@@ -56,12 +56,21 @@ pub(crate) fn simulate_by(
     fits(equations, p, inputs, z0)?;
     let mut w = equations.workspace(p);
     let delay = equations.delay(&mut w)[0];
+    let knots = knots(equations, inputs, delay);
+    if !equations.derived.is_empty() {
+        let (mut u, mut slope) = (vec![0.0; equations.inputs.len()], vec![0.0; equations.inputs.len()]);
+        let rhs = |look_up: f64, z: &[f64], rates: &mut [f64]| {
+            all_inputs(equations, inputs, look_up, &mut u, &mut slope);
+            equations.rates(&mut w, z, &u, rates);
+        };
+        return Route { knots: &knots, delay, start: z0, times }.follow(integrator, rhs, Differences, see);
+    }
     let (mut u, mut values) = (vec![0.0; inputs.channels()], inputs.values());
     let rhs = |look_up: f64, z: &[f64], rates: &mut [f64]| {
         values(look_up, &mut u);
         equations.rates(&mut w, z, &u, rates);
     };
-    Route { knots: inputs.knots(), delay, start: z0, times }.follow(integrator, rhs, Differences, see)
+    Route { knots: &knots, delay, start: z0, times }.follow(integrator, rhs, Differences, see)
 }
 
 /// The states at `times` and their derivatives with respect to (z0, p), from the variational equations
@@ -100,7 +109,7 @@ pub fn with_sensitivities(
     integrator: &Integrator,
 ) -> Result<Vec<(Vec<f64>, DMatrix<f64>)>> {
     fits(equations, p, inputs, z0)?;
-    let (n, m, parameters) = (equations.n(), inputs.channels(), p.len());
+    let (n, m, parameters) = (equations.n(), equations.inputs.len(), p.len());
     let mut w = equations.workspace(p);
     let (delay, delay_by_p) = match equations.delay(&mut w) {
         [delay, by_p @ ..] => (*delay, by_p.to_vec()),
@@ -108,7 +117,7 @@ pub fn with_sensitivities(
     };
     let (mut u, mut slope) = (vec![0.0; m], vec![0.0; m]);
     let rhs = |look_up: f64, y: &[f64], rates: &mut [f64]| {
-        inputs.at(look_up, &mut u, &mut slope);
+        all_inputs(equations, inputs, look_up, &mut u, &mut slope);
         let (z, s) = y.split_at(n);
         let (f, jacobian) = equations.rates_and_jacobian(&mut w, z, &u).split_at(n);
         let (rates, s_rates) = rates.split_at_mut(n);
@@ -125,7 +134,8 @@ pub fn with_sensitivities(
     };
     let identity = DMatrix::<f64>::identity(n, n + parameters);
     let y0 = [z0, identity.as_slice()].concat();
-    let route = Route { knots: inputs.knots(), delay, start: &y0, times };
+    let knots = knots(equations, inputs, delay);
+    let route = Route { knots: &knots, delay, start: &y0, times };
     let rows = kept(times, |see| route.follow(integrator, rhs, Differences, see))?;
     let split = |y: Vec<f64>| (y[..n].to_vec(), DMatrix::from_column_slice(n, n + parameters, &y[n..]));
     Ok(rows.into_iter().map(split).collect())
@@ -139,12 +149,36 @@ fn fits(equations: &Equations, p: &[f64], inputs: &impl Drive, z0: &[f64]) -> Re
     let pairs = [
         ("initial states", equations.n(), z0.len()),
         ("parameters", equations.free.len(), p.len()),
-        ("inputs", equations.inputs.len(), inputs.channels()),
+        ("inputs", equations.logged(), inputs.channels()),
     ];
     match pairs.iter().find(|(_, wanted, given)| wanted != given) {
         Some((what, wanted, given)) => Err(Error::input(format!("{given} {what} are given, the model has {wanted}"))),
         None => Ok(()),
     }
+}
+
+/// All inputs that equations ask for, and their slopes: those logged, and what is derived from them. The slope of a rate
+/// is left out: it is asked for by a delay that is free alone.
+pub(crate) fn all_inputs(equations: &Equations, inputs: &impl Drive, t: f64, value: &mut [f64], slope: &mut [f64]) {
+    let logged = equations.logged();
+    inputs.at(t, &mut value[..logged], &mut slope[..logged]);
+    for (k, derived) in equations.derived.iter().enumerate() {
+        (value[logged + k], slope[logged + k]) = match derived {
+            Derived::Time => (t, 1.0),
+            Derived::Rate(c) => (slope[*c], 0.0),
+        };
+    }
+}
+
+/// Where the inputs are not smooth, and where effects begin and end, at the times at which inputs are looked up.
+fn knots(equations: &Equations, inputs: &impl Drive, delay: f64) -> Vec<f64> {
+    let edges = equations.edges.iter().map(|t| t - delay);
+    let mut all: Vec<f64> = inputs.knots().iter().copied().chain(edges).collect();
+    if !equations.edges.is_empty() {
+        all.sort_by(f64::total_cmp);
+        all.dedup();
+    }
+    all
 }
 
 /// The states at `times` of ż = f(t, z), from `z0` at the first of them, restarted where a derivative of an input jumps.

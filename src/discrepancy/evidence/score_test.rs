@@ -37,7 +37,7 @@ const PAIRS: usize = 2;
 
 /// Whether an effect vanishes at zero and can be linearised there together with all others of its kind.
 fn is_regular(effect: &Effect, model: &Model, trailer: Option<usize>) -> bool {
-    let known = model.effects.iter().any(|e| e.effect.id == effect.id && e.trailer == trailer);
+    let known = model.effects.iter().any(|e| e.stands_for(effect, trailer));
     // A user's own may be undefined somewhere, or close a circle with another: it must not spoil the pass for others.
     !known && effect.origin.is_none() && effect.states.is_empty() && vanishes_first(effect)
 }
@@ -61,7 +61,7 @@ pub fn promises(problem: &Problem, base: &Fit, model: &Model, open: &[(&Effect, 
     // An entry of the model file is where the search for a better value begins.
     let alone: Vec<Vec<Applied>> = others
         .iter()
-        .flat_map(|(e, t)| match model.effects.iter().find(|a| a.effect.id == e.id && a.trailer == *t) {
+        .flat_map(|(e, t)| match model.effects.iter().find(|a| a.stands_for(e, *t)) {
             Some(given) => vec![given.clone().freed()],
             None => applied(&(*e, *t)),
         })

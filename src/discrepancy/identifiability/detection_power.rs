@@ -43,7 +43,7 @@ pub(crate) struct Candidate {
 pub(crate) fn candidates(model: &Model, library: &[Effect]) -> Vec<Candidate> {
     let all = model.applicable(library).into_iter();
     all.flat_map(|(e, t)| {
-        let given = model.effects.iter().find(|a| a.effect.id == e.id && a.trailer == t);
+        let given = model.effects.iter().find(|a| a.stands_for(e, t));
         candidates_of(e, t, given)
     })
     .collect()

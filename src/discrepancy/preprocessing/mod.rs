@@ -4,6 +4,7 @@ pub(crate) mod clock_jumps;
 pub(crate) mod dataset;
 pub(crate) mod dead_reckoning;
 pub(crate) mod motion_ratios;
+pub(crate) mod input_effects;
 pub mod outliers;
 pub(crate) mod prepared_run;
 pub(crate) mod quantisation;

@@ -36,8 +36,7 @@ pub(crate) struct Ranking {
 impl Search<'_> {
     /// Effects that could be added to a model.
     fn open(&self, model: &Model) -> Vec<(&Effect, Option<usize>)> {
-        let is_taken =
-            |e: &Effect, t: Option<usize>| model.free_effects().any(|a| a.effect.id == e.id && a.trailer == t);
+        let is_taken = |e: &Effect, t: Option<usize>| model.free_effects().any(|a| a.stands_for(e, t));
         model.applicable(self.library).into_iter().filter(|(e, t)| !is_taken(e, *t)).collect()
     }
 

@@ -95,7 +95,7 @@ pub(crate) fn find(model: &Model, like: &Applied) -> Option<Applied> {
 
 /// The effects of a library without those that were given up.
 pub(crate) fn still_open<'e>(library: impl IntoIterator<Item = &'e Effect>, given_up: &[Applied]) -> Vec<Effect> {
-    let is_open = |e: &&Effect| given_up.iter().all(|g| g.effect.id != e.id);
+    let is_open = |e: &&Effect| given_up.iter().all(|g| g.effect.id != e.id || g.effect.on != e.on);
     library.into_iter().filter(is_open).cloned().collect()
 }
 

@@ -1,6 +1,8 @@
 //! `[[effects]]`: the effects that a model already includes, with their values.
 
-use super::known::{Known, KnownEffect, KnownParameter};
+use super::known::{Known, KnownEffect, KnownInput, KnownParameter};
+use super::scope_entry::{CourseEntry, read_course, read_scope};
+use crate::effects::Scope;
 use crate::error::{Error, Result};
 use crate::files::toml::spanned_table::{Section, Value};
 use crate::files::toml::suggestions;
@@ -14,6 +16,12 @@ pub struct EffectEntry {
     pub id: String,
     /// The trailer it acts on, 1 = nearest the tractor, for an effect that acts on one.
     pub trailer: Option<usize>,
+    /// The role of the input it acts on, for an effect that acts on one.
+    pub input: Option<String>,
+    /// When, where or in which regime it holds.
+    pub scope: Option<Scope>,
+    /// Which of its parameters moves with time.
+    pub course: Option<CourseEntry>,
     /// Its parameters, in their own units.
     pub parameters: BTreeMap<String, f64>,
     /// The line of the model file where the entry begins; 0 for one that is not in a file.
@@ -25,25 +33,31 @@ pub struct EffectEntry {
 impl EffectEntry {
     /// Both say something of the same target, so that a model file may hold only one of them.
     pub fn same_target(&self, other: &EffectEntry) -> bool {
-        self.id == other.id && self.trailer == other.trailer
+        self.id == other.id && self.trailer == other.trailer && self.input == other.input
     }
 
     /// Id and target in words.
     pub fn title(&self) -> String {
-        match self.trailer {
-            Some(trailer) => format!("\"{}\" on trailer {trailer}", self.id),
-            None => format!("\"{}\"", self.id),
+        match (self.trailer, &self.input) {
+            (Some(trailer), _) => format!("\"{}\" on trailer {trailer}", self.id),
+            (None, Some(input)) => format!("\"{}\" on {input}", self.id),
+            (None, None) => format!("\"{}\"", self.id),
         }
     }
 }
 
 /// Reads all entries of a model file.
-pub(crate) fn read_effects(top: &Section, known: &Known, trailers: usize) -> Result<Vec<EffectEntry>> {
+pub(crate) fn read_effects(
+    top: &Section,
+    known: &Known,
+    trailers: usize,
+    inputs: &[&KnownInput],
+) -> Result<Vec<EffectEntry>> {
     let Some(value) = top.get("effects") else { return Ok(Vec::new()) };
     let mut entries: Vec<EffectEntry> = Vec::new();
     for element in value.list("[[effects]], with double brackets, before each effect")? {
         let section = element.section("[[effects]]".into())?;
-        let entry = read_entry(&section, known, trailers)?;
+        let entry = read_entry(&section, known, trailers, inputs)?;
         if let Some(first) = entries.iter().find(|e| e.same_target(&entry)) {
             return Err(section
                 .error(format!("effect {} is listed twice, first at line {}", entry.title(), first.line))
@@ -54,14 +68,16 @@ pub(crate) fn read_effects(top: &Section, known: &Known, trailers: usize) -> Res
     Ok(entries)
 }
 
-fn read_entry(section: &Section, known: &Known, trailers: usize) -> Result<EffectEntry> {
+fn read_entry(section: &Section, known: &Known, trailers: usize, inputs: &[&KnownInput]) -> Result<EffectEntry> {
     let id = section.need("id", "id = \"…\"; `creepage effects` lists the ids")?;
     let effect = find(&id, known)?;
-    let mut keys = vec!["id"];
+    let mut keys = vec!["id", "scope", "course"];
+    keys.extend(effect.per_input.then_some("input"));
     keys.extend(effect.per_trailer.then_some("trailer"));
     keys.extend(effect.parameters.iter().map(|p| p.name.as_str()));
     section.only(&keys)?;
     let trailer = if effect.per_trailer { Some(read_trailer(section, &id, trailers)?) } else { None };
+    let input = if effect.per_input { Some(read_input(section, &id, inputs)?) } else { None };
     let mut parameters = BTreeMap::new();
     for parameter in &effect.parameters {
         parameters.insert(parameter.name.clone(), read_parameter(section, effect, parameter)?);
@@ -69,6 +85,9 @@ fn read_entry(section: &Section, known: &Known, trailers: usize) -> Result<Effec
     Ok(EffectEntry {
         id: effect.id.clone(),
         trailer,
+        input,
+        scope: read_scope(section)?,
+        course: read_course(section, effect)?,
         parameters,
         line: section.source.line(section.at),
         defined_in: None,
@@ -96,6 +115,23 @@ fn read_trailer(section: &Section, id: &Value, trailers: usize) -> Result<usize>
     match value.count()? {
         trailer if trailer <= trailers => Ok(trailer),
         trailer => Err(out_of_range(&value, &trailer.to_string(), &format!("1 to {trailers}"))),
+    }
+}
+
+fn read_input(section: &Section, id: &Value, inputs: &[&KnownInput]) -> Result<String> {
+    let roles: Vec<&str> = inputs.iter().flat_map(|i| [Some(i.role.as_str()), i.instead.as_deref()]).flatten().collect();
+    if roles.is_empty() {
+        return Err(id
+            .error(format!("{} acts on an input, but this vehicle has none", id.text()?))
+            .help("remove the entry, or use a vehicle with inputs"));
+    }
+    let value = section.need("input", &format!("input = {:?}", roles[0]))?;
+    let role = value.text()?;
+    match roles.contains(&role) {
+        true => Ok(role.to_string()),
+        false => Err(value
+            .error(format!("this vehicle has no input {:?}", suggestions::shown(role)))
+            .help(suggestions::advice(role, "its inputs", &roles))),
     }
 }
 

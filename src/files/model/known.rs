@@ -97,6 +97,8 @@ pub struct KnownEffect {
     pub parameters: Vec<KnownParameter>,
     /// It acts on one trailer, named by the key `trailer` (1 = nearest the tractor).
     pub per_trailer: bool,
+    /// It acts on one input, named by the key `input`.
+    pub per_input: bool,
 }
 
 /// A parameter of an effect and the values it may take, bounds included.

@@ -7,3 +7,4 @@ pub(crate) mod measurement;
 pub(crate) mod model_file;
 pub(crate) mod parameters;
 pub(crate) mod patch;
+pub(crate) mod scope_entry;

@@ -125,7 +125,7 @@ impl ModelFile {
                 &forced(&top, DynamicsEntry::initial_keys(&machine)),
             )?,
             noise: Noise::read(&top)?,
-            effects: read_effects(&top, known, trailers)?,
+            effects: read_effects(&top, known, trailers, &machine.inputs())?,
             parameters: parameters.values,
             trailer_lengths: parameters.trailer_lengths,
             hitch_offsets: parameters.hitch_offsets,

@@ -1,6 +1,6 @@
 //! `[parameters]`: the lengths and other constants of the vehicle, and of the trailers it pulls.
 
-use super::known::{Known, KnownVehicle};
+use super::known::{KnownInput, Known, KnownVehicle};
 use crate::error::Result;
 use crate::files::toml::spanned_table::{Section, Value};
 use crate::files::toml::suggestions;
@@ -37,6 +37,11 @@ impl<'k> Machine<'k> {
     /// How many trailers are a part of the vehicle or of its tractor.
     pub fn sections(&self) -> usize {
         self.parts().map(|v| v.sections).sum()
+    }
+
+    /// Every input of its parts.
+    pub fn inputs(&self) -> Vec<&'k KnownInput> {
+        self.parts().flat_map(|part| &part.inputs).collect()
     }
 
     /// The vehicle itself and its tractor: both bring parameters and inputs.

@@ -3,6 +3,8 @@
 //! What is here besides: Windows line ends, and whole numbers of more than 64 bits, neither of which `toml_edit` keeps.
 
 use super::effect_entry::EffectEntry;
+use super::scope_entry::CourseEntry;
+use crate::effects::Scope;
 use toml_edit::{Array, ArrayOfTables, Decor, DocumentMut, InlineTable, Item, Key, Table, TableLike, Value};
 
 /// The key of the list of effects.
@@ -79,13 +81,20 @@ fn update(document: &mut DocumentMut, entry: &EffectEntry) -> bool {
     };
     let Some(table) = found else { return false };
     entry.parameters.iter().for_each(|(name, value)| set(table, name, *value));
+    for (name, value) in partly(entry) {
+        match value {
+            Some(value) => _ = table.insert(name, Item::Value(value)),
+            None => _ = table.remove(name),
+        }
+    }
     true
 }
 
 fn speaks_of(table: &dyn TableLike, entry: &EffectEntry) -> bool {
     let id = table.get("id").and_then(Item::as_str).is_some_and(|id| id.trim() == entry.id);
     let trailer = table.get("trailer").and_then(Item::as_integer).and_then(|n| usize::try_from(n).ok());
-    id && trailer == entry.trailer
+    let input = table.get("input").and_then(Item::as_str).map(str::trim);
+    id && trailer == entry.trailer && input == entry.input.as_deref()
 }
 
 fn set(table: &mut dyn TableLike, name: &str, number: f64) {
@@ -174,8 +183,47 @@ fn prefix(decor: &Decor) -> &str {
 fn fields(entry: &EffectEntry) -> Vec<(String, Value)> {
     let mut fields = vec![("id".to_string(), Value::from(&entry.id))];
     fields.extend(entry.trailer.and_then(|n| i64::try_from(n).ok()).map(|n| ("trailer".to_string(), n.into())));
+    fields.extend(entry.input.iter().map(|role| ("input".to_string(), role.into())));
     fields.extend(entry.parameters.iter().map(|(name, value)| (name.clone(), spelled(*value))));
+    fields.extend(partly(entry).into_iter().filter_map(|(name, value)| Some((name.to_string(), value?))));
     fields
+}
+
+/// The scope and the course of an entry, where it has them.
+fn partly(entry: &EffectEntry) -> [(&'static str, Option<Value>); 2] {
+    [("scope", entry.scope.as_ref().map(scope)), ("course", entry.course.as_ref().map(course))]
+}
+
+fn scope(scope: &Scope) -> Value {
+    let numbers = |values: &[f64]| Value::Array(values.iter().map(|v| spelled(*v)).collect());
+    let one = |name: &'static str, value: Value| vec![(name, value)];
+    let fields = match scope {
+        Scope::Times(intervals) => match &intervals[..] {
+            [[from, until]] => {
+                let ends = [("from", from), ("until", until)].into_iter().filter(|(_, t)| t.is_finite());
+                ends.map(|(name, t)| (name, spelled(*t))).collect()
+            }
+            several => one("intervals", Value::Array(several.iter().map(|ends| numbers(ends)).collect())),
+        },
+        Scope::Regime(regime) => one("regime", regime.name().into()),
+        Scope::Above(speed) => {
+            one("above", Value::InlineTable([("speed", spelled(*speed))].into_iter().collect()))
+        }
+        Scope::Disk(disk) => one("disk", numbers(disk)),
+        Scope::Where(formula) => one("where", format!("{formula} > 0").into()),
+    };
+    Value::InlineTable(fields.into_iter().collect())
+}
+
+fn course(course: &CourseEntry) -> Value {
+    let mut table: InlineTable =
+        [("kind", "linear".into()), ("parameter", course.parameter.as_str().into()), ("per_s", spelled(course.per_s))]
+            .into_iter()
+            .collect();
+    if course.since != 0.0 {
+        table.insert("since", spelled(course.since));
+    }
+    Value::InlineTable(table)
 }
 
 /// A comment line that says where an effect of the user's own is defined.

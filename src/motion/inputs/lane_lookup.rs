@@ -1,5 +1,6 @@
 //! Signals looked up at several times side by side, each lane with an interval of its own.
 
+use crate::model::Derived;
 use crate::motion::Signals;
 
 /// The interval of the log around each of L times, and what the signals are there.
@@ -11,23 +12,27 @@ pub(crate) struct Lookup<const L: usize> {
     interval: [usize; L],
     /// Coefficients of each channel.
     pieces: Vec<[[f64; L]; 4]>,
+    derived: Vec<Derived>,
     at: [f64; L],
     pub value: Vec<[f64; L]>,
     pub slope: Vec<[f64; L]>,
 }
 
 impl<const L: usize> Lookup<L> {
-    pub fn new(signals: &Signals) -> Self {
+    /// Signals, and what is derived from them behind them.
+    pub fn new(signals: &Signals, derived: &[Derived]) -> Self {
         let channels = signals.channels();
+        let all = channels + derived.len();
         Self {
             low: [f64::NAN; L],
             high: [f64::NAN; L],
             knot: [0.0; L],
             interval: [0; L],
             pieces: vec![[[0.0; L]; 4]; channels],
+            derived: derived.to_vec(),
             at: [f64::NAN; L],
-            value: vec![[0.0; L]; channels],
-            slope: vec![[0.0; L]; channels],
+            value: vec![[0.0; L]; all],
+            slope: vec![[0.0; L]; all],
         }
     }
 
@@ -58,7 +63,29 @@ impl<const L: usize> Lookup<L> {
                 slope[l] = if within[l] { b[l] + s * (2.0 * d[l] + 3.0 * s * e[l]) } else { 0.0 };
             }
         }
+        if !self.derived.is_empty() {
+            self.derive(t, &s, &within);
+        }
         self.at = *t;
+    }
+
+    /// What hangs on the log as a whole: the time, and the rates of the channels with their slopes.
+    #[inline(never)]
+    fn derive(&mut self, t: &[f64; L], s: &[f64; L], within: &[bool; L]) {
+        let channels = self.pieces.len();
+        for (k, derived) in self.derived.iter().enumerate() {
+            let at = channels + k;
+            match derived {
+                Derived::Time => (self.value[at], self.slope[at]) = (*t, [1.0; L]),
+                Derived::Rate(c) => {
+                    self.value[at] = self.slope[*c];
+                    let [_, _, d, e] = self.pieces[*c];
+                    for l in 0..L {
+                        self.slope[at][l] = if within[l] { 2.0 * d[l] + 6.0 * s[l] * e[l] } else { 0.0 };
+                    }
+                }
+            }
+        }
     }
 
     /// Looks for the intervals of those times that have left theirs, in the next one first.

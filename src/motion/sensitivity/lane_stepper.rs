@@ -43,6 +43,9 @@ pub(crate) struct LaneStepper<'a, const L: usize> {
 /// times of a log are rounded to about as much.
 const KNOT_TOLERANCE: f64 = 1e-6;
 
+/// How far a step stays from the time at which an effect begins or ends, s.
+const EDGE: f64 = 1e-7;
+
 /// How spans are divided.
 struct Steps<const L: usize> {
     /// How many equal steps; none where there is no way to go, or where steps follow a limit.
@@ -127,6 +130,14 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
 
     #[inline(never)]
     fn next_knot(&mut self, l: usize, at: f64, to: f64) -> f64 {
+        let knot = self.next_of_signals(l, at, to);
+        let edges = self.motion.edges();
+        // Just before an edge and just behind it: within a step nothing begins or ends.
+        let beside = edges.iter().flat_map(|e| [e - EDGE, e + EDGE]);
+        beside.filter(|e| at < *e && *e < knot).fold(knot, f64::min)
+    }
+
+    fn next_of_signals(&mut self, l: usize, at: f64, to: f64) -> f64 {
         let knots = self.motion.signals.knots();
         let i = self.ahead[l];
         let stands = i > 0 && knots[i - 1] <= at && knots.get(i).is_none_or(|k| at < *k);

@@ -31,7 +31,7 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
         Self {
             equations,
             signals,
-            lookup: Lookup::new(signals),
+            lookup: Lookup::new(signals, &equations.derived),
             workspace,
             delay: delay[0],
             delay_slopes: delay[1..].to_vec(),
@@ -51,6 +51,11 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
     #[inline(always)]
     pub fn still_entries(&self, s: &[[f64; L]]) -> usize {
         if s.is_empty() { 0 } else { self.still * self.columns() }
+    }
+
+    /// The times at which an effect begins or ends.
+    pub fn edges(&self) -> &[f64] {
+        &self.equations.edges
     }
 
     /// The inputs that act at some times.

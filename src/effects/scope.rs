@@ -1,0 +1,229 @@
+//! The scope of an effect: when, where or in which regime of driving it holds.
+//!
+//! An effect that rewrites a definition d as f(d) holds in part as d + g·(f(d) − d), with a gate g of 0 or 1.
+
+use crate::formula::Expr;
+use std::fmt;
+
+/// When, where or in which regime an effect holds.
+///
+/// | scope | gate |
+/// |---|---|
+/// | times | H(t − from)·H(until − t), summed over the intervals |
+/// | regime | H of the signed speed, of its growth, or of the yaw rate |
+/// | above a speed | H(\|v_0\| − above) |
+/// | disk | H(radius² − (x − x_0)² − (y − y_0)²) |
+/// | where | H(formula) |
+///
+/// H is Heaviside's step. v_0 and w_0 are the forward speed and the yaw rate that the inputs ask for without any effect.
+///
+/// ```
+/// use creepage::effects::Scope;
+/// let late = Scope::Times(vec![[35.3, f64::INFINITY]]);
+/// assert_eq!((late.to_string().as_str(), late.cost()), ("from 35.3 s on", 1));
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub enum Scope {
+    /// Intervals of time, s; an end that is infinite is open.
+    Times(Vec<[f64; 2]>),
+    /// A regime of driving.
+    Regime(DrivingRegime),
+    /// Above a speed, m/s.
+    Above(f64),
+    /// A disk of the plane: x, y and radius, m.
+    Disk([f64; 3]),
+    /// Where a formula is positive.
+    Where(Expr),
+}
+
+/// A regime of driving, told by the inputs.
+///
+/// ```
+/// use creepage::effects::DrivingRegime;
+/// assert_eq!(DrivingRegime::named("reverse"), Some(DrivingRegime::Reverse));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DrivingRegime {
+    /// The vehicle goes forward.
+    Forward,
+    /// It goes backward.
+    Reverse,
+    /// Its speed grows, either way.
+    SpeedingUp,
+    /// Its speed falls, either way.
+    SlowingDown,
+    /// It turns to the left.
+    Left,
+    /// It turns to the right.
+    Right,
+}
+
+const REGIMES: [(DrivingRegime, &str, &str); 6] = [
+    (DrivingRegime::Forward, "forward", "v_0"),
+    (DrivingRegime::Reverse, "reverse", "-v_0"),
+    (DrivingRegime::SpeedingUp, "speeding-up", "sign(v_0)*v_0'"),
+    (DrivingRegime::SlowingDown, "slowing-down", "-sign(v_0)*v_0'"),
+    (DrivingRegime::Left, "left", "w_0"),
+    (DrivingRegime::Right, "right", "-w_0"),
+];
+
+impl DrivingRegime {
+    /// All of them.
+    pub fn all() -> impl Iterator<Item = DrivingRegime> {
+        REGIMES.iter().map(|row| row.0)
+    }
+
+    /// The regime of that name.
+    pub fn named(name: &str) -> Option<DrivingRegime> {
+        REGIMES.iter().find(|row| row.1 == name).map(|row| row.0)
+    }
+
+    /// Its name in files and reports.
+    pub fn name(self) -> &'static str {
+        self.row().1
+    }
+
+    fn row(self) -> &'static (DrivingRegime, &'static str, &'static str) {
+        REGIMES.iter().find(|row| row.0 == self).unwrap_or(&REGIMES[0])
+    }
+}
+
+impl Scope {
+    /// The gate, in which the numbers of the scope stand by their names.
+    pub fn gate(&self) -> Expr {
+        match self {
+            Self::Times(intervals) => {
+                let gates = intervals.iter().enumerate().map(|(i, ends)| interval(i + 1, ends));
+                gates.fold(Expr::int(0), |sum, gate| &sum + &gate)
+            }
+            Self::Regime(regime) => step(regime.row().2),
+            Self::Above(_) => step("abs(v_0) - above"),
+            Self::Disk(_) => step("radius^2 - (x - x_0)^2 - (y - y_0)^2"),
+            Self::Where(positive) => parsed("heaviside(it)").substitute(&|s| (s.as_str() == "it").then(|| positive.clone())),
+        }
+    }
+
+    /// The numbers of the scope by the names they have in its gate.
+    pub fn numbers(&self) -> Vec<(String, f64)> {
+        match self {
+            Self::Times(intervals) => {
+                let ends = intervals.iter().enumerate().flat_map(|(i, [from, until])| {
+                    [(format!("from_{}", i + 1), *from), (format!("until_{}", i + 1), *until)]
+                });
+                ends.filter(|(_, t)| t.is_finite()).collect()
+            }
+            Self::Regime(_) | Self::Where(_) => vec![],
+            Self::Above(speed) => vec![("above".into(), *speed)],
+            Self::Disk([x, y, radius]) => {
+                vec![("x_0".into(), *x), ("y_0".into(), *y), ("radius".into(), *radius)]
+            }
+        }
+    }
+
+    /// The times at which it begins and ends, s.
+    pub fn edges(&self) -> Vec<f64> {
+        let Self::Times(intervals) = self else { return vec![] };
+        intervals.iter().flatten().copied().filter(|t| t.is_finite()).collect()
+    }
+
+    /// How many parameters it costs: its numbers, and one for a choice among a few.
+    pub fn cost(&self) -> usize {
+        self.numbers().len().max(1)
+    }
+
+    /// Whether two scopes are of one kind, whatever their numbers.
+    pub fn is_like(&self, other: &Scope) -> bool {
+        std::mem::discriminant(self) == std::mem::discriminant(other)
+    }
+}
+
+fn parsed(text: &str) -> Expr {
+    // The texts are a part of the program; a test reads every one.
+    Expr::parse(text).unwrap_or_else(|e| unreachable!("{e}"))
+}
+
+fn step(of: &str) -> Expr {
+    parsed(&format!("heaviside({of})"))
+}
+
+fn interval(i: usize, [from, until]: &[f64; 2]) -> Expr {
+    // The inputs, and with them the time, are looked up `delay` seconds in the past.
+    let begun = from.is_finite().then(|| step(&format!("t + delay - from_{i}")));
+    let open = until.is_finite().then(|| step(&format!("until_{i} - t - delay")));
+    begun.into_iter().chain(open).fold(Expr::int(1), |all, gate| &all * &gate)
+}
+
+impl fmt::Display for Scope {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let one = |[from, until]: &[f64; 2]| match (from.is_finite(), until.is_finite()) {
+            (true, false) => format!("from {} s on", short(*from)),
+            (false, true) => format!("until {} s", short(*until)),
+            _ => format!("from {} to {} s", short(*from), short(*until)),
+        };
+        match self {
+            Self::Times(intervals) => {
+                f.write_str(&intervals.iter().map(one).collect::<Vec<_>>().join(" and "))
+            }
+            Self::Regime(DrivingRegime::Forward) => f.write_str("forward"),
+            Self::Regime(DrivingRegime::Reverse) => f.write_str("in reverse"),
+            Self::Regime(DrivingRegime::Left) => f.write_str("in left turns"),
+            Self::Regime(DrivingRegime::Right) => f.write_str("in right turns"),
+            Self::Regime(regime) => write!(f, "while {}", regime.name().replace('-', " ")),
+            Self::Above(speed) => write!(f, "above {} m/s", short(*speed)),
+            Self::Disk([x, y, r]) => write!(f, "within {} m of ({}, {})", short(*r), short(*x), short(*y)),
+            Self::Where(formula) => write!(f, "where {formula} > 0"),
+        }
+    }
+}
+
+fn short(number: f64) -> String {
+    let rounded = (number * 100.0).round() / 100.0;
+    if rounded == 0.0 && number != 0.0 { crate::number_format::significant(number, 2) } else { rounded.to_string() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The value of a gate at a place, a time, a speed and a yaw rate, and the growth of the speed.
+    fn open(scope: &Scope, [x, y, t, v, w, a]: [f64; 6]) -> f64 {
+        let numbers = scope.numbers();
+        let value = |name: &str| match name {
+            "x" => x,
+            "y" => y,
+            "t" => t - 0.5,
+            "delay" => 0.5,
+            "v_0" => v,
+            "w_0" => w,
+            "v_0'" => a,
+            name => numbers.iter().find(|(n, _)| n == name).unwrap().1,
+        };
+        scope.gate().eval(&|s| value(s.as_str())).unwrap()
+    }
+
+    #[test]
+    fn gates_are_open_where_their_words_say() {
+        let at = |t: f64| [0.0, 0.0, t, 0.0, 0.0, 0.0];
+        let two = Scope::Times(vec![[1.0, 2.0], [4.0, f64::INFINITY]]);
+        assert_eq!([0.5, 1.5, 3.0, 9.0].map(|t| open(&two, at(t))), [0.0, 1.0, 0.0, 1.0]);
+        assert_eq!((two.edges(), two.cost()), (vec![1.0, 2.0, 4.0], 3));
+        assert_eq!(two.to_string(), "from 1 to 2 s and from 4 s on");
+        let driving = [-1.0, 0.3, 0.2];
+        let open_in = DrivingRegime::all().filter(|r| {
+            let [v, w, a] = driving;
+            open(&Scope::Regime(*r), [0.0, 0.0, 0.0, v, w, a]) == 1.0
+        });
+        assert_eq!(open_in.map(DrivingRegime::name).collect::<Vec<_>>(), ["reverse", "slowing-down", "left"]);
+        let disk = Scope::Disk([2.0, -1.0, 0.5]);
+        assert_eq!([2.4, 2.6].map(|x| open(&disk, [x, -1.0, 0.0, 0.0, 0.0, 0.0])), [1.0, 0.0]);
+        let fast = Scope::Above(1.2);
+        assert_eq!([-1.3, 1.1].map(|v| open(&fast, [0.0, 0.0, 0.0, v, 0.0, 0.0])), [1.0, 0.0]);
+        let far = Scope::Where(Expr::parse("x - 3").unwrap());
+        assert_eq!([2.0, 4.0].map(|x| open(&far, [x, 0.0, 0.0, 0.0, 0.0, 0.0])), [0.0, 1.0]);
+    }
+
+    #[test]
+    fn every_regime_is_found_under_its_name() {
+        assert!(DrivingRegime::all().all(|r| DrivingRegime::named(r.name()) == Some(r)));
+    }
+}

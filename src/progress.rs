@@ -41,6 +41,8 @@ pub enum Stage {
     },
     /// An equation is sought for motion that no effect explains.
     UnnamedTerms,
+    /// Effects that hold in part only, or move with time, are looked for.
+    Scopes,
     /// The effects are asked of parts of the data (jackknife), part by part.
     PartsOfData,
     /// The effects are asked of inputs of which every second row is left out.

@@ -10,6 +10,7 @@ pub fn stage_text(stage: &Stage) -> String {
         Stage::ClockRefinement => "runs; aligning their clocks beside what was chosen".into(),
         Stage::ModelFit => "fitting the model as it is".into(),
         Stage::Candidates { chosen } => format!("candidates weighed, {chosen} chosen"),
+        Stage::Scopes => "looking for what holds in part only".into(),
         Stage::UnnamedTerms => "looking for an equation of what has no name".into(),
         Stage::PartsOfData => "parts of the data asked for the same effects".into(),
         Stage::InputSampling => "asking every second row of the inputs for the same effects".into(),

@@ -128,6 +128,12 @@ pub struct Named {
     /// Where it acts.
     #[serde(rename = "where")]
     pub place: String,
+    /// The role of the input it acts on, where it acts on one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub on: Option<String>,
+    /// When, where or in which regime it holds; always and everywhere where there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scope: Option<ScopeFound>,
     /// Its fitted parameters by name.
     pub parameters: BTreeMap<String, Estimate>,
     /// How strongly the data speak for it.
@@ -138,11 +144,89 @@ pub struct Named {
     pub equation: String,
 }
 
+impl Named {
+    /// Its id, with the input it acts on and its scope in brackets where it has them.
+    pub fn title(&self) -> String {
+        let course = self.parameters.iter().filter(|(_, p)| p.course.is_some());
+        let course = course.map(|(name, _)| format!("{name} moving with time"));
+        let scope = self.scope.as_ref().map(|s| s.says.clone());
+        let all: Vec<String> = self.on.clone().into_iter().chain(scope).chain(course).collect();
+        if all.is_empty() { self.id.clone() } else { format!("{} ({})", self.id, all.join(", ")) }
+    }
+}
+
+/// When, where or in which regime an effect holds; the keys are those of a model file.
+///
+/// ```
+/// use creepage::report::ScopeFound;
+/// let scope: ScopeFound = serde_json::from_str(r#"{"from": 35.3, "says": "from 35.3 s on"}"#).unwrap();
+/// assert_eq!((scope.from, scope.until), (Some(35.3), None));
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ScopeFound {
+    /// When it begins, s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from: Option<f64>,
+    /// When it ends, s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub until: Option<f64>,
+    /// When it begins and ends, several times, s.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub intervals: Vec<[f64; 2]>,
+    /// The regime of driving.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub regime: Option<String>,
+    /// The speed above which it holds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub above: Option<AboveSpeed>,
+    /// x, y and radius of a disk, m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub disk: Option<[f64; 3]>,
+    /// A formula, greater than zero where it holds.
+    #[serde(rename = "where", default, skip_serializing_if = "Option::is_none")]
+    pub positive: Option<String>,
+    /// All this in words.
+    #[serde(default)]
+    pub says: String,
+}
+
+/// A speed above which an effect holds.
+///
+/// ```
+/// use creepage::report::AboveSpeed;
+/// assert_eq!(serde_json::to_string(&AboveSpeed { speed: 1.5 }).unwrap(), r#"{"speed":1.5}"#);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AboveSpeed {
+    /// The speed, m/s.
+    pub speed: f64,
+}
+
+/// How a parameter moves with time.
+///
+/// ```
+/// use creepage::report::CourseFound;
+/// let text = r#"{"kind": "linear", "per_s": 0.0004, "std": 0.00001, "since": 0.0}"#;
+/// let warming: CourseFound = serde_json::from_str(text).unwrap();
+/// assert!(warming.std.is_some_and(|std| warming.per_s > 3.0 * std));
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CourseFound {
+    /// `linear`.
+    pub kind: String,
+    /// How fast, in the parameter's unit a second.
+    pub per_s: f64,
+    /// The standard deviation of that; null where the data give none.
+    pub std: Option<f64>,
+    /// When the parameter has its value, s.
+    pub since: f64,
+}
+
 /// A fitted number.
 ///
 /// ```
 /// use creepage::report::Estimate;
-/// let creep = Estimate { value: 0.05, std: Some(0.01), unit: "1".into() };
+/// let creep = Estimate { value: 0.05, std: Some(0.01), unit: "1".into(), course: None };
 /// assert!(creep.std.is_some_and(|std| creep.value.abs() > 3.0 * std));
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -153,6 +237,9 @@ pub struct Estimate {
     pub std: Option<f64>,
     /// Its unit.
     pub unit: String,
+    /// How it moves with time, where it does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub course: Option<CourseFound>,
 }
 
 /// Evidence for an effect on the fitting data.

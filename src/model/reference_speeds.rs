@@ -13,6 +13,15 @@ pub(super) const REFERENCE: [&str; 3] = ["v_0", "v_0'", "w_0"];
 const MAX_OPERATIONS: usize = 5000;
 
 impl Model {
+    /// The forward speed that the inputs ask for without any effect, its rate, and the yaw rate, by inputs, their rates
+    /// and parameters.
+    pub(crate) fn reference_speeds(&self) -> Result<[Expr; 3]> {
+        let bare = Model { effects: vec![], ..self.clone() };
+        let mut d = bare.definitions()?;
+        bare.define_reference_speeds(&mut d)?;
+        Ok(REFERENCE.map(|name| d.get(&name.into()).cloned().unwrap_or_default()))
+    }
+
     /// Defines the reference speeds from definitions without effects: formulas of inputs and parameters alone, so that no
     /// gate can close a circle with what it opens.
     ///

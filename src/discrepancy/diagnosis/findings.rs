@@ -4,9 +4,11 @@ use super::equivalents::EquivalentEffect;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::localisation::constraint_residuals::{ConstraintResiduals, reduction};
 use crate::discrepancy::preprocessing::dataset::Data;
-use crate::discrepancy::report::{Covariance, Estimate, Evidence, Named, Rival, Unnamed};
+use crate::discrepancy::report::{
+    AboveSpeed, CourseFound, Covariance, Estimate, Evidence, Named, Rival, ScopeFound, Unnamed,
+};
 use crate::discrepancy::selection::choice::SelectedEffect;
-use crate::effects::Applied;
+use crate::effects::{Applied, Scope};
 use crate::error::Result;
 use crate::model::Model;
 use crate::model::effect_equation::{equation, is_term, term_equation};
@@ -17,12 +19,36 @@ pub(crate) fn estimates(a: &Applied, std: &[Option<f64>]) -> BTreeMap<String, Es
     let std = |i: usize| std.get(i).copied().flatten();
     let values = a.effect.parameters.iter().zip(&a.values).enumerate();
     let mut parameters: BTreeMap<String, Estimate> = values
-        .map(|(i, ((name, p), value))| (name.clone(), Estimate { value: *value, std: std(i), unit: p.unit.clone() }))
+        .map(|(i, ((name, p), value))| (name.clone(), Estimate { value: *value, std: std(i), unit: p.unit.clone(), course: None }))
         .collect();
+    if let Some(course) = &a.effect.course {
+        let moving = parameters.remove(&course.rate());
+        let moving = moving.map(|m| CourseFound { kind: LINEAR.into(), per_s: m.value, std: m.std, since: course.since });
+        parameters.entry(course.parameter.clone()).and_modify(|p| p.course = moving);
+    }
     if let Some(i) = a.trailer {
-        parameters.insert("trailer".into(), Estimate { value: i as f64, std: None, unit: "1".into() });
+        parameters.insert("trailer".into(), Estimate { value: i as f64, std: None, unit: "1".into(), course: None });
     }
     parameters
+}
+
+/// The kind of a course at a constant rate.
+const LINEAR: &str = "linear";
+
+/// A scope as the report lists it.
+fn scope(scope: &Scope) -> ScopeFound {
+    let finite = |t: f64| t.is_finite().then_some(t);
+    let found = ScopeFound { says: scope.to_string(), ..ScopeFound::default() };
+    match scope {
+        Scope::Times(intervals) => match &intervals[..] {
+            [[from, until]] => ScopeFound { from: finite(*from), until: finite(*until), ..found },
+            several => ScopeFound { intervals: several.to_vec(), ..found },
+        },
+        Scope::Regime(regime) => ScopeFound { regime: Some(regime.name().into()), ..found },
+        Scope::Above(speed) => ScopeFound { above: Some(AboveSpeed { speed: *speed }), ..found },
+        Scope::Disk(disk) => ScopeFound { disk: Some(*disk), ..found },
+        Scope::Where(formula) => ScopeFound { positive: Some(format!("{formula} > 0")), ..found },
+    }
 }
 
 /// A chosen effect as the report lists it.
@@ -33,6 +59,8 @@ pub(crate) fn named(chosen: &SelectedEffect, relatives: &[EquivalentEffect], mod
         id: a.effect.id.clone(),
         says: a.effect.says.clone(),
         place: a.effect.place.clone(),
+        on: a.effect.on.clone(),
+        scope: a.effect.scope.as_ref().map(scope),
         parameters: estimates(a, &chosen.std),
         evidence: Evidence { delta_bic: chosen.delta_bic, p_value: chosen.p_value },
         indistinguishable_from: relatives.iter().map(rival).collect(),

@@ -12,6 +12,7 @@ use crate::discrepancy::record::sensor_noise::Noise;
 use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
 use crate::discrepancy::shooting::window_integration::linearise;
 use crate::discrepancy::shooting::windows::{Segment, WindowStates};
+use crate::effects::Scope;
 use crate::error::Result;
 use crate::model::{Equations, Model};
 use nalgebra::{DMatrix, DVector};
@@ -88,9 +89,10 @@ impl Fit {
         self.noise_correlation_time * self.residual_correlation_time
     }
 
-    /// How many numbers it has taken from the data.
+    /// How many numbers it has taken from the data: values, those of scopes, and how hidden states began.
     pub fn size(&self) -> f64 {
-        self.p.len() as f64 + self.initial_state_dof
+        let of_scopes = self.model.free_effects().filter_map(|e| e.effect.scope.as_ref()).map(Scope::cost);
+        (self.p.len() + of_scopes.sum::<usize>()) as f64 + self.initial_state_dof
     }
 
     /// The noise that was estimated.

@@ -56,6 +56,17 @@ impl Problem {
             .is_none_or(|gained| total(&gained) > 0.0 && counts(&gained, SAME * than.variance_inflation()).1 == 0))
     }
 
+    /// Whether a model predicts the parts it was not fitted to worse than another, where they can be asked: a part may
+    /// hold all that an effect with a scope is told by.
+    ///
+    /// # Errors
+    /// When the model's formulas are malformed.
+    pub(crate) fn predicts_worse(&self, fit: &Fit, than: &Fit) -> Result<bool> {
+        let part = if self.records.len() >= FEWEST_RUNS { Part::Run } else { Part::Blocks };
+        let [new, old] = [self.linear(fit)?, self.linear(than)?];
+        Ok(self.gains([fit, than], [&new, &old], part, Share::predicted).is_some_and(|g| total(&g) <= 0.0))
+    }
+
     /// By how much of deviance a model whose values other parts give misses the parts less than another does: runs, or
     /// blocks of windows of a single run.
     ///

@@ -5,5 +5,6 @@ pub mod information_criterion;
 pub mod jackknife;
 pub mod parametric_bootstrap;
 pub mod regime_stability;
+pub(crate) mod scope_scan;
 pub mod score_test;
 pub(crate) mod wald_test;

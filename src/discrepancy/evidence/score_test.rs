@@ -36,7 +36,7 @@ pub struct ScoreTests {
 const PAIRS: usize = 2;
 
 /// Whether an effect vanishes at zero and can be linearised there together with all others of its kind.
-fn is_regular(effect: &Effect, model: &Model, trailer: Option<usize>) -> bool {
+pub(crate) fn is_regular(effect: &Effect, model: &Model, trailer: Option<usize>) -> bool {
     let known = model.effects.iter().any(|e| e.stands_for(effect, trailer));
     // A user's own may be undefined somewhere, or close a circle with another: it must not spoil the pass for others.
     !known && effect.origin.is_none() && effect.states.is_empty() && vanishes_first(effect)

@@ -1,6 +1,6 @@
 //! The report on one screen of a terminal, and the sentences every form of the report shares.
 
-use crate::discrepancy::report::{BeforeAfter, Estimate, Gap, Named, Report, Rival, RunClock, Unnamed, Verdict};
+use crate::discrepancy::report::{BeforeAfter, CourseFound, Estimate, Gap, Named, Report, Rival, RunClock, Unnamed, Verdict};
 use crate::discrepancy::report::{judged, judged_alike};
 use crate::number_format::{decimals, plain, prefixed, significant, with_error};
 use crate::picture::svg::cut;
@@ -46,7 +46,7 @@ pub(crate) fn composed_sentence(verdict: Verdict, effects: &[Named], unnamed: &[
             "Model and measurement disagree in a repeatable way at the {}, and no known effect explains it.",
             unnamed.first().map_or("constraints", |u| u.place.as_str())
         ),
-        Verdict::MissingEffect => format!("The model misses {}.", listed(effects.iter().map(|e| e.id.as_str()))),
+        Verdict::MissingEffect => format!("The model misses {}.", listed(effects.iter().map(Named::title))),
         Verdict::NoMissingEffect => "The model explains these runs to their noise; no effect is missing.".into(),
     }
 }
@@ -139,6 +139,7 @@ fn one_effect(effect: &Named) -> Vec<String> {
             _ => (brief(estimate), estimate.unit.as_str()),
         };
         lines.push(row(id, name, &value, unit, bic));
+        lines.extend(estimate.course.as_ref().map(|c| moving(name, c, unit)));
     }
     if lines.is_empty() {
         lines.push(row(&effect.id, "", "", "", &bic));
@@ -148,6 +149,12 @@ fn one_effect(effect: &Named) -> Vec<String> {
         lines.extend(wrapped(&format!("not told from {}", rivals.join(", ")), 4, 2));
     }
     lines
+}
+
+/// The line of a parameter that moves with time.
+fn moving(name: &str, course: &CourseFound, unit: &str) -> String {
+    let per_s = Estimate { value: course.per_s, std: course.std, unit: String::new(), course: None };
+    row("", &format!("{name} per s"), &brief(&per_s), &format!("{unit}/s"), "")
 }
 
 /// A value and its deviation, that one as a power of ten where both are too long for their column.
@@ -240,7 +247,7 @@ mod tests {
 
     #[test]
     fn a_clock_is_said_in_seconds_and_microseconds_a_second() {
-        let estimate = |value, std, unit: &str| Estimate { value, std: Some(std), unit: unit.into() };
+        let estimate = |value, std, unit: &str| Estimate { value, std: Some(std), unit: unit.into(), course: None };
         let clock = RunClock {
             run: "in.csv".into(),
             truth: "poses.csv".into(),
@@ -265,7 +272,7 @@ mod tests {
 
     #[test]
     fn a_deviation_that_is_none_is_not_said() {
-        let said = |std| seconds(&Estimate { value: -12.34567, std, unit: "s".into() });
+        let said = |std| seconds(&Estimate { value: -12.34567, std, unit: "s".into(), course: None });
         assert_eq!(said(Some(0.002)), "−12.3457 ± 0.0020");
         for std in [None, Some(0.0), Some(f64::INFINITY), Some(f64::NAN)] {
             assert_eq!(said(std), said(None), "{std:?}");

@@ -8,6 +8,8 @@ pub(crate) mod input_sampling;
 pub(crate) mod refusals;
 pub(crate) mod refute;
 pub(crate) mod search;
+pub(crate) mod scope_proposals;
+pub(crate) mod scopes;
 pub mod select;
 pub(crate) mod stability;
 pub(crate) mod stepwise;

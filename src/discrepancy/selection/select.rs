@@ -4,6 +4,7 @@ use super::candidates::FINALISTS;
 use super::input_sampling::{InputSampling, keep_sampled};
 use super::refusals::Standing;
 use super::search::{MOST, Search, SearchState, find};
+use super::scopes;
 use super::stability;
 use super::stability::Stable;
 use super::transients;
@@ -51,6 +52,7 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &O
         drops: true,
     };
     let named = transients::search(&selection, library, selection.grown(&before, progress)?)?;
+    let named = scopes::search(&selection, &named, progress)?.unwrap_or(named);
     let grown = unnamed_terms::search(&selection, &named, &[], progress)?.unwrap_or(named);
     let Stable { mut grown, inconsistent, scatter } = stability::search(&selection, grown, progress)?;
     let InputSampling { dropped: sampling_sensitive, missed } = keep_sampled(&selection, &mut grown, progress)?;

@@ -94,12 +94,14 @@ fn found(report: &Report) -> Option<Element> {
 /// A parameter with its value and unit; a pure number has none.
 pub(crate) fn parameter(name: &str, e: &Estimate) -> String {
     let unit = if e.unit == "1" { "" } else { e.unit.as_str() };
-    format!("{name} = {} {unit}", with_error(e.value, e.std)).trim_end().to_string()
+    let shown = format!("{name} = {} {unit}", with_error(e.value, e.std)).trim_end().to_string();
+    let moving = e.course.as_ref().map(|c| format!(", moving by {} {unit}/s", with_error(c.per_s, c.std)));
+    shown + &moving.unwrap_or_default()
 }
 
 fn one_line(effect: &Named) -> Element {
     let values: Vec<String> = effect.parameters.iter().map(|(name, e)| parameter(name, e)).collect();
-    let line = Element::new("li").child(holding("strong", &effect.id));
+    let line = Element::new("li").child(holding("strong", effect.title()));
     let line = match effect.says.is_empty() {
         true => line.text(format!(" {}", values.join(", "))),
         false => line.text(format!(": {}; {}", effect.says, values.join(", "))),
@@ -133,7 +135,7 @@ mod tests {
 
     #[test]
     fn a_pure_number_has_no_unit() {
-        let told = |unit: &str| parameter("e_rc", &Estimate { value: 0.05, std: Some(0.001), unit: unit.into() });
+        let told = |unit: &str| parameter("e_rc", &Estimate { value: 0.05, std: Some(0.001), unit: unit.into(), course: None });
         let (number, length) = (told("1"), told("m"));
         assert!(number.starts_with("e_rc = 0.05") && !number.ends_with('1'), "{number}");
         assert_eq!(length, number + " m");

@@ -34,7 +34,7 @@ fn effects(report: &Report) -> Option<Element> {
         let shown = |(name, p): (&String, &report::Estimate)| parameter(name, p).replace(' ', "\u{a0}");
         let rivals = e.indistinguishable_from.iter().map(|r| format!("{}: {}", r.id, why(r))).collect();
         vec![
-            Cell::Lines(vec![e.id.clone(), e.place.clone()]),
+            Cell::Lines(vec![e.title(), e.place.clone()]),
             Cell::Lines(e.parameters.iter().map(shown).collect()),
             Cell::Number(significant(e.evidence.delta_bic, 3)),
             Cell::Number(probability(e.evidence.p_value)),

@@ -1,0 +1,237 @@
+//! Scopes that an effect may have, proposed by where it would gain: in time, in a regime, above a speed, in a place.
+
+use crate::discrepancy::estimation::problem::Problem;
+use crate::discrepancy::evidence::scope_scan::{BlockScores, Blocks, Cumulated};
+use crate::effects::{DrivingRegime, Scope};
+use crate::error::Result;
+use crate::formula::Expr;
+use crate::model::Model;
+use std::ops::Range;
+
+/// Intervals of time at most.
+const MOST_INTERVALS: usize = 8;
+/// Shares of the rows above which a speed or a growth of the speed is tried as a bound.
+const QUANTILES: [f64; 7] = [0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9];
+/// Radii of disks that are tried, as shares of the extent of the path.
+const RADII: [f64; 8] = [0.06, 0.09, 0.13, 0.19, 0.27, 0.36, 0.5, 0.7];
+
+/// What the vehicle does in a row: where it is, the speed that the inputs ask for, how it grows, and the yaw rate.
+#[derive(Clone, Copy, Debug)]
+struct Row {
+    place: [f64; 2],
+    speed: f64,
+    growth: f64,
+    yaw: f64,
+}
+
+/// The rows of every block, and its beginning and end.
+pub(crate) struct BlockRows {
+    rows: Vec<Vec<Row>>,
+    /// First and last time, s.
+    times: Vec<[f64; 2]>,
+    /// Blocks in a row that belong to one run.
+    runs: Vec<Range<usize>>,
+}
+
+/// A scope and what an effect gains by it, to first order.
+#[derive(Clone, Debug)]
+pub(crate) struct Proposal {
+    pub scope: Scope,
+    pub gain: f64,
+    /// How many were tried that it is the best of.
+    pub of: usize,
+}
+
+impl BlockRows {
+    /// Of the blocks of a problem.
+    pub fn of(problem: &Problem, model: &Model, blocks: &Blocks) -> Result<Self> {
+        let [speed, growth, yaw] = model.reference_speeds()?;
+        let mut found = Self { rows: vec![], times: vec![], runs: vec![] };
+        let values = model.fixed().values();
+        for (block, (segment, windows)) in blocks.windows().into_iter().enumerate() {
+            let segment = &problem.plan[segment];
+            let record = &problem.records[segment.record];
+            let rows = segment.windows[windows.start].start..segment.windows[windows.end - 1].end;
+            let channels = record.signals.channels();
+            let (mut u, mut slope) = (vec![0.0; channels], vec![0.0; channels]);
+            let mut row = |i: usize| {
+                record.signals.at(record.time[i], &mut u, &mut slope);
+                let value = |s: &crate::formula::Symbol| {
+                    let name = s.as_str();
+                    let input = |name: &str| model.inputs.iter().position(|role| role == name);
+                    let rate = name.strip_suffix('\'').and_then(input).map(|k| slope[k]);
+                    input(name).map(|k| u[k]).or(rate).or_else(|| values.get(s).copied()).unwrap_or(f64::NAN)
+                };
+                let of = |e: &Expr| e.eval(&value).unwrap_or(f64::NAN);
+                let place = [record.columns[0][i], record.columns[1][i]];
+                Row { place, speed: of(&speed), growth: of(&growth), yaw: of(&yaw) }
+            };
+            found.rows.push(rows.clone().map(&mut row).collect());
+            found.times.push([record.time[rows.start], record.time[rows.end.min(record.time.len() - 1)]]);
+            match found.runs.last_mut().filter(|_| block > 0 && same_run(problem, blocks, block)) {
+                Some(run) => run.end = block + 1,
+                None => found.runs.push(block..block + 1),
+            }
+        }
+        Ok(found)
+    }
+
+    /// The best scope of every family.
+    pub fn proposals(&self, scores: &BlockScores) -> Vec<Proposal> {
+        let mut found = match self.runs.len() {
+            1 => self.in_time(&scores.cumulated()),
+            _ => self.by_all_clocks(scores),
+        };
+        found.extend(self.in_regimes(scores));
+        found.extend(self.above_speed(scores));
+        found.extend(self.while_growing(scores));
+        found.extend(self.in_disk(scores));
+        found
+    }
+
+    /// Until a time, from a time on, and in more and more intervals.
+    fn in_time(&self, sums: &Cumulated) -> Vec<Proposal> {
+        let n = sums.blocks;
+        let half = |ends: Range<usize>| (ends.clone(), sums.gain(&[ends]));
+        let best = |all: Vec<(Range<usize>, f64)>| all.into_iter().max_by(|a, b| a.1.total_cmp(&b.1));
+        let mut found: Vec<Proposal> = vec![];
+        let from = best((1..n).map(|k| half(k..n)).collect());
+        let until = best((1..n).map(|k| half(0..k)).collect());
+        for (ends, gain) in [from, until].into_iter().flatten() {
+            found.push(Proposal { scope: self.times(&[ends]), gain, of: 2 * n });
+        }
+        let mut intervals: Vec<Range<usize>> = vec![];
+        let mut reached = 0.0;
+        while intervals.len() < MOST_INTERVALS {
+            let free = |a: usize, b: usize| intervals.iter().all(|i| b < i.start || i.end < a);
+            let pairs = (0..n).flat_map(|a| (a + 1..=n).map(move |b| (a, b))).filter(|(a, b)| free(*a, *b));
+            let with = |(a, b): (usize, usize)| {
+                let all: Vec<Range<usize>> = intervals.iter().cloned().chain([a..b]).collect();
+                let gain = sums.gain(&all);
+                (all, gain)
+            };
+            let Some((all, gain)) = pairs.map(with).max_by(|a, b| a.1.total_cmp(&b.1)) else { break };
+            if gain <= reached {
+                break;
+            }
+            (intervals, reached) = (all, gain);
+            intervals.sort_by_key(|i| i.start);
+            found.push(Proposal { scope: self.times(&intervals), gain, of: n * n / 2 * intervals.len() });
+        }
+        found
+    }
+
+    /// Until a time, and from a time on, of several runs each by its own clock.
+    fn by_all_clocks(&self, scores: &BlockScores) -> Vec<Proposal> {
+        let tried = |late: bool| {
+            let at = |t: f64| {
+                let open = |[from, _]: &[f64; 2]| f64::from(u8::from((*from >= t) == late));
+                let shares: Vec<f64> = self.times.iter().map(open).collect();
+                let ends = if late { [t, f64::INFINITY] } else { [f64::NEG_INFINITY, t] };
+                let some = shares.iter().any(|s| *s > 0.0) && shares.contains(&0.0);
+                some.then(|| Proposal { scope: Scope::Times(vec![ends]), gain: scores.gain(&shares), of: self.times.len() })
+            };
+            best(self.times.iter().filter_map(|[from, _]| at(*from)).collect())
+        };
+        [true, false].into_iter().flat_map(tried).collect()
+    }
+
+    fn times(&self, intervals: &[Range<usize>]) -> Scope {
+        let n = self.times.len();
+        let from = |b: usize| if b == 0 { f64::NEG_INFINITY } else { self.times[b][0] };
+        let until = |b: usize| if b == n { f64::INFINITY } else { self.times[b - 1][1] };
+        Scope::Times(intervals.iter().map(|i| [from(i.start), until(i.end)]).collect())
+    }
+
+    fn in_regimes(&self, scores: &BlockScores) -> Vec<Proposal> {
+        let tried: Vec<Proposal> = DrivingRegime::all()
+            .filter_map(|regime| {
+                let open = |r: &Row| match regime {
+                    DrivingRegime::Forward => r.speed > 0.0,
+                    DrivingRegime::Reverse => r.speed < 0.0,
+                    DrivingRegime::SpeedingUp => r.speed.signum() * r.growth > 0.0,
+                    DrivingRegime::SlowingDown => r.speed.signum() * r.growth < 0.0,
+                    DrivingRegime::Left => r.yaw > 0.0,
+                    DrivingRegime::Right => r.yaw < 0.0,
+                };
+                self.proposal(scores, &open, Scope::Regime(regime), 6)
+            })
+            .collect();
+        best(tried)
+    }
+
+    fn above_speed(&self, scores: &BlockScores) -> Vec<Proposal> {
+        let bounds = self.quantiles(|r| r.speed.abs());
+        let tried = bounds.iter().filter(|b| **b > 0.0);
+        let above = |b: &f64| self.proposal(scores, &|r| r.speed.abs() > *b, Scope::Above(rounded(*b)), QUANTILES.len());
+        best(tried.filter_map(above).collect())
+    }
+
+    /// While the speed grows, or falls, by more than a bound.
+    fn while_growing(&self, scores: &BlockScores) -> Vec<Proposal> {
+        let bounds = self.quantiles(|r| r.growth.abs());
+        let mut tried = vec![];
+        for bound in bounds.into_iter().map(rounded).filter(|b| *b > 0.0) {
+            for (sign, text) in [(1.0, "sign(v_0)*v_0'"), (-1.0, "-sign(v_0)*v_0'")] {
+                let Ok(formula) = Expr::parse(&format!("{text} - {bound:?}")) else { continue };
+                let open = |r: &Row| sign * r.speed.signum() * r.growth > bound;
+                tried.extend(self.proposal(scores, &open, Scope::Where(formula), 2 * QUANTILES.len()));
+            }
+        }
+        best(tried)
+    }
+
+    fn in_disk(&self, scores: &BlockScores) -> Vec<Proposal> {
+        let all = || self.rows.iter().flatten().map(|r| r.place);
+        let side = |k: usize| all().map(move |p| p[k]);
+        let extent = |k: usize| side(k).fold(f64::NEG_INFINITY, f64::max) - side(k).fold(f64::INFINITY, f64::min);
+        let extent = extent(0).max(extent(1));
+        let centres: Vec<[f64; 2]> = self.rows.iter().filter_map(|rows| rows.get(rows.len() / 2)).map(|r| r.place).collect();
+        let of = centres.len() * RADII.len();
+        let disk = |[x, y]: [f64; 2], radius: f64| {
+            let open = |r: &Row| (r.place[0] - x).hypot(r.place[1] - y) < radius;
+            self.proposal(scores, &open, Scope::Disk([x, y, radius].map(rounded)), of)
+        };
+        let tried = centres.iter().flat_map(|c| RADII.map(|share| (*c, share * extent)));
+        let Some(mut found) = best(tried.filter_map(|(c, r)| disk(c, r)).collect()).pop() else { return vec![] };
+        // From the best of the grid on, by steps of its own radius.
+        for step in [0.3, 0.15, 0.08] {
+            let Scope::Disk([x, y, radius]) = found.scope else { break };
+            let moves = [-1.0, 0.0, 1.0].map(|a| step * a * radius);
+            let near = moves.iter().flat_map(|dx| moves.iter().flat_map(move |dy| moves.map(|dr| [*dx, *dy, dr])));
+            let tried: Vec<Proposal> = near.filter_map(|[dx, dy, dr]| disk([x + dx, y + dy], radius + dr)).collect();
+            found = best(tried.into_iter().chain([found]).collect()).swap_remove(0);
+        }
+        vec![found]
+    }
+
+    /// The scope of those rows, unless it is all of them or none.
+    fn proposal(&self, scores: &BlockScores, open: &dyn Fn(&Row) -> bool, scope: Scope, of: usize) -> Option<Proposal> {
+        let share = |rows: &Vec<Row>| rows.iter().filter(|r| open(r)).count() as f64 / rows.len().max(1) as f64;
+        let shares: Vec<f64> = self.rows.iter().map(share).collect();
+        let whole = shares.iter().sum::<f64>() / shares.len().max(1) as f64;
+        (0.02..0.98).contains(&whole).then(|| Proposal { scope, gain: scores.gain(&shares), of })
+    }
+
+    fn quantiles(&self, of: impl Fn(&Row) -> f64) -> Vec<f64> {
+        let mut all: Vec<f64> = self.rows.iter().flatten().map(of).filter(|v| v.is_finite()).collect();
+        all.sort_by(f64::total_cmp);
+        let at = |q: f64| all.get((q * all.len() as f64) as usize).copied();
+        QUANTILES.into_iter().filter_map(at).collect()
+    }
+}
+
+fn same_run(problem: &Problem, blocks: &Blocks, block: usize) -> bool {
+    let windows = blocks.windows();
+    let record = |b: usize| problem.plan[windows[b].0].record;
+    record(block) == record(block - 1)
+}
+
+fn best(tried: Vec<Proposal>) -> Vec<Proposal> {
+    tried.into_iter().max_by(|a, b| a.gain.total_cmp(&b.gain)).into_iter().collect()
+}
+
+/// A number for people: three digits.
+fn rounded(x: f64) -> f64 {
+    format!("{x:.2e}").parse().unwrap_or(x)
+}

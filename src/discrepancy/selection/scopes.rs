@@ -1,0 +1,200 @@
+//! Effects that hold in part only, or move with time, asked for where what holds always does not explain the data.
+
+use super::candidates::FINALISTS;
+use super::scope_proposals::{BlockRows, Proposal};
+use super::search::{Search, SearchState, find};
+use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
+use crate::discrepancy::estimation::fit::{Effort, Fit};
+use crate::discrepancy::estimation::unexplained::{is_wanted, remains};
+use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
+use crate::discrepancy::evidence::scope_scan::{BlockScores, Blocks};
+use crate::discrepancy::evidence::score_test::{self, ScoreTest, ScoreTests};
+use crate::discrepancy::shooting::window_integration::linearise;
+use crate::effects::{Applied, Effect};
+use crate::error::Result;
+use crate::model::effect_equation::is_term;
+use crate::progress::{OnProgress, Stage, begin};
+use rayon::prelude::*;
+
+/// Effects with a scope or a course at most.
+const MOST: usize = 2;
+/// Proposals that are linearised with gates of their own, at most.
+const SHORTLIST: usize = 12;
+/// Effects of which the blocks are weighed by one linearisation.
+const TOGETHER: usize = 8;
+/// Scopes that are tried for each block and effect, about.
+const TRIED_PER_BLOCK: usize = 10;
+/// Times beyond this are stamps, and what moves with time is told from the first row on, s.
+const STAMP: f64 = 1e4;
+
+/// The search with scopes and courses beside the effects that always hold; `None` unless one of them earns its place.
+///
+/// A scope is one of many, so it must do more: its ends, centre and bound count as parameters, and what it gains must
+/// exceed what the best of all that were tried gains by chance.
+pub(crate) fn search(
+    selection: &Search,
+    named: &SearchState,
+    progress: &OnProgress,
+) -> Result<Option<SearchState>> {
+    if !is_wanted(&named.fit) {
+        return Ok(None);
+    }
+    begin(progress, Stage::Scopes)?;
+    let mut best: Option<SearchState> = None;
+    let mut starts = vec![SearchState::from(selection.before)];
+    if !named.steps.is_empty() {
+        starts.push(SearchState { steps: named.steps.clone(), ..SearchState::from(&named.fit) });
+    }
+    for start in starts {
+        let Some(found) = selection.with_scopes(start, progress)? else { continue };
+        let n = named.fit.sample_size.max(found.fit.sample_size);
+        let than = best.as_ref().map_or(&named.fit, |b| &b.fit);
+        if bic(&found.fit, n) < bic(than, n) - selection.margin() && delta_bic(&found.fit, than, n) > 0.0 {
+            best = Some(SearchState { candidates: named.candidates.clone(), ..found });
+        }
+        if best.as_ref().is_some_and(|b| !remains(&b.fit)) {
+            break;
+        }
+    }
+    Ok(best)
+}
+
+/// Whether an effect holds in part only, or moves with time.
+pub(crate) fn is_partial(effect: &Applied) -> bool {
+    effect.effect.scope.is_some() || effect.effect.course.is_some()
+}
+
+/// What an effect in part is sought among.
+struct Proposed {
+    /// Effects within scopes.
+    scoped: Vec<(Effect, Option<usize>)>,
+    /// Effects with their first parameter moving, with their second one, and so on.
+    moving: Vec<Vec<(Effect, Option<usize>)>>,
+    /// How many scopes were tried.
+    tried: f64,
+}
+
+impl Search<'_> {
+    /// From a model on: effects in part, and what always holds beside them.
+    fn with_scopes(&self, mut found: SearchState, progress: &OnProgress) -> Result<Option<SearchState>> {
+        let steps = found.steps.clone();
+        for _ in 0..MOST {
+            let Some((label, fit)) = self.next_in_part(&found.fit)? else { break };
+            let mut trail = [&steps[..], &[(label, fit.model.clone())]].concat();
+            let fit = self.eliminate_backward(fit, self.margin())?;
+            let more = self.grown(&fit, progress)?;
+            trail.extend(more.steps);
+            found = SearchState { steps: trail, refused: more.refused, fit: more.fit, ..found };
+            if !remains(&found.fit) {
+                break;
+            }
+        }
+        let some = partial(&found.fit).next().is_some();
+        Ok(some.then_some(found))
+    }
+
+    /// The effect in part that gains most beyond what it costs, and the fit with it.
+    fn next_in_part(&self, base: &Fit) -> Result<Option<(String, Fit)>> {
+        let Proposed { scoped, moving, tried } = self.proposed(base)?;
+        let margin = 2.0 * tried.ln();
+        let promises = |some: &[(&Effect, Option<usize>)]| score_test::promises(self.problem, base, &base.model, some);
+        // Each scope of an effect is a candidate of its own; of a parameter that moves there is one for each effect.
+        let alone = scoped.par_iter().map(|(e, t)| promises(&[(e, *t)]));
+        let alone: Vec<ScoreTests> = alone.collect::<Result<_>>()?;
+        let mut weighed: Vec<ScoreTest> = alone.into_iter().flat_map(|found| found.single).collect();
+        for one_each in &moving {
+            let open: Vec<(&Effect, Option<usize>)> = one_each.iter().map(|(e, t)| (e, *t)).collect();
+            weighed.extend(promises(&open)?.single);
+        }
+        let n = base.sample_size;
+        let cost = |a: &Applied| (a.values.len() + a.effect.scope.as_ref().map_or(0, |s| s.cost())) as f64 * n.ln();
+        weighed.sort_by(|a, b| (a.deviance + cost(&a.applied)).total_cmp(&(b.deviance + cost(&b.applied))));
+        let mut best: Option<(String, Fit)> = None;
+        for promise in weighed.iter().take(2 * FINALISTS) {
+            let rough = score_test::settled(self.problem, base, &base.model, &[promise], Effort::SCREENING)?;
+            let Some(fit) = rough.map(|rough| self.refit(&rough)).transpose()?.flatten() else { continue };
+            let Some(own) = find(&fit.model, &promise.applied) else { continue };
+            let n = n.max(fit.sample_size);
+            let gains = delta_bic(&fit, base, n) > margin && bic(&fit, n) + margin < bic(base, n);
+            if !gains || vanishes(&own) || !is_possible(&own) || self.problem.predicts_worse(&fit, base)? {
+                continue;
+            }
+            if best.as_ref().is_none_or(|(_, b)| bic(&fit, n) < bic(b, n)) {
+                best = Some((own.label(), fit));
+            }
+        }
+        Ok(best)
+    }
+
+    /// Effects with the scopes and courses by which they promise most.
+    fn proposed(&self, base: &Fit) -> Result<Proposed> {
+        let model = &base.model;
+        let open: Vec<(&Effect, Option<usize>)> = model
+            .applicable(self.library)
+            .into_iter()
+            .filter(|(e, t)| score_test::is_regular(e, model, *t) && e.scope.is_none())
+            .collect();
+        let windows: Vec<usize> = self.problem.plan.iter().map(|s| s.windows.len()).collect();
+        let blocks = Blocks::of(&windows);
+        let rows = BlockRows::of(self.problem, model, &blocks)?;
+        let groups: Vec<&[(&Effect, Option<usize>)]> = open.chunks(TOGETHER).collect();
+        let of_group = |group: &&[(&Effect, Option<usize>)]| self.scopes_of(base, group, &blocks, &rows);
+        let all: Vec<Vec<(Effect, Option<usize>, Proposal)>> = groups.par_iter().map(of_group).collect::<Result<_>>()?;
+        let mut all: Vec<(Effect, Option<usize>, Proposal)> = all.into_iter().flatten().collect();
+        let n = base.sample_size;
+        let worth = |(e, _, p): &(Effect, Option<usize>, Proposal)| {
+            p.gain - (e.parameters.len() + p.scope.cost()) as f64 * n.ln() - 2.0 * (p.of as f64).ln()
+        };
+        all.retain(|one| worth(one) > 0.0);
+        all.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
+        let tried = (open.len() * blocks.count * TRIED_PER_BLOCK).max(1) as f64;
+        let scoped = all.into_iter().take(SHORTLIST).map(|(e, t, p)| (e.within(p.scope), t)).collect();
+        let since = self.problem.records.first().map_or(0.0, |r| r.time[0]);
+        let since = if since.abs() > STAMP { since } else { 0.0 };
+        let most = open.iter().map(|(e, _)| e.parameters.len()).max().unwrap_or(0);
+        let nth = |i: usize| {
+            let one = |(e, t): &(&Effect, Option<usize>)| Some((e.drifting(e.parameters.keys().nth(i)?, since)?, *t));
+            open.iter().filter_map(one).collect()
+        };
+        Ok(Proposed { scoped, moving: (0..most).map(nth).collect(), tried })
+    }
+
+    /// The scopes of some effects, from one linearisation of all.
+    fn scopes_of(
+        &self,
+        base: &Fit,
+        group: &[(&Effect, Option<usize>)],
+        blocks: &Blocks,
+        rows: &BlockRows,
+    ) -> Result<Vec<(Effect, Option<usize>, Proposal)>> {
+        let begun = |(e, t): &(&Effect, Option<usize>)| {
+            let start = e.starts().swap_remove(0);
+            Applied::new(e, *t, start).freed()
+        };
+        let added: Vec<Applied> = group.iter().map(begun).collect();
+        let joint = added.iter().cloned().fold(base.model.clone(), crate::model::Model::with_effect);
+        let free = joint.free_parameters();
+        let equations = joint.equations(&free)?;
+        let problem = self.problem;
+        let linear =
+            linearise(&equations, &joint.free_values(), &problem.records, &problem.plan, &base.window_states);
+        let Some(linear) = linear else { return Ok(vec![]) };
+        let position = |s: &crate::formula::Symbol| free.iter().position(|f| f == s);
+        let columns = |a: &Applied| a.parameters().iter().filter_map(position).collect::<Vec<usize>>();
+        let kept: Vec<usize> = base.model.free_effects().flat_map(columns).collect();
+        let mut found = vec![];
+        for ((effect, trailer), applied) in group.iter().zip(&added) {
+            let own = columns(applied);
+            let scores = BlockScores::of(&linear, blocks, &base.variances, free.len(), &kept, &own);
+            let Some(scores) = scores else { continue };
+            let proposals = rows.proposals(&scores).into_iter();
+            found.extend(proposals.map(|p| ((*effect).clone(), *trailer, p)));
+        }
+        Ok(found)
+    }
+}
+
+/// The effects of a fit that hold in part, and have a name.
+pub(crate) fn partial(fit: &Fit) -> impl Iterator<Item = &Applied> {
+    fit.model.free_effects().filter(|e| is_partial(e) && !is_term(e))
+}

@@ -2,7 +2,7 @@
 //!
 //! An effect that rewrites a definition d as f(d) holds in part as d + g·(f(d) − d), with a gate g of 0 or 1.
 
-use crate::formula::Expr;
+use crate::formula::{Expr, Node};
 use std::fmt;
 
 /// When, where or in which regime an effect holds.
@@ -126,15 +126,56 @@ impl Scope {
         intervals.iter().flatten().copied().filter(|t| t.is_finite()).collect()
     }
 
-    /// How many parameters it costs: its numbers, and one for a choice among a few.
+    /// The numbers that a search may move: ends, a bound, centre and radius, and what a formula is compared with.
+    pub fn movable(&self) -> Vec<f64> {
+        match self {
+            Self::Times(_) => self.edges(),
+            Self::Regime(_) => vec![],
+            Self::Above(speed) => vec![*speed],
+            Self::Disk(disk) => disk.to_vec(),
+            Self::Where(formula) => bound(formula).map(|(_, bound)| bound).into_iter().collect(),
+        }
+    }
+
+    /// The scope with other numbers in their places; `None` where they make none.
+    pub fn moved(&self, numbers: &[f64]) -> Option<Self> {
+        let mut next = numbers.iter().copied();
+        match self {
+            Self::Times(intervals) => {
+                let mut end = |t: f64| if t.is_finite() { next.next() } else { Some(t) };
+                let moved = intervals.iter().map(|[a, b]| Some([end(*a)?, end(*b)?])).collect::<Option<Vec<_>>>()?;
+                let rising = moved.as_flattened().is_sorted_by(|a, b| a < b);
+                rising.then_some(Self::Times(moved))
+            }
+            Self::Regime(_) => Some(self.clone()),
+            Self::Above(_) => next.next().filter(|v| *v > 0.0).map(Self::Above),
+            Self::Disk(_) => {
+                let disk: [f64; 3] = numbers.try_into().ok()?;
+                (disk[2] > 0.0).then_some(Self::Disk(disk))
+            }
+            Self::Where(formula) => match bound(formula) {
+                Some((left, _)) => Expr::parse(&format!("{left} - {:?}", next.next()?)).ok().map(Self::Where),
+                None => Some(self.clone()),
+            },
+        }
+    }
+
+    /// How many parameters it costs: the numbers that a search may move, and one for a choice among a few.
     pub fn cost(&self) -> usize {
-        self.numbers().len().max(1)
+        self.movable().len().max(1)
     }
 
     /// Whether two scopes are of one kind, whatever their numbers.
     pub fn is_like(&self, other: &Scope) -> bool {
         std::mem::discriminant(self) == std::mem::discriminant(other)
     }
+}
+
+/// What a formula takes a number away from, and that number.
+fn bound(formula: &Expr) -> Option<(Expr, f64)> {
+    let Node::Sub(left, right) = formula.node() else { return None };
+    right.as_number()?;
+    Some((left.clone(), right.eval(&|_| f64::NAN)?))
 }
 
 fn parsed(text: &str) -> Expr {
@@ -220,6 +261,18 @@ mod tests {
         assert_eq!([-1.3, 1.1].map(|v| open(&fast, [0.0, 0.0, 0.0, v, 0.0, 0.0])), [1.0, 0.0]);
         let far = Scope::Where(Expr::parse("x - 3").unwrap());
         assert_eq!([2.0, 4.0].map(|x| open(&far, [x, 0.0, 0.0, 0.0, 0.0, 0.0])), [0.0, 1.0]);
+    }
+
+    #[test]
+    fn a_search_moves_the_numbers_of_a_scope() {
+        let two = Scope::Times(vec![[f64::NEG_INFINITY, 2.0], [4.0, 5.0]]);
+        assert_eq!(two.movable(), [2.0, 4.0, 5.0]);
+        assert_eq!(two.moved(&[1.0, 4.0, 6.0]), Some(Scope::Times(vec![[f64::NEG_INFINITY, 1.0], [4.0, 6.0]])));
+        assert_eq!(two.moved(&[4.5, 4.0, 6.0]), None);
+        let fast = Scope::Where(Expr::parse("sign(v_0)*v_0' - 0.05").unwrap());
+        assert_eq!((fast.movable(), fast.cost()), (vec![0.05], 1));
+        assert_eq!(fast.moved(&[0.25]).unwrap().to_string(), "where sign(v_0)*v_0' - 0.25 > 0");
+        assert_eq!(Scope::Disk([0.0, 1.0, 2.0]).moved(&[0.0, 1.0, -2.0]), None);
     }
 
     #[test]

@@ -144,11 +144,11 @@ impl Search<'_> {
 }
 
 /// The place of an effect in the library.
-fn place(a: &Applied) -> (usize, Option<usize>) {
+pub(crate) fn place(a: &Applied) -> (usize, Option<usize>) {
     (a.effect.order, a.trailer)
 }
 
 /// Deviances of identical effects differ by rounding alone.
-fn rounded(x: f64) -> f64 {
+pub(crate) fn rounded(x: f64) -> f64 {
     (x * 20.0).round() / 20.0
 }

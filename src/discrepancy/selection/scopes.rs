@@ -1,6 +1,6 @@
 //! Effects that hold in part only, or move with time, asked for where what holds always does not explain the data.
 
-use super::candidates::FINALISTS;
+use super::candidates::{FINALISTS, place, rounded};
 use super::scope_proposals::{BlockRows, Proposal};
 use super::search::{Search, SearchState, find};
 use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
@@ -10,7 +10,8 @@ use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
 use crate::discrepancy::evidence::scope_scan::{BlockScores, Blocks};
 use crate::discrepancy::evidence::score_test::{self, ScoreTest, ScoreTests};
 use crate::discrepancy::shooting::window_integration::linearise;
-use crate::effects::{Applied, Effect};
+use crate::discrepancy::shooting::windows::WINDOW;
+use crate::effects::{Applied, Effect, Scope};
 use crate::error::Result;
 use crate::model::effect_equation::is_term;
 use crate::progress::{OnProgress, Stage, begin};
@@ -19,11 +20,17 @@ use rayon::prelude::*;
 /// Effects with a scope or a course at most.
 const MOST: usize = 2;
 /// Proposals that are linearised with gates of their own, at most.
-const SHORTLIST: usize = 12;
+const SHORTLIST: usize = 16;
 /// Effects of which the blocks are weighed by one linearisation.
 const TOGETHER: usize = 8;
 /// Scopes that are tried for each block and effect, about.
 const TRIED_PER_BLOCK: usize = 10;
+/// Of these so many are fitted.
+const TRIED: usize = 2 * FINALISTS;
+/// The steps by which the numbers of a scope are moved: shares of a window, or of a fifth of their size.
+const STEPS: [f64; 4] = [1.0, 0.4, 0.15, 0.05];
+/// Steps of one number one way, at most.
+const MOST_STEPS: usize = 12;
 /// Times beyond this are stamps, and what moves with time is told from the first row on, s.
 const STAMP: f64 = 1e4;
 
@@ -80,10 +87,15 @@ impl Search<'_> {
         let steps = found.steps.clone();
         for _ in 0..MOST {
             let Some((label, fit)) = self.next_in_part(&found.fit)? else { break };
+            // Beside a first one a second may only imitate what that one is not: it stands where it leaves nothing.
+            let is_second = partial(&found.fit).next().is_some();
             let mut trail = [&steps[..], &[(label, fit.model.clone())]].concat();
             let fit = self.eliminate_backward(fit, self.margin())?;
             let more = self.grown(&fit, progress)?;
             trail.extend(more.steps);
+            if is_second && remains(&more.fit) {
+                break;
+            }
             found = SearchState { steps: trail, refused: more.refused, fit: more.fit, ..found };
             if !remains(&found.fit) {
                 break;
@@ -108,22 +120,74 @@ impl Search<'_> {
         }
         let n = base.sample_size;
         let cost = |a: &Applied| (a.values.len() + a.effect.scope.as_ref().map_or(0, |s| s.cost())) as f64 * n.ln();
-        weighed.sort_by(|a, b| (a.deviance + cost(&a.applied)).total_cmp(&(b.deviance + cost(&b.applied))));
-        let mut best: Option<(String, Fit)> = None;
-        for promise in weighed.iter().take(2 * FINALISTS) {
-            let rough = score_test::settled(self.problem, base, &base.model, &[promise], Effort::SCREENING)?;
-            let Some(fit) = rough.map(|rough| self.refit(&rough)).transpose()?.flatten() else { continue };
-            let Some(own) = find(&fit.model, &promise.applied) else { continue };
-            let n = n.max(fit.sample_size);
-            let gains = delta_bic(&fit, base, n) > margin && bic(&fit, n) + margin < bic(base, n);
-            if !gains || vanishes(&own) || !is_possible(&own) || self.problem.predicts_worse(&fit, base)? {
-                continue;
-            }
-            if best.as_ref().is_none_or(|(_, b)| bic(&fit, n) < bic(b, n)) {
-                best = Some((own.label(), fit));
+        let worth = |p: &ScoreTest| rounded(p.deviance + cost(&p.applied));
+        weighed.sort_by(|a, b| worth(a).total_cmp(&worth(b)).then(place(&a.applied).cmp(&place(&b.applied))));
+        let tried = weighed.iter().take(TRIED).collect::<Vec<_>>().into_par_iter();
+        let fits = tried.map(|promise| self.in_part(base, promise, margin)).collect::<Result<Vec<_>>>()?;
+        let mut fits: Vec<(Applied, Fit)> = fits.into_iter().flatten().collect();
+        let n = fits.iter().map(|(_, f)| f.sample_size).fold(n, f64::max);
+        fits.sort_by(|(a, f), (b, g)| rounded(bic(f, n)).total_cmp(&rounded(bic(g, n))).then(place(a).cmp(&place(b))));
+        let worse = |fit: &Fit| self.problem.predicts_worse(fit, base);
+        for (own, fit) in fits {
+            if !worse(&fit)? {
+                return Ok(Some((own.label(), fit)));
             }
         }
-        Ok(best)
+        Ok(None)
+    }
+
+    /// The fit with an effect in part, the numbers of its scope moved to where they explain most; `None` where it is not
+    /// worth what it costs.
+    fn in_part(&self, base: &Fit, promise: &ScoreTest, margin: f64) -> Result<Option<(Applied, Fit)>> {
+        let rough = score_test::settled(self.problem, base, &base.model, &[promise], Effort::SCREENING)?;
+        let Some(mut fit) = rough.map(|rough| self.refit(&rough)).transpose()?.flatten() else { return Ok(None) };
+        let n = base.sample_size.max(fit.sample_size);
+        if bic(&fit, n) + margin >= bic(base, n) {
+            return Ok(None);
+        }
+        if promise.applied.effect.scope.as_ref().is_some_and(|s| !s.movable().is_empty()) {
+            let moved = self.with_scope_moved(&fit, &promise.applied)?;
+            fit = self.refit(&moved)?.unwrap_or(moved);
+        }
+        let Some(own) = find(&fit.model, &promise.applied) else { return Ok(None) };
+        let n = base.sample_size.max(fit.sample_size);
+        let gains = delta_bic(&fit, base, n) > margin && bic(&fit, n) + margin < bic(base, n);
+        Ok((gains && !vanishes(&own) && is_possible(&own)).then_some((own, fit)))
+    }
+
+    /// The fit with the numbers of an effect's scope moved one after another, by ever smaller steps, at its variances.
+    fn with_scope_moved(&self, fit: &Fit, of: &Applied) -> Result<Fit> {
+        let mut best = self.problem.fit(&fit.model, &fit.window_states, &fit.variances, Effort::SCREENING)?;
+        for share in STEPS {
+            let Some(scope) = best.as_ref().and_then(|b| find(&b.model, of)).and_then(|a| a.effect.scope) else { break };
+            for k in 0..scope.movable().len() {
+                for sign in [1.0, -1.0] {
+                    for _ in 0..MOST_STEPS {
+                        let Some(better) = self.moved(best.as_ref(), of, k, sign * share)? else { break };
+                        best = Some(better);
+                    }
+                }
+            }
+        }
+        Ok(best.unwrap_or_else(|| fit.clone()))
+    }
+
+    /// The fit with one number of a scope moved by a share of its own step, where that is better.
+    fn moved(&self, best: Option<&Fit>, of: &Applied, k: usize, by: f64) -> Result<Option<Fit>> {
+        let Some((best, mut own)) = best.and_then(|b| Some((b, find(&b.model, of)?))) else { return Ok(None) };
+        let Some(scope) = own.effect.scope.clone() else { return Ok(None) };
+        let mut numbers = scope.movable();
+        let step = match &scope {
+            Scope::Times(_) => WINDOW,
+            Scope::Disk([.., radius]) => 0.2 * radius,
+            _ => 0.2 * numbers[k].abs(),
+        };
+        numbers[k] = ((numbers[k] + by * step) * 1e4).round() / 1e4;
+        let Some(scope) = scope.moved(&numbers) else { return Ok(None) };
+        own.effect.scope = Some(scope);
+        let model = best.model.clone().with_effect(own);
+        let fit = self.problem.fit(&model, &best.window_states, &best.variances, Effort::SCREENING)?;
+        Ok(fit.filter(|fit| fit.deviance < best.deviance - Effort::SCREENING.enough))
     }
 
     /// Effects with the scopes and courses by which they promise most.

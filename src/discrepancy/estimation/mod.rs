@@ -2,9 +2,9 @@
 
 pub mod autocorrelation;
 pub(crate) mod bounds;
+pub(crate) mod descent;
 pub mod elimination;
 pub mod fit;
-pub mod levenberg_marquardt;
 pub mod noise_model;
 pub mod problem;
 pub mod rate_regression;

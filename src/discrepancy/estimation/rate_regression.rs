@@ -2,10 +2,10 @@
 
 use super::bounds::Bounds;
 use super::fit::inverse;
-use super::levenberg_marquardt::damped_step;
 use crate::error::{Error, Result};
 use crate::formula::{Isa, Kernel};
 use crate::model::{Equations, Model, Workspace};
+use crate::numerics::levenberg_marquardt::{Damping, LeastSquares, minimise};
 use nalgebra::{DMatrix, DVector};
 
 /// Samples that are looked at side by side: four vectors of AVX-512.
@@ -14,9 +14,10 @@ type Lane = [f64; LANES];
 
 /// A change of all residuals together by less than this share of the rates is rounding.
 const SETTLED: f64 = 1e-12;
-/// A damping that leaves no step to speak of, and the most evaluations.
-const STUCK: f64 = 1e12;
-const MOST: usize = 1000;
+/// Whole steps at first, and again soon after a damped one; more damping than the most leaves no step to speak of.
+const DAMPING: Damping =
+    Damping { first: 0.0, divisor: 10.0, least: 0.0, factor: 30.0, raised: 1e-4, most: 1e12, remembers: false };
+const MOST_STEPS: usize = 1000;
 /// Sums of squares that differ by less than this share differ by rounding.
 const FLAT: f64 = 1e-12;
 
@@ -114,35 +115,16 @@ impl RateFit {
     /// When columns do not fit the model or each other, a state, an input or a deviation is not a number, or the rates are
     /// undefined at the first values.
     pub fn to(&self, samples: &RateSamples) -> Result<RatesFitted> {
-        let weights = self.weights(samples)?;
-        let mut p = DVector::from_column_slice(&self.start);
-        let mut here = self.sums(samples, &weights, &p);
-        if !here.is_defined() {
+        let descent = RateDescent { fit: self, samples, weights: self.weights(samples)? };
+        let first = descent.at(DVector::from_column_slice(&self.start));
+        if !first.1.is_defined() {
             return Err(Error::run("the rates are undefined at the first values of the effects"));
         }
-        let unseen = DVector::zeros(p.len());
-        let (mut damping, mut evaluations) = (0.0, 1);
-        while damping < STUCK && evaluations < MOST {
-            let step = damped_step(here.information(), &here.gradient(), damping, &unseen);
-            let target = step.map(|step| self.bounds.within(&p, &step));
-            if let Some(to) = &target
-                && here.settled(&(to - &p))
-            {
-                p.copy_from(to);
-                break;
-            }
-            let next = target.as_ref().map(|to| self.sums(samples, &weights, to));
-            evaluations += usize::from(next.is_some());
-            match (target, next) {
-                (Some(to), Some(next)) if next.squares <= here.squares * (1.0 + FLAT) => {
-                    (p, here) = (to, next);
-                    damping = if damping < 1e-6 { 0.0 } else { damping / 10.0 };
-                }
-                _ => damping = f64::max(30.0 * damping, 1e-4),
-            }
-        }
-        let covariance = inverse(&here.information());
-        Ok(RatesFitted { p: p.as_slice().to_vec(), covariance, squares: here.squares, evaluations })
+        let found = minimise(&descent, first, &DAMPING, MOST_STEPS);
+        let (p, sums) = found.here;
+        let p = found.step.filter(|_| found.is_settled).map_or(p.clone(), |step| self.bounds.within(&p, &step));
+        let (covariance, evaluations) = (inverse(&sums.information()), 1 + found.evaluations);
+        Ok(RatesFitted { p: p.as_slice().to_vec(), covariance, squares: sums.squares, evaluations })
     }
 
     /// One over the deviations.
@@ -161,13 +143,47 @@ impl RateFit {
         }
         Ok(deviations.iter().map(|d| d.recip()).collect())
     }
+}
 
-    fn sums(&self, samples: &RateSamples, weights: &[f64], p: &DVector<f64>) -> Sums {
+/// A fit to samples on its way down.
+struct RateDescent<'a> {
+    fit: &'a RateFit,
+    samples: &'a RateSamples,
+    weights: Vec<f64>,
+}
+
+impl RateDescent<'_> {
+    fn at(&self, p: DVector<f64>) -> (DVector<f64>, Sums) {
         let mut sums = Sums::new(p.len());
-        let workspace = self.equations.side_by_side([p.as_slice(); LANES]);
-        Isa::best().dispatch(Pass { fit: self, samples, weights, workspace, sums: &mut sums });
+        let workspace = self.fit.equations.side_by_side([p.as_slice(); LANES]);
+        let Self { fit, samples, weights } = self;
+        Isa::best().dispatch(Pass { fit, samples, weights, workspace, sums: &mut sums });
         sums.total();
-        sums
+        (p, sums)
+    }
+}
+
+impl LeastSquares for RateDescent<'_> {
+    type Point = (DVector<f64>, Sums);
+
+    fn normal(&self, (_, sums): &Self::Point) -> (DMatrix<f64>, DVector<f64>) {
+        (sums.information(), sums.gradient())
+    }
+
+    fn next(&self, (p, _): &Self::Point, step: &DVector<f64>, _: f64) -> Option<Self::Point> {
+        Some(self.at(self.fit.bounds.within(p, step)))
+    }
+
+    fn gain(&self, (_, here): &Self::Point, (_, next): &Self::Point, _: f64) -> f64 {
+        here.squares - next.squares
+    }
+
+    fn tolerance(&self, (_, here): &Self::Point) -> f64 {
+        here.squares * FLAT
+    }
+
+    fn is_small(&self, (p, sums): &Self::Point, step: &DVector<f64>, _: Option<f64>) -> bool {
+        sums.is_rounding(&(self.fit.bounds.within(p, step) - p))
     }
 }
 
@@ -213,7 +229,7 @@ impl Sums {
     }
 
     /// Whether a step changes the residuals by rounding alone.
-    fn settled(&self, step: &DVector<f64>) -> bool {
+    fn is_rounding(&self, step: &DVector<f64>) -> bool {
         step.dot(&(self.information() * step)) <= SETTLED * SETTLED * self.measured
     }
 }

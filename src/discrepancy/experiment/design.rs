@@ -8,7 +8,7 @@ use super::manoeuvre::{LENGTH, Manoeuvre, library};
 use super::next_step::{NextStep, PlannedManoeuvre};
 use crate::discrepancy::diagnosis::equivalents::EquivalentEffect;
 use crate::discrepancy::diagnosis::verdict::{Outcome, missed};
-use crate::discrepancy::estimation::elimination::eliminate;
+use crate::discrepancy::estimation::descent::{Point, Windows};
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::noise_model::NoiseModel;
@@ -19,19 +19,21 @@ use crate::discrepancy::report::Verdict;
 use crate::discrepancy::selection::choice::Selected;
 use crate::discrepancy::selection::search::without_effect;
 use crate::discrepancy::selection::select::Candidate;
-use crate::discrepancy::shooting::window_integration::linearise;
 use crate::discrepancy::shooting::windows::plan;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
 use crate::motion::{StateSensitivity, Stepper, Timing};
+use crate::numerics::levenberg_marquardt::{Damping, LeastSquares, minimise};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 /// Rows a second of a manoeuvre that is thought through; more rows are less noise.
 const RATE: f64 = 10.0;
-/// Steps of the fit to a manoeuvre.
-const PASSES: usize = 3;
+/// Steps of the fit to a manoeuvre that are evaluated; one more is foreseen.
+const MOST_STEPS: usize = 2;
+/// The share of the largest information that every direction has.
+const WEAK: f64 = 1e-12;
 /// Evidence that separates two effects beyond doubt.
 const ENOUGH: f64 = 25.0;
 /// A manoeuvre within this share of the best one is as good.
@@ -67,6 +69,44 @@ impl PriorInformation {
     /// The BIC's charge for its parameters.
     fn charge(&self, sample_size: f64) -> f64 {
         self.p.len() as f64 * sample_size.ln()
+    }
+}
+
+/// A model fitted to a manoeuvre and to what is known of its parameters.
+struct PredictedFit<'a> {
+    windows: Windows<'a>,
+    other: &'a PriorInformation,
+}
+
+impl PredictedFit<'_> {
+    /// How far parameters are away from what is known of them, and the gradient of that.
+    fn away(&self, here: &Point) -> [DVector<f64>; 2] {
+        let away = &here.p - &self.other.p;
+        let held = &self.other.information * &away;
+        [away, held]
+    }
+
+    /// What is left of the misfit after a step, were the model as linear as it looks.
+    fn left(&self, here: &Point, step: &DVector<f64>) -> f64 {
+        let [away, held] = self.away(here);
+        here.eliminated.cost() + away.dot(&held) + self.normal(here).1.dot(step)
+    }
+}
+
+impl LeastSquares for PredictedFit<'_> {
+    type Point = Point;
+
+    /// A direction of which nothing is known is held weakly.
+    fn normal(&self, here: &Point) -> (DMatrix<f64>, DVector<f64>) {
+        let (information, gradient) = here.eliminated.normal();
+        let information = information + &self.other.information;
+        let (k, scale) = (here.p.len(), information.diagonal().iter().copied().fold(0.0, f64::max));
+        (information + DMatrix::identity(k, k) * (WEAK * scale), gradient + &self.away(here)[1])
+    }
+
+    fn next(&self, here: &Point, step: &DVector<f64>, share: f64) -> Option<Point> {
+        let delta = self.other.held(&here.p, step);
+        self.windows.at(&here.p + &delta, here.moved(&delta, share))
     }
 }
 
@@ -206,33 +246,14 @@ impl<'a> PredictedExperiment<'a> {
 
     /// By how much the BIC of `other` is expected to exceed that of `truth` after a manoeuvre.
     fn expected_delta_bic(&self, m: &Manoeuvre, truth: &PriorInformation, other: &PriorInformation) -> Option<f64> {
-        let record = self.driven(m, &truth.model)?;
         let equations = other.model.free_equations().ok()?;
-        let records = [record];
+        let records = [self.driven(m, &truth.model)?];
         let plan = plan(&records);
-        let mut starts = starts(&other.model, &records, &plan).ok()?;
-        let mut p = other.p.clone();
-        let mut left = f64::NAN;
-        for _ in 0..PASSES {
-            let linear = linearise(&equations, p.as_slice(), &records, &plan, &starts)?;
-            let e = eliminate(&linear, &self.variances, p.len())?;
-            let away = &p - &other.p;
-            let (information, gradient) = e.normal();
-            let held = &other.information * &away;
-            let (information, gradient) = (information + &other.information, gradient + &held);
-            let scale = information.diagonal().iter().copied().fold(0.0, f64::max);
-            let step = match p.len() {
-                0 => DVector::zeros(0),
-                k => -(information + DMatrix::identity(k, k) * (1e-12 * scale)).cholesky()?.solve(&gradient),
-            };
-            // What is left after this step, were the model as linear as it looks.
-            left = e.cost() + away.dot(&held) + gradient.dot(&step);
-            let delta = other.held(&p, &step);
-            for (s, by) in starts.iter_mut().zip(e.corrections(&linear, &delta)) {
-                s.iter_mut().zip(by).for_each(|(z, d)| z.iter_mut().zip(d.iter()).for_each(|(z, d)| *z += d));
-            }
-            p += delta;
-        }
+        let windows = Windows { records: &records, plan: &plan, equations: &equations, v: &self.variances };
+        let fit = PredictedFit { windows, other };
+        let starts = starts(&other.model, &records, &plan).ok()?;
+        let found = minimise(&fit, windows.at(other.p.clone(), starts)?, &Damping::NONE, MOST_STEPS);
+        let left = fit.left(&found.here, &found.step?);
         Some(left + other.charge(self.sample_size) - truth.charge(self.sample_size)).filter(|w| w.is_finite())
     }
 

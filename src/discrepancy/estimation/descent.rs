@@ -2,7 +2,6 @@
 
 use super::bounds::Bounds;
 use super::elimination::{ReducedForm, eliminate};
-use super::fit::Effort;
 use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
@@ -11,6 +10,24 @@ use crate::discrepancy::shooting::windows::{Segment, WindowStates};
 use crate::model::Equations;
 use crate::numerics::levenberg_marquardt::{Damping, LeastSquares, minimise};
 use nalgebra::{DMatrix, DVector};
+
+/// How a fit is carried out.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// Linearisations at most.
+    pub passes: usize,
+    /// A step that promises to gain less deviance than this is not taken.
+    pub enough: f64,
+    /// Whether the variances are estimated anew.
+    pub variances: bool,
+}
+
+impl Effort {
+    /// The effort of a fit whose values are reported: variances are estimated with the parameters.
+    pub const FULL: Self = Self { passes: 15, enough: 1e-4, variances: true };
+    /// The effort of a fit by which candidates are compared: at the variances of the fit they begin with.
+    pub const SCREENING: Self = Self { passes: 5, enough: 0.05, variances: false };
+}
 
 /// The windows of some runs, and what they are linearised by.
 #[derive(Clone, Copy)]

@@ -15,6 +15,8 @@ use crate::error::Result;
 use crate::model::{Equations, Model};
 use nalgebra::{DMatrix, DVector};
 
+pub use super::descent::Effort;
+
 /// A model fitted to a problem.
 #[derive(Clone, Debug)]
 pub struct Fit {
@@ -51,24 +53,6 @@ pub struct Fit {
 
 /// Runs that their spread can be told from.
 pub const FEWEST_RUNS: usize = 4;
-
-/// How a fit is carried out.
-#[derive(Clone, Copy, Debug)]
-pub struct Effort {
-    /// Linearisations at most.
-    pub passes: usize,
-    /// A step that promises to gain less deviance than this is not taken.
-    pub enough: f64,
-    /// Whether the variances are estimated anew.
-    pub variances: bool,
-}
-
-impl Effort {
-    /// The effort of a fit whose values are reported: variances are estimated with the parameters.
-    pub const FULL: Self = Self { passes: 15, enough: 1e-4, variances: true };
-    /// The effort of a fit by which candidates are compared: at the variances of the fit they begin with.
-    pub const SCREENING: Self = Self { passes: 5, enough: 0.05, variances: false };
-}
 
 impl Fit {
     /// How many values say what one independent value would: rows that are alike, times windows that are alike.

@@ -8,5 +8,6 @@ pub mod fit;
 pub mod noise_model;
 pub mod problem;
 pub mod rate_regression;
+mod rate_sums;
 pub mod unexplained;
 pub mod variance_components;

@@ -2,44 +2,20 @@
 
 use super::bounds::Bounds;
 use super::fit::inverse;
+use super::rate_sums::Sums;
 use crate::error::{Error, Result};
-use crate::formula::{Isa, Kernel};
-use crate::model::{Equations, Model, Workspace};
+use crate::model::{Equations, Model};
 use crate::numerics::levenberg_marquardt::{Damping, LeastSquares, minimise};
 use nalgebra::{DMatrix, DVector};
 
-/// Samples that are looked at side by side: four vectors of AVX-512.
-const LANES: usize = 32;
-type Lane = [f64; LANES];
+pub use super::rate_sums::RateSamples;
 
-/// A change of all residuals together by less than this share of the rates is rounding.
-const SETTLED: f64 = 1e-12;
 /// Whole steps at first, and again soon after a damped one; more damping than the most leaves no step to speak of.
 const DAMPING: Damping =
     Damping { first: 0.0, divisor: 10.0, least: 0.0, factor: 30.0, raised: 1e-4, most: 1e12, remembers: false };
 const MOST_STEPS: usize = 1000;
 /// Sums of squares that differ by less than this share differ by rounding.
 const FLAT: f64 = 1e-12;
-
-/// Rates of a motion, each column with a value for every sample.
-///
-/// | symbol | unit | meaning |
-/// |---|---|---|
-/// | states | m, rad | z in the order of [`Equations::states`] |
-/// | inputs | SI | u in the order of [`Equations::inputs`], as they act at the sample |
-/// | rates | m/s, rad/s | measured z′; NaN where it is not measured |
-/// | deviations | as rates | standard deviation of each rate; infinite for one that does not count |
-#[derive(Clone, Debug, Default)]
-pub struct RateSamples {
-    /// Columns of z.
-    pub states: Vec<Vec<f64>>,
-    /// Columns of u.
-    pub inputs: Vec<Vec<f64>>,
-    /// Columns of z′.
-    pub rates: Vec<Vec<f64>>,
-    /// A standard deviation for each column of z′.
-    pub deviations: Vec<f64>,
-}
 
 /// A model whose free effects can be fitted to rates, compiled once.
 ///
@@ -154,11 +130,7 @@ struct RateDescent<'a> {
 
 impl RateDescent<'_> {
     fn at(&self, p: DVector<f64>) -> (DVector<f64>, Sums) {
-        let mut sums = Sums::new(p.len());
-        let workspace = self.fit.equations.side_by_side([p.as_slice(); LANES]);
-        let Self { fit, samples, weights } = self;
-        Isa::best().dispatch(Pass { fit, samples, weights, workspace, sums: &mut sums });
-        sums.total();
+        let sums = Sums::over(&self.fit.equations, &self.fit.by, self.samples, &self.weights, &p);
         (p, sums)
     }
 }
@@ -185,130 +157,4 @@ impl LeastSquares for RateDescent<'_> {
     fn is_small(&self, (p, sums): &Self::Point, step: &DVector<f64>, _: Option<f64>) -> bool {
         sums.is_rounding(&(self.fit.bounds.within(p, step) - p))
     }
-}
-
-/// Sums over samples, lane by lane.
-struct Sums {
-    lanes: Vec<Lane>,
-    parameters: usize,
-    squares: f64,
-    /// Σ(z′/deviation)²
-    measured: f64,
-    totals: Vec<f64>,
-}
-
-impl Sums {
-    /// Places of the squares and of the measured rates, then of the gradient, then of the lower triangle of JᵀJ.
-    fn new(parameters: usize) -> Self {
-        let count = 2 + parameters + parameters * (parameters + 1) / 2;
-        Self { lanes: vec![[0.0; LANES]; count], parameters, squares: 0.0, measured: 0.0, totals: vec![] }
-    }
-
-    #[inline(always)]
-    fn place(&self, a: usize, b: usize) -> usize {
-        2 + self.parameters + a * (a + 1) / 2 + b
-    }
-
-    /// Lanes are added in their order.
-    fn total(&mut self) {
-        self.totals = self.lanes.iter().map(|lane| lane.iter().sum()).collect();
-        (self.squares, self.measured) = (self.totals[0], self.totals[1]);
-    }
-
-    fn is_defined(&self) -> bool {
-        self.totals.iter().all(|v| v.is_finite())
-    }
-
-    fn gradient(&self) -> DVector<f64> {
-        DVector::from_column_slice(&self.totals[2..2 + self.parameters])
-    }
-
-    fn information(&self) -> DMatrix<f64> {
-        let n = self.parameters;
-        DMatrix::from_fn(n, n, |i, j| self.totals[self.place(i.max(j), i.min(j))])
-    }
-
-    /// Whether a step changes the residuals by rounding alone.
-    fn is_rounding(&self, step: &DVector<f64>) -> bool {
-        step.dot(&(self.information() * step)) <= SETTLED * SETTLED * self.measured
-    }
-}
-
-/// Rates and derivatives at all samples, summed.
-struct Pass<'a> {
-    fit: &'a RateFit,
-    samples: &'a RateSamples,
-    weights: &'a [f64],
-    workspace: Workspace<LANES>,
-    sums: &'a mut Sums,
-}
-
-impl Kernel for Pass<'_> {
-    #[inline(always)]
-    fn run(mut self) {
-        let RateSamples { states, inputs, rates, .. } = self.samples;
-        let (mut z, mut u) = (vec![[0.0; LANES]; states.len()], vec![[0.0; LANES]; inputs.len()]);
-        let rows = rates[0].len();
-        for first in (0..rows).step_by(LANES) {
-            z.iter_mut().zip(states).for_each(|(lane, column)| take(lane, column, first));
-            u.iter_mut().zip(inputs).for_each(|(lane, column)| take(lane, column, first));
-            let slopes = self.fit.equations.jacobian_here(&mut self.workspace, &z, &u);
-            for (i, by) in self.fit.by.iter().enumerate() {
-                let mut measured = [f64::NAN; LANES];
-                let there = LANES.min(rows - first);
-                measured[..there].copy_from_slice(&rates[i][first..first + there]);
-                let derivatives = &slopes[states.len() + i * self.fit.start.len()..];
-                add(self.sums, &slopes[i], &measured, self.weights[i], by, derivatives);
-            }
-        }
-    }
-}
-
-/// A block of a column; the last value stands for those that are not there.
-#[inline(always)]
-fn take(lane: &mut Lane, column: &[f64], first: usize) {
-    match column[first..].first_chunk() {
-        Some(block) => *lane = *block,
-        None => (0..LANES).for_each(|l| lane[l] = column[(first + l).min(column.len() - 1)]),
-    }
-}
-
-/// Adds the residuals of a rate; where it is not measured nothing.
-#[inline(always)]
-fn add(sums: &mut Sums, rate: &Lane, measured: &Lane, weight: f64, by: &[usize], derivatives: &[Lane]) {
-    let (mut r, mut w, mut size) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
-    for l in 0..LANES {
-        let there = if measured[l].is_nan() { 0.0 } else { measured[l] };
-        w[l] = if measured[l].is_nan() { 0.0 } else { weight };
-        r[l] = (rate[l] - there) * w[l];
-        size[l] = there * w[l];
-    }
-    add_product(&mut sums.lanes[0], &r, &r);
-    add_product(&mut sums.lanes[1], &size, &size);
-    for (n, a) in by.iter().enumerate() {
-        let slope = product(&derivatives[*a], &w);
-        add_product(&mut sums.lanes[2 + a], &slope, &r);
-        for b in &by[..=n] {
-            let place = sums.place(*a, *b);
-            add_product(&mut sums.lanes[place], &slope, &product(&derivatives[*b], &w));
-        }
-    }
-}
-
-#[inline(always)]
-fn product(a: &Lane, b: &Lane) -> Lane {
-    let mut out = [0.0; LANES];
-    for l in 0..LANES {
-        out[l] = a[l] * b[l];
-    }
-    out
-}
-
-#[inline(always)]
-fn add_product(sum: &mut Lane, a: &Lane, b: &Lane) {
-    let mut total = *sum;
-    for l in 0..LANES {
-        total[l] += a[l] * b[l];
-    }
-    *sum = total;
 }

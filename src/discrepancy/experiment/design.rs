@@ -6,9 +6,10 @@
 use super::envelope::Envelope;
 use super::manoeuvre::{LENGTH, Manoeuvre, library};
 use super::next_step::{NextStep, PlannedManoeuvre};
+use super::predicted_fit::{PredictedFit, PriorInformation};
 use crate::discrepancy::diagnosis::equivalents::EquivalentEffect;
 use crate::discrepancy::diagnosis::verdict::{Outcome, missed};
-use crate::discrepancy::estimation::descent::{Point, Windows};
+use crate::discrepancy::estimation::descent::Windows;
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::noise_model::NoiseModel;
@@ -24,16 +25,10 @@ use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
 use crate::motion::{StateSensitivity, Stepper, Timing};
-use crate::numerics::levenberg_marquardt::{Damping, LeastSquares, minimise};
-use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 /// Rows a second of a manoeuvre that is thought through; more rows are less noise.
 const RATE: f64 = 10.0;
-/// Steps of the fit to a manoeuvre that are evaluated; one more is foreseen.
-const MOST_STEPS: usize = 2;
-/// The share of the largest information that every direction has.
-const WEAK: f64 = 1e-12;
 /// Evidence that separates two effects beyond doubt.
 const ENOUGH: f64 = 25.0;
 /// A manoeuvre within this share of the best one is as good.
@@ -42,73 +37,6 @@ pub(crate) const ALIKE: f64 = 0.9;
 const MOST_REPETITIONS: f64 = 30.0;
 /// More rivals than these are not thought of at once.
 const MOST_RIVALS: usize = 4;
-
-/// A model, and what the runs at hand say of its free parameters.
-struct PriorInformation {
-    model: Model,
-    p: DVector<f64>,
-    information: DMatrix<f64>,
-}
-
-impl PriorInformation {
-    fn of(fit: &Fit) -> Self {
-        let p = DVector::from_column_slice(&fit.p);
-        Self { model: fit.model.clone(), p, information: fit.information.clone() }
-    }
-
-    /// A step that keeps a positive value positive: it is at most divided or multiplied by five.
-    fn held(&self, p: &DVector<f64>, step: &DVector<f64>) -> DVector<f64> {
-        let positive: Vec<bool> =
-            self.model.free_effects().flat_map(|e| e.effect.parameters.values()).map(|p| p.positive).collect();
-        DVector::from_fn(p.len(), |i, _| match positive[i] {
-            true => (p[i] + step[i]).max(p[i] / 5.0).min(p[i] * 5.0) - p[i],
-            false => step[i],
-        })
-    }
-
-    /// The BIC's charge for its parameters.
-    fn charge(&self, sample_size: f64) -> f64 {
-        self.p.len() as f64 * sample_size.ln()
-    }
-}
-
-/// A model fitted to a manoeuvre and to what is known of its parameters.
-struct PredictedFit<'a> {
-    windows: Windows<'a>,
-    other: &'a PriorInformation,
-}
-
-impl PredictedFit<'_> {
-    /// How far parameters are away from what is known of them, and the gradient of that.
-    fn away(&self, here: &Point) -> [DVector<f64>; 2] {
-        let away = &here.p - &self.other.p;
-        let held = &self.other.information * &away;
-        [away, held]
-    }
-
-    /// What is left of the misfit after a step, were the model as linear as it looks.
-    fn left(&self, here: &Point, step: &DVector<f64>) -> f64 {
-        let [away, held] = self.away(here);
-        here.eliminated.cost() + away.dot(&held) + self.normal(here).1.dot(step)
-    }
-}
-
-impl LeastSquares for PredictedFit<'_> {
-    type Point = Point;
-
-    /// A direction of which nothing is known is held weakly.
-    fn normal(&self, here: &Point) -> (DMatrix<f64>, DVector<f64>) {
-        let (information, gradient) = here.eliminated.normal();
-        let information = information + &self.other.information;
-        let (k, scale) = (here.p.len(), information.diagonal().iter().copied().fold(0.0, f64::max));
-        (information + DMatrix::identity(k, k) * (WEAK * scale), gradient + &self.away(here)[1])
-    }
-
-    fn next(&self, here: &Point, step: &DVector<f64>, share: f64) -> Option<Point> {
-        let delta = self.other.held(&here.p, step);
-        self.windows.at(&here.p + &delta, here.moved(&delta, share))
-    }
-}
 
 /// What is needed to think a manoeuvre through.
 pub(crate) struct PredictedExperiment<'a> {
@@ -250,10 +178,7 @@ impl<'a> PredictedExperiment<'a> {
         let records = [self.driven(m, &truth.model)?];
         let plan = plan(&records);
         let windows = Windows { records: &records, plan: &plan, equations: &equations, v: &self.variances };
-        let fit = PredictedFit { windows, other };
-        let starts = starts(&other.model, &records, &plan).ok()?;
-        let found = minimise(&fit, windows.at(other.p.clone(), starts)?, &Damping::NONE, MOST_STEPS);
-        let left = fit.left(&found.here, &found.step?);
+        let left = PredictedFit { windows, other }.left(starts(&other.model, &records, &plan).ok()?)?;
         Some(left + other.charge(self.sample_size) - truth.charge(self.sample_size)).filter(|w| w.is_finite())
     }
 
@@ -266,11 +191,11 @@ impl<'a> PredictedExperiment<'a> {
             "manoeuvre",
             times,
             vec![vec![]; self.like.columns.len()],
-            self.like.has_heading,
+            self.like.has_heading(),
             &inputs,
             Timing::Sample,
         );
-        record.trailers = self.like.trailers;
+        record.observation = self.like.observation.clone();
         let (signals, channels) = (record.signals.clone(), record.channels());
         let mut stepper = Stepper::new(&equations, &signals, &[]);
         let mut z = vec![0.0; equations.visible];
@@ -292,25 +217,8 @@ impl<'a> PredictedExperiment<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::discrepancy::fixtures::{KNOWN, WEAVING, applied, fit_of, logged, noise_of, unicycle};
-
-    /// A value with a sign goes to a fifth or to five times itself at most, another as far as the step leads.
-    #[test]
-    fn a_positive_value_stays_positive() {
-        let known = PriorInformation::of(&fit_of(unicycle(&KNOWN)));
-        assert_eq!(known.p.as_slice(), [0.3, 0.1, 0.8, -0.05]);
-        for (step, goes) in [
-            (0.05, [0.05, 0.05, 0.05, 0.05]),
-            (-0.05, [-0.05, -0.05, -0.05, -0.05]),
-            (2.0, [1.2, 2.0, 2.0, 2.0]),
-            (10.0, [1.2, 10.0, 3.2, 10.0]),
-            (-0.5, [-0.24, -0.5, -0.5, -0.5]),
-            (-10.0, [-0.24, -10.0, -0.64, -10.0]),
-        ] {
-            let held = known.held(&known.p, &DVector::from_element(4, step));
-            held.iter().zip(goes).for_each(|(a, b)| assert!((a - b).abs() < 1e-12, "{step}: {held}"));
-        }
-    }
+    use crate::discrepancy::fixtures::{WEAVING, applied, fit_of, logged, noise_of, unicycle};
+    use nalgebra::DMatrix;
 
     #[test]
     fn a_worth_is_near_the_most_on_either_side_of_nothing() {

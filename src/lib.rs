@@ -88,6 +88,8 @@ pub mod motion;
 #[doc(hidden)]
 pub mod number_format;
 #[doc(hidden)]
+pub mod numerics;
+#[doc(hidden)]
 pub mod picture;
 #[doc(hidden)]
 pub mod progress;

@@ -90,6 +90,48 @@ pub fn outputs(trailers: usize) -> impl Iterator<Item = Output> {
     BODY.into_iter().chain((1..=trailers).map(of_trailer))
 }
 
+/// What a log has of a vehicle: which of its outputs have a column.
+///
+/// ```
+/// use creepage::model::observation::{BODY_HEADING, Observation};
+/// let log = Observation::new(2, false, 3);
+/// assert_eq!(log.measured(), [0, 1, 3]);
+/// assert!(!log.measures(BODY_HEADING));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Observation {
+    trailers: usize,
+    measured: Vec<usize>,
+}
+
+impl Observation {
+    /// Of a vehicle with so many trailers so many columns, in the order of the outputs; the body's heading may lack one.
+    pub fn new(trailers: usize, has_heading: bool, columns: usize) -> Self {
+        let all = (0..outputs(trailers).count()).filter(|i| has_heading || *i != BODY_HEADING);
+        Self { trailers, measured: all.take(columns).collect() }
+    }
+
+    /// How many trailers the vehicle has, measured or not.
+    pub fn trailers(&self) -> usize {
+        self.trailers
+    }
+
+    /// The outputs that have a column, column by column.
+    pub fn measured(&self) -> &[usize] {
+        &self.measured
+    }
+
+    /// Whether an output has a column.
+    pub fn measures(&self, output: usize) -> bool {
+        self.measured.contains(&output)
+    }
+
+    /// Whether the heading of a trailer has a column.
+    pub fn measures_trailers(&self) -> bool {
+        self.measured.iter().any(|i| *i > BODY_HEADING)
+    }
+}
+
 /// The components of the measurement noise that these outputs have.
 pub fn sensor_noise(trailers: usize) -> &'static [SensorNoise] {
     let last = outputs(trailers).map(|y| y.noise).max().unwrap_or(POSITION);

@@ -5,6 +5,7 @@ use crate::effects::{Effect, Parameter};
 use crate::error::Result;
 use crate::formula::{Expr, Size, Symbol};
 use crate::mechanism::Definitions;
+use crate::vehicles::Moves;
 use std::collections::BTreeMap;
 
 /// How every term's id begins.
@@ -46,9 +47,9 @@ const YAW: [Factor; 9] = [
 
 /// Powers of the steering angle beyond offset and gain, which have names.
 const STEERING: [Factor; 3] = [
-    factor("steering2", "steering_angle^2", 0, 0),
-    factor("steering-abs-steering", "steering_angle*abs(steering_angle)", 0, 0),
-    factor("steering3", "steering_angle^3", 0, 0),
+    factor("steering2", "d^2", 0, 0),
+    factor("steering-abs-steering", "d*abs(d)", 0, 0),
+    factor("steering3", "d^3", 0, 0),
 ];
 
 /// Where the vehicle points: ground that is not level, a compass near iron.
@@ -109,8 +110,8 @@ impl Model {
                 |factors: &[&Factor; 2]| !self.vehicle.stays() || factors.iter().all(|f| !f.formula.contains('v'));
             found.extend(products().filter(moves).map(|factors| term(target, &factors, &symbols, &bare)));
         }
-        if self.vehicle.inputs.contains_key("steering_angle") {
-            let symbols = Symbols { v: Expr::sym("v_l"), w: Expr::sym("phi'") };
+        if let Some(angle) = self.vehicle.input_that(Moves::Steering) {
+            let symbols = Symbols { d: Expr::sym(angle), ..Symbols::by("v_l", Expr::sym("phi'")) };
             found.extend(STEERING.iter().map(|power| term(&STEERED, &[power], &symbols, &bare)));
         }
         let mut found: Vec<Effect> = found.into_iter().flatten().collect();
@@ -133,11 +134,13 @@ const STEERED: Target = Target { definition: "delta", name: "steering", place: "
 
 /// What a term adds, for people: `it` and the coefficient times the factors in v and the yaw rate, not written out.
 pub(crate) fn shown(term: &Effect) -> Option<Expr> {
-    let steered = STEERING.iter().map(|power| (&STEERED, vec![power]));
-    let others = TARGETS.iter().flat_map(|target| products().map(move |f| (target, f.to_vec())));
-    let (target, factors) = others.chain(steered).find(|(target, factors)| id(target, factors) == term.id)?;
+    if STEERING.iter().any(|power| id(&STEERED, &[power]) == term.id) {
+        return term.changes.get(STEERED.definition).cloned();
+    }
+    let mut all = TARGETS.iter().flat_map(|target| products().map(move |f| (target, f.to_vec())));
+    let (target, factors) = all.find(|(target, factors)| id(target, factors) == term.id)?;
     let speed = if target.definition == "v_l" { "v_d" } else { "v_l" };
-    Some(added(&factors, &Symbols { v: Expr::sym(speed), w: Expr::sym("phi'") }))
+    Some(added(&factors, &Symbols::by(speed, Expr::sym("phi'"))))
 }
 
 /// `it` and the coefficient times some factors.
@@ -176,29 +179,33 @@ fn product_name(factors: &[&Factor]) -> String {
     if names.is_empty() { "constant".to_string() } else { names.join("-") }
 }
 
-/// What a term calls v and ω.
+/// What a term calls v, ω and the steering angle.
 struct Symbols {
     v: Expr,
     w: Expr,
+    d: Expr,
 }
 
 impl Symbols {
+    fn by(speed: &str, w: Expr) -> Self {
+        Self { v: Expr::sym(speed), w, d: Expr::default() }
+    }
+
     /// What a term adds to must not stand in its factors: not for a circle, and not for formulas that double with
     /// every term. So the speed in a term of v_l is what the wheels ask for, the yaw rate in one of phi' the logged one.
     ///
     /// None where the yaw rate is too long to be written out.
     fn of(target: &Target, definitions: &Definitions) -> Result<Option<Self>> {
         let speed = if target.definition == "v_l" { "v_d" } else { "v_l" };
-        let v = Expr::sym(speed);
         if target.definition == "v_t" {
-            return Ok(Some(Self { v, w: Expr::sym("phi'") }));
+            return Ok(Some(Self::by(speed, Expr::sym("phi'"))));
         }
         let yaw = Symbol::from("phi'");
         let w = match written_out(speed, definitions)?.remove(&yaw) {
             Some(hanging) => hanging.map(|(formula, _)| formula),
             None => definitions.get(&yaw).cloned().or_else(|| Some(Expr::default())),
         };
-        Ok(w.map(|w| Self { v, w }))
+        Ok(w.map(|w| Self::by(speed, w)))
     }
 }
 
@@ -239,8 +246,8 @@ const NAMED: [(&str, &str); 9] = [
 
 fn term(target: &Target, factors: &[&Factor], symbols: &Symbols, model: &Model) -> Option<Effect> {
     let name = product_name(factors);
-    let logged = model.vehicle.inputs.contains_key("yaw_rate");
-    let steered = model.vehicle.inputs.contains_key("steering_angle");
+    let logged = model.vehicle.input_that(Moves::Yaw).is_some();
+    let steered = model.vehicle.input_that(Moves::Steering).is_some();
     let taken = NAMED.contains(&(target.definition, name.as_str()))
         || (target.definition == "phi'" && (logged && (name == "constant" || name == "v") || steered && name == "v2-yaw"));
     // The effects that have these names speak of vehicles that move.
@@ -273,6 +280,7 @@ fn formula(text: &str, symbols: &Symbols) -> Expr {
     parsed.substitute(&|s: &Symbol| match s.as_str() {
         "v" => Some(symbols.v.clone()),
         "w" => Some(symbols.w.clone()),
+        "d" => Some(symbols.d.clone()),
         _ => None,
     })
 }

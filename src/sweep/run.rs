@@ -53,7 +53,7 @@ impl Sweep {
     /// The first part has the header, so that parts in their order, one behind the other, are the whole table.
     ///
     /// # Errors
-    /// When the output cannot be written, or the listener stops it: what was noted until then waits beside the output.
+    /// When the output cannot be written, or the listener stops it: what is done waits beside the output then.
     pub fn write(&self, shard: Shard, out: &Path, progress: &OnProgress) -> Result<Summary> {
         let format = Format::of(out)?;
         let range = shard.of(self.cases());
@@ -70,6 +70,7 @@ impl Sweep {
         loop {
             if let Err(stopped) = tell(progress, Stage::Cases { found: journal.found }, journal.cases(), all) {
                 append(&mut journal, computed)?;
+                journal.note()?;
                 return Err(stopped);
             }
             let began = Instant::now();
@@ -129,4 +130,29 @@ fn append(journal: &mut Journal, rows: Vec<Result<Rows>>) -> Result<()> {
         journal.append(&rows.bytes, rows.cases, rows.troubles)?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::Kind;
+    use crate::progress::unheard;
+    use std::ops::ControlFlow;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    #[test]
+    fn a_stopped_sweep_keeps_what_is_done_and_goes_on() {
+        let sweep = Sweep::read("examples/sweeps/wheels.toml").unwrap();
+        let dir = tempfile::tempdir().unwrap();
+        let out = dir.path().join("wheels.csv");
+        let calls = AtomicUsize::new(0);
+        let once = |_| match calls.fetch_add(1, Ordering::Relaxed) {
+            0 => ControlFlow::Continue(()),
+            _ => ControlFlow::Break(()),
+        };
+        let stopped = sweep.write(Shard::WHOLE, &out, &once).unwrap_err();
+        assert_eq!((stopped.kind(), out.exists()), (Kind::Stopped, false));
+        let written = sweep.write(Shard::WHOLE, &out, &unheard).unwrap();
+        assert!(written.cases == sweep.cases() && written.found > 0, "{written:?}");
+    }
 }

@@ -23,6 +23,16 @@ pub enum Moves {
 }
 
 impl Moves {
+    /// Whether it is the rate of a wheel.
+    pub fn is_wheel(self) -> bool {
+        matches!(self, Self::Wheel | Self::LeftWheel | Self::RightWheel)
+    }
+
+    /// Whether it says how the body turns and nothing else.
+    pub fn is_turning(self) -> bool {
+        matches!(self, Self::Yaw | Self::Steering)
+    }
+
     /// What an input of a usual name does, of a vehicle that does not declare it.
     pub(super) fn usual(role: &str) -> Option<Self> {
         Some(match role {

@@ -84,6 +84,11 @@ impl Vehicle {
         declared.or_else(|| Moves::usual(role))
     }
 
+    /// The first input that does this to the body.
+    pub fn input_that(&self, moves: Moves) -> Option<&str> {
+        self.inputs.keys().find(|role| self.moved_by(role) == Some(moves)).map(String::as_str)
+    }
+
     /// The coordinate of that name among those of its own.
     pub fn coordinate(&self, name: &str) -> Option<&Coordinate> {
         self.coordinates.iter().find(|c| c.name.as_str() == name)

@@ -1,7 +1,7 @@
 //! Curves y = f(x; b), written in the language of formulas and fitted by the steps of the program.
 
-use creepage::discrepancy::estimation::levenberg_marquardt::damped_step;
 use creepage::formula::{Expr, Graph, Program, Symbol};
+use creepage::numerics::levenberg_marquardt::{Damping, LeastSquares, minimise};
 use nalgebra::{DMatrix, DVector};
 
 /// A problem of least squares with its certified answer.
@@ -37,8 +37,9 @@ struct Curve<'a> {
     parameters: usize,
 }
 
-/// The residuals and their derivatives at a place.
+/// A place, the residuals there and their derivatives.
 struct Linear {
+    b: DVector<f64>,
     r: DVector<f64>,
     j: DMatrix<f64>,
 }
@@ -55,7 +56,7 @@ impl<'a> Curve<'a> {
     }
 
     /// `None` where f is undefined.
-    fn at(&self, b: &DVector<f64>) -> Option<Linear> {
+    fn at(&self, b: DVector<f64>) -> Option<Linear> {
         let mut r = DVector::zeros(self.data.len());
         let mut j = DMatrix::zeros(self.data.len(), self.parameters);
         let (mut registers, mut out) = (self.program.registers(), vec![0.0; self.parameters + 1]);
@@ -65,79 +66,77 @@ impl<'a> Curve<'a> {
             r[i] = out[0] - row[0];
             (0..self.parameters).for_each(|k| j[(i, k)] = out[k + 1]);
         }
-        r.iter().chain(j.iter()).all(|v| v.is_finite()).then_some(Linear { r, j })
+        r.iter().chain(j.iter()).all(|v| v.is_finite()).then_some(Linear { b, r, j })
     }
 }
 
-impl Linear {
-    fn squares(&self) -> f64 {
-        self.r.norm_squared()
+/// With a damping to begin with, and with or without memory of the diagonal.
+fn rule(first: f64, remembers: bool) -> Damping {
+    Damping { first, divisor: 3.0, least: 1e-15, factor: 2.0, raised: 0.0, most: 1e16, remembers }
+}
+
+/// Goes downhill, every step further down than the last.
+struct Downhill<'a>(&'a Curve<'a>);
+
+/// Goes on by whole steps until they are only rounding: the sum of squares is flat at its minimum, the steps still tell.
+struct Level<'a>(&'a Curve<'a>);
+
+impl LeastSquares for Downhill<'_> {
+    type Point = Linear;
+
+    fn normal(&self, here: &Linear) -> (DMatrix<f64>, DVector<f64>) {
+        (here.j.tr_mul(&here.j), here.j.tr_mul(&here.r))
     }
 
-    fn step(&self, damping: f64, seen: &DVector<f64>) -> Option<DVector<f64>> {
-        damped_step(self.j.tr_mul(&self.j), &self.j.tr_mul(&self.r), damping, seen)
+    fn next(&self, here: &Linear, step: &DVector<f64>, _: f64) -> Option<Linear> {
+        self.0.at(&here.b + step)
     }
 
-    /// The diagonal of the information matrix.
-    fn diagonal(&self) -> DVector<f64> {
-        DVector::from_fn(self.j.ncols(), |i, _| self.j.column(i).norm_squared())
+    fn gain(&self, here: &Linear, next: &Linear, _: f64) -> f64 {
+        here.r.norm_squared() - next.r.norm_squared()
+    }
+
+    fn tolerance(&self, _: &Linear) -> f64 {
+        -f64::MIN_POSITIVE
     }
 }
 
-/// A place, what the curve is there, and the steps it took.
-type Reached = (DVector<f64>, Linear, usize);
+impl LeastSquares for Level<'_> {
+    type Point = Linear;
 
-/// Goes downhill from a start until no step leads further down.
-fn descend(curve: &Curve, start: &[f64], mut damping: f64, remember: bool) -> Reached {
-    let mut b = DVector::from_column_slice(start);
-    let mut here = curve.at(&b).expect("the start is defined");
-    let (mut seen, mut steps) = (DVector::zeros(b.len()), 0);
-    while damping < 1e16 && steps < 20_000 {
-        steps += 1;
-        if remember {
-            seen = seen.sup(&here.diagonal());
-        }
-        let tried = here.step(damping, &seen).map(|s| &b + s);
-        let next = tried.as_ref().and_then(|b| curve.at(b));
-        match (tried, next) {
-            (Some(to), Some(next)) if next.squares() < here.squares() => {
-                (b, here) = (to, next);
-                damping = f64::max(damping / 3.0, 1e-15);
-            }
-            _ => damping *= 2.0,
-        }
+    fn normal(&self, here: &Linear) -> (DMatrix<f64>, DVector<f64>) {
+        Downhill(self.0).normal(here)
     }
-    (b, here, steps)
+
+    fn next(&self, here: &Linear, step: &DVector<f64>, share: f64) -> Option<Linear> {
+        Downhill(self.0).next(here, step, share)
+    }
+
+    fn gain(&self, here: &Linear, next: &Linear, share: f64) -> f64 {
+        Downhill(self.0).gain(here, next, share)
+    }
+
+    fn tolerance(&self, here: &Linear) -> f64 {
+        1e-9 * here.r.norm_squared()
+    }
 }
 
 /// Fits a problem from a start: with little and with much damping, with and without memory of the diagonal, and of these
-/// four the one with the least sum of squares; then by whole steps until they are only rounding.
+/// four the one with the least sum of squares; then by whole steps.
 pub fn fit(problem: &Problem, start: &[f64]) -> Fitted {
     let curve = Curve::of(problem);
     let ways = [(1e-3, false), (1e-3, true), (1.0, false), (1.0, true)];
-    let reached = ways.map(|(damping, remember)| descend(&curve, start, damping, remember));
-    let steps = reached.iter().map(|r| r.2).sum();
-    let best = reached.into_iter().min_by(|a, b| a.1.squares().total_cmp(&b.1.squares()));
-    let (mut b, mut here, _) = best.expect("there are four ways");
-    let present = DVector::zeros(b.len());
-    // The sum of squares is flat at its minimum; the steps still tell.
-    for _ in 0..20 {
-        let Some(to) = here.step(0.0, &present).map(|s| &b + s) else { break };
-        let Some(next) = curve.at(&to) else { break };
-        if next.squares() > here.squares() * (1.0 + 1e-9) {
-            break;
-        }
-        (b, here) = (to, next);
-    }
-    let free = (problem.data.len() - b.len()) as f64;
-    let covariance = here.j.tr_mul(&here.j).cholesky().map(|c| c.inverse() * (here.squares() / free));
+    let first = || curve.at(DVector::from_column_slice(start)).expect("the start is defined");
+    let reached =
+        ways.map(|(damping, remembers)| minimise(&Downhill(&curve), first(), &rule(damping, remembers), 20_000));
+    let steps = reached.iter().map(|r| r.evaluations).sum();
+    let best = reached.into_iter().map(|r| r.here).min_by(|a, b| a.r.norm_squared().total_cmp(&b.r.norm_squared()));
+    let here = minimise(&Level(&curve), best.expect("there are four ways"), &Damping::NONE, 20).here;
+    let squares = here.r.norm_squared();
+    let free = (problem.data.len() - here.b.len()) as f64;
+    let covariance = here.j.tr_mul(&here.j).cholesky().map(|c| c.inverse() * (squares / free));
     let deviation = |i| covariance.as_ref().map_or(f64::NAN, |c| c[(i, i)].sqrt());
-    Fitted {
-        deviations: (0..b.len()).map(deviation).collect(),
-        b: b.as_slice().to_vec(),
-        squares: here.squares(),
-        steps,
-    }
+    Fitted { deviations: (0..here.b.len()).map(deviation).collect(), b: here.b.as_slice().to_vec(), squares, steps }
 }
 
 /// How many digits agree, at most the 11 that are certified.

@@ -2,6 +2,7 @@
 
 mod arrows;
 mod commands;
+mod declared;
 mod documents;
 mod fences;
 mod groups;

@@ -6,7 +6,7 @@ use std::path::Path;
 const WORDS: usize = 4;
 
 /// Code without comments and unit tests.
-fn bare(text: &str) -> String {
+pub fn bare(text: &str) -> String {
     let code = text.split("#[cfg(test)]").next().unwrap_or_default();
     let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
     lines.collect::<Vec<_>>().join("\n")
@@ -22,7 +22,7 @@ fn sentences(statement: &str) -> Vec<String> {
     literals.filter(|l| l.split_whitespace().filter(is_word).count() >= WORDS).map(String::from).collect()
 }
 
-fn files(folder: &Path, found: &mut Vec<std::path::PathBuf>) {
+pub fn files(folder: &Path, found: &mut Vec<std::path::PathBuf>) {
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         match path.is_dir() {

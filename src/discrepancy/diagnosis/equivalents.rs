@@ -26,8 +26,7 @@ impl EquivalentEffect {
 
 /// What a record measures.
 pub fn measured(record: &Record) -> Measured {
-    let poses = 2 + usize::from(record.has_heading);
-    Measured { heading: record.has_heading, trailers: record.columns.len() > poses }
+    Measured { heading: record.has_heading(), trailers: record.observation.measures_trailers() }
 }
 
 /// The relatives of every chosen effect.

@@ -27,7 +27,7 @@ pub(crate) struct Judge<'a> {
 impl HeldOut for Judge<'_> {
     /// Without a heading each window's start is fitted to it by either model, and the gaps are not of one start.
     fn can_judge(&self) -> bool {
-        !self.records.is_empty() && self.records.iter().all(|r| r.has_heading)
+        !self.records.is_empty() && self.records.iter().all(|r| r.has_heading())
     }
 
     fn gaps(&self, with: &Model, without: &Model) -> Result<Vec<Growth>> {

@@ -17,7 +17,7 @@ use crate::discrepancy::selection::select::Candidate;
 use crate::error::Result;
 use crate::model::Model;
 use crate::model::effect_equation;
-use crate::model::observation::{HEADING, POSITION};
+use crate::model::observation::{BODY_HEADING, HEADING, PLACE, POSITION};
 use crate::model::state::JUMPS;
 
 /// A verdict, its reason and the next experiment.
@@ -98,8 +98,8 @@ fn moves(problem: &Problem) -> bool {
     };
     problem.records.iter().any(|r| {
         let part = |c: usize| &r.columns[c][r.rows.clone()];
-        let moved = (0..2).any(|c| span(part(c)) > 20.0 * noise(POSITION));
-        moved || (r.has_heading && span(part(2)) > 20.0 * noise(HEADING))
+        let moved = PLACE.into_iter().any(|c| span(part(c)) > 20.0 * noise(POSITION));
+        moved || (r.has_heading() && span(part(BODY_HEADING)) > 20.0 * noise(HEADING))
     })
 }
 

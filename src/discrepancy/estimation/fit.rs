@@ -2,20 +2,21 @@
 
 use super::autocorrelation;
 use super::bounds::Bounds;
+use super::descent::{Descent, Point, Windows};
 use super::elimination::{ReducedForm, eliminate};
-use super::levenberg_marquardt::damped_step;
 use super::problem::Problem;
 use super::variance_components;
 use crate::discrepancy::estimation::noise_model::{Component, NoiseModel};
 use crate::discrepancy::initial_state::hidden_states;
 use crate::discrepancy::record::sensor_noise::Noise;
 use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
-use crate::discrepancy::shooting::window_integration::linearise;
 use crate::discrepancy::shooting::windows::{Segment, WindowStates};
 use crate::effects::Scope;
 use crate::error::Result;
 use crate::model::{Equations, Model};
 use nalgebra::{DMatrix, DVector};
+
+pub use super::descent::Effort;
 
 /// A model fitted to a problem.
 #[derive(Clone, Debug)]
@@ -54,35 +55,6 @@ pub struct Fit {
 /// Runs that their spread can be told from.
 pub const FEWEST_RUNS: usize = 4;
 
-/// How a fit is carried out.
-#[derive(Clone, Copy, Debug)]
-pub struct Effort {
-    /// Linearisations at most.
-    pub passes: usize,
-    /// A step that promises to gain less deviance than this is not taken.
-    pub enough: f64,
-    /// Whether the variances are estimated anew.
-    pub variances: bool,
-}
-
-impl Effort {
-    /// The effort of a fit whose values are reported: variances are estimated with the parameters.
-    pub const FULL: Self = Self { passes: 15, enough: 1e-4, variances: true };
-    /// The effort of a fit by which candidates are compared: at the variances of the fit they begin with.
-    pub const SCREENING: Self = Self { passes: 5, enough: 0.05, variances: false };
-}
-
-/// Parameters that are damped so much hardly move.
-const DAMPED: f64 = 10.0;
-
-/// A linearisation that has been accepted.
-struct Point {
-    p: DVector<f64>,
-    starts: WindowStates,
-    linear: Vec<Vec<LinearisedWindow>>,
-    eliminated: ReducedForm,
-}
-
 impl Fit {
     /// How many values say what one independent value would: rows that are alike, times windows that are alike.
     pub fn variance_inflation(&self) -> f64 {
@@ -119,8 +91,9 @@ impl Problem {
         let p = DVector::from_vec(model.free_values());
         let bounds = Bounds::of(model);
         let mut v = variances.clone();
-        let Some(mut point) = self.point(&equations, p, starts.clone(), &v) else { return Ok(None) };
-        point = self.descend(&equations, point, &v, &bounds, effort, false);
+        let Some(mut point) = self.windows_by(&equations, &v).at(p, starts.clone()) else { return Ok(None) };
+        point =
+            Descent { windows: self.windows_by(&equations, &v), bounds: &bounds, effort, is_near: false }.from(point);
         if effort.variances {
             // Better variances show a better way down, and the other way round.
             for first_step in [1.0, 0.3, 0.3, 0.3, 0.3, 0.3] {
@@ -129,8 +102,8 @@ impl Problem {
                 v = better;
                 let Some(e) = eliminate(&point.linear, &v, point.p.len()) else { return Ok(None) };
                 point.eliminated = e;
-                // What is promised here can be believed: the model has been followed down to this point.
-                point = self.descend(&equations, point, &v, &bounds, effort, true);
+                point = Descent { windows: self.windows_by(&equations, &v), bounds: &bounds, effort, is_near: true }
+                    .from(point);
                 if settled {
                     break;
                 }
@@ -149,56 +122,8 @@ impl Problem {
         }))
     }
 
-    fn point(&self, equations: &Equations, p: DVector<f64>, starts: WindowStates, v: &NoiseModel) -> Option<Point> {
-        let linear = linearise(equations, p.as_slice(), &self.records, &self.plan, &starts)?;
-        let eliminated = eliminate(&linear, v, p.len())?;
-        Some(Point { p, starts, linear, eliminated })
-    }
-
-    /// Levenberg–Marquardt steps of parameters and poses; a step that leads uphill is damped and, since no damping of
-    /// the parameters shortens what the poses do, taken by a share.
-    fn descend(
-        &self,
-        equations: &Equations,
-        mut here: Point,
-        v: &NoiseModel,
-        bounds: &Bounds,
-        effort: Effort,
-        mut settled: bool,
-    ) -> Point {
-        let (mut damping, mut share) = (1e-6, 1.0);
-        for _ in 0..effort.passes {
-            let Some(delta) = step(&here.eliminated, damping) else { return here };
-            // What lies beyond a bound promises nothing.
-            let delta = bounds.step(&here.p, &delta);
-            if settled && promised(&here.eliminated, &delta) < effort.enough {
-                break;
-            }
-            let corrections = here.eliminated.corrections(&here.linear, &delta);
-            let target = bounds.within(&here.p, &(delta * share));
-            let next = self.point(equations, target, moved(&here.starts, &corrections, share), v);
-            let gain = next.as_ref().map_or(f64::NEG_INFINITY, |n| gain(&here, n, v, share));
-            match next {
-                Some(next) if gain >= -1e-3 => {
-                    // A short step that gains little says nothing of how far the valley is.
-                    settled = gain < effort.enough.max(1e-2) && share == 1.0;
-                    here = next;
-                    damping = (damping / 10.0).max(1e-9);
-                    share = f64::min(1.0, 3.0 * share);
-                }
-                _ => {
-                    // Damping the parameters comes first: only then is it the poses that overshoot.
-                    if damping > DAMPED {
-                        share *= 0.3;
-                    }
-                    damping = (damping * 30.0).max(1e-3);
-                }
-            }
-            if damping > 1e9 {
-                break;
-            }
-        }
-        here
+    fn windows_by<'a>(&'a self, equations: &'a Equations, v: &'a NoiseModel) -> Windows<'a> {
+        Windows { records: &self.records, plan: &self.plan, equations, v }
     }
 
     /// H⁻¹·(Σ g gᵀ)·H⁻¹ with the gradient g of each run: what runs of the same kind would scatter by, whatever the
@@ -266,27 +191,6 @@ fn unexplained(point: &Point, v: &NoiseModel) -> Vec<f64> {
     v.process().iter().enumerate().map(|jump| needed(jump).unwrap_or(0.0)).collect()
 }
 
-/// What a step gains: a whole one in what is promised once the poses have followed, a shortened one in what is there.
-fn gain(here: &Point, next: &Point, v: &NoiseModel, share: f64) -> f64 {
-    match share < 1.0 {
-        true => misfit(&here.linear, v) - misfit(&next.linear, v),
-        false => here.eliminated.cost() - next.eliminated.cost(),
-    }
-}
-
-/// What the poses and values of a point cost as they are: squared residuals over the noise and squared jumps over
-/// theirs. The cost that is left when the poses are eliminated is a promise of the linearisation, and where that is far
-/// from the truth no step would be seen to lead down.
-fn misfit(linear: &[Vec<LinearisedWindow>], v: &NoiseModel) -> f64 {
-    let of_window = |w: &LinearisedWindow| {
-        let noise: f64 =
-            v.measurement().iter().enumerate().map(|(channel, noise)| w.square(channel) / noise.variance).sum();
-        let jump = w.mismatch.iter().enumerate().map(|(c, m)| m * m / (v.jump(c) * w.duration));
-        noise + jump.sum::<f64>()
-    };
-    linear.iter().flatten().map(of_window).sum()
-}
-
 /// The number of values that count as independent in a fit.
 fn sample_size(linear: &[Vec<LinearisedWindow>], e: &ReducedForm) -> f64 {
     let windows = linear.iter().map(Vec::len).sum::<usize>() as f64;
@@ -320,48 +224,9 @@ pub(crate) fn inverse(information: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     Some(DMatrix::from_fn(scale.len(), scale.len(), |i, j| inverse[(i, j)] * scale[i] * scale[j]))
 }
 
-fn step(e: &ReducedForm, damping: f64) -> Option<DVector<f64>> {
-    let (information, gradient) = e.normal();
-    let unseen = DVector::zeros(gradient.len());
-    damped_step(information, &gradient, damping, &unseen)
-}
-
-/// What a step gains in deviance if the model is as linear as it looks.
-fn promised(e: &ReducedForm, delta: &DVector<f64>) -> f64 {
-    let (information, gradient) = e.normal();
-    -(delta.dot(&(information * delta)) + 2.0 * gradient.dot(delta))
-}
-
-fn moved(starts: &WindowStates, by: &[Vec<DVector<f64>>], share: f64) -> WindowStates {
-    let add = |(z, d): (&Vec<f64>, &DVector<f64>)| z.iter().zip(d.iter()).map(|(z, d)| z + share * d).collect();
-    starts.iter().zip(by).map(|(s, b)| s.iter().zip(b).map(add).collect()).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::discrepancy::fixtures::noise_of;
-    use crate::discrepancy::shooting::block_sums::Blocks;
-
-    /// A window with two trailers, and others without a jump behind them.
-    #[test]
-    fn a_misfit_counts_noise_and_jumps_in_their_variances() {
-        let window = |squares: [f64; 3], duration: f64, mismatch: &[f64]| LinearisedWindow {
-            gram: squares.map(|square| DMatrix::from_element(1, 1, square)).to_vec(),
-            count: vec![1; 3],
-            blocks: vec![Blocks::default(); 3],
-            back: None,
-            axes: DMatrix::zeros(0, 0),
-            duration,
-            mismatch: mismatch.to_vec(),
-        };
-        let v = noise_of(2, [2.0, 4.0, 8.0], &[1.0, 2.0, 4.0, 8.0]);
-        let first = window([2.0, 8.0, 24.0], 0.5, &[1.0, 2.0, 4.0, 8.0, 16.0]);
-        // 1 + 2 + 3, and 2 + 4 + 8 + 16 + 64.
-        assert_eq!(misfit(&[vec![first.clone()]], &v), 6.0 + 94.0);
-        let second = window([20.0, 0.0, 0.0], 3.0, &[]);
-        assert_eq!(misfit(&[vec![first.clone(), second.clone()], vec![second]], &v), 100.0 + 20.0);
-    }
 
     #[test]
     fn what_jumps_counts_once_a_window() {

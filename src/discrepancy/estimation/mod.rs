@@ -2,11 +2,12 @@
 
 pub mod autocorrelation;
 pub(crate) mod bounds;
+pub(crate) mod descent;
 pub mod elimination;
 pub mod fit;
-pub mod levenberg_marquardt;
 pub mod noise_model;
 pub mod problem;
 pub mod rate_regression;
+mod rate_sums;
 pub mod unexplained;
 pub mod variance_components;

@@ -36,7 +36,7 @@ impl Problem {
             false => records,
         };
         let plan = windows::plan(&records);
-        let trailers = records.first().map_or(0, |r| r.trailers);
+        let trailers = records.first().map_or(0, |r| r.trailers());
         let starts = observation::sensor_noise(trailers).iter().enumerate().map(|(k, noise)| {
             let known = if noise.unit == "m" { position } else { heading };
             Start {
@@ -46,7 +46,7 @@ impl Problem {
             }
         });
         let mut variances = NoiseModel::starting(trailers, starts);
-        if !records.iter().any(|r| r.has_heading)
+        if !records.iter().any(|r| r.has_heading())
             && let Some(yaw) = yaw_told(&records, &plan, variances.measurement()[POSITION].variance)
         {
             variances.process_mut()[YAW].variance = yaw;

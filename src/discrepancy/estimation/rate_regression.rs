@@ -2,43 +2,20 @@
 
 use super::bounds::Bounds;
 use super::fit::inverse;
-use super::levenberg_marquardt::damped_step;
+use super::rate_sums::Sums;
 use crate::error::{Error, Result};
-use crate::formula::{Isa, Kernel};
-use crate::model::{Equations, Model, Workspace};
+use crate::model::{Equations, Model};
+use crate::numerics::levenberg_marquardt::{Damping, LeastSquares, minimise};
 use nalgebra::{DMatrix, DVector};
 
-/// Samples that are looked at side by side: four vectors of AVX-512.
-const LANES: usize = 32;
-type Lane = [f64; LANES];
+pub use super::rate_sums::RateSamples;
 
-/// A change of all residuals together by less than this share of the rates is rounding.
-const SETTLED: f64 = 1e-12;
-/// A damping that leaves no step to speak of, and the most evaluations.
-const STUCK: f64 = 1e12;
-const MOST: usize = 1000;
+/// Whole steps at first, and again soon after a damped one; more damping than the most leaves no step to speak of.
+const DAMPING: Damping =
+    Damping { first: 0.0, divisor: 10.0, least: 0.0, factor: 30.0, raised: 1e-4, most: 1e12, remembers: false };
+const MOST_STEPS: usize = 1000;
 /// Sums of squares that differ by less than this share differ by rounding.
 const FLAT: f64 = 1e-12;
-
-/// Rates of a motion, each column with a value for every sample.
-///
-/// | symbol | unit | meaning |
-/// |---|---|---|
-/// | states | m, rad | z in the order of [`Equations::states`] |
-/// | inputs | SI | u in the order of [`Equations::inputs`], as they act at the sample |
-/// | rates | m/s, rad/s | measured z′; NaN where it is not measured |
-/// | deviations | as rates | standard deviation of each rate; infinite for one that does not count |
-#[derive(Clone, Debug, Default)]
-pub struct RateSamples {
-    /// Columns of z.
-    pub states: Vec<Vec<f64>>,
-    /// Columns of u.
-    pub inputs: Vec<Vec<f64>>,
-    /// Columns of z′.
-    pub rates: Vec<Vec<f64>>,
-    /// A standard deviation for each column of z′.
-    pub deviations: Vec<f64>,
-}
 
 /// A model whose free effects can be fitted to rates, compiled once.
 ///
@@ -114,35 +91,16 @@ impl RateFit {
     /// When columns do not fit the model or each other, a state, an input or a deviation is not a number, or the rates are
     /// undefined at the first values.
     pub fn to(&self, samples: &RateSamples) -> Result<RatesFitted> {
-        let weights = self.weights(samples)?;
-        let mut p = DVector::from_column_slice(&self.start);
-        let mut here = self.sums(samples, &weights, &p);
-        if !here.is_defined() {
+        let descent = RateDescent { fit: self, samples, weights: self.weights(samples)? };
+        let first = descent.at(DVector::from_column_slice(&self.start));
+        if !first.1.is_defined() {
             return Err(Error::run("the rates are undefined at the first values of the effects"));
         }
-        let unseen = DVector::zeros(p.len());
-        let (mut damping, mut evaluations) = (0.0, 1);
-        while damping < STUCK && evaluations < MOST {
-            let step = damped_step(here.information(), &here.gradient(), damping, &unseen);
-            let target = step.map(|step| self.bounds.within(&p, &step));
-            if let Some(to) = &target
-                && here.settled(&(to - &p))
-            {
-                p.copy_from(to);
-                break;
-            }
-            let next = target.as_ref().map(|to| self.sums(samples, &weights, to));
-            evaluations += usize::from(next.is_some());
-            match (target, next) {
-                (Some(to), Some(next)) if next.squares <= here.squares * (1.0 + FLAT) => {
-                    (p, here) = (to, next);
-                    damping = if damping < 1e-6 { 0.0 } else { damping / 10.0 };
-                }
-                _ => damping = f64::max(30.0 * damping, 1e-4),
-            }
-        }
-        let covariance = inverse(&here.information());
-        Ok(RatesFitted { p: p.as_slice().to_vec(), covariance, squares: here.squares, evaluations })
+        let found = minimise(&descent, first, &DAMPING, MOST_STEPS);
+        let (p, sums) = found.here;
+        let p = found.step.filter(|_| found.is_settled).map_or(p.clone(), |step| self.bounds.within(&p, &step));
+        let (covariance, evaluations) = (inverse(&sums.information()), 1 + found.evaluations);
+        Ok(RatesFitted { p: p.as_slice().to_vec(), covariance, squares: sums.squares, evaluations })
     }
 
     /// One over the deviations.
@@ -161,138 +119,42 @@ impl RateFit {
         }
         Ok(deviations.iter().map(|d| d.recip()).collect())
     }
-
-    fn sums(&self, samples: &RateSamples, weights: &[f64], p: &DVector<f64>) -> Sums {
-        let mut sums = Sums::new(p.len());
-        let workspace = self.equations.side_by_side([p.as_slice(); LANES]);
-        Isa::best().dispatch(Pass { fit: self, samples, weights, workspace, sums: &mut sums });
-        sums.total();
-        sums
-    }
 }
 
-/// Sums over samples, lane by lane.
-struct Sums {
-    lanes: Vec<Lane>,
-    parameters: usize,
-    squares: f64,
-    /// Σ(z′/deviation)²
-    measured: f64,
-    totals: Vec<f64>,
-}
-
-impl Sums {
-    /// Places of the squares and of the measured rates, then of the gradient, then of the lower triangle of JᵀJ.
-    fn new(parameters: usize) -> Self {
-        let count = 2 + parameters + parameters * (parameters + 1) / 2;
-        Self { lanes: vec![[0.0; LANES]; count], parameters, squares: 0.0, measured: 0.0, totals: vec![] }
-    }
-
-    #[inline(always)]
-    fn place(&self, a: usize, b: usize) -> usize {
-        2 + self.parameters + a * (a + 1) / 2 + b
-    }
-
-    /// Lanes are added in their order.
-    fn total(&mut self) {
-        self.totals = self.lanes.iter().map(|lane| lane.iter().sum()).collect();
-        (self.squares, self.measured) = (self.totals[0], self.totals[1]);
-    }
-
-    fn is_defined(&self) -> bool {
-        self.totals.iter().all(|v| v.is_finite())
-    }
-
-    fn gradient(&self) -> DVector<f64> {
-        DVector::from_column_slice(&self.totals[2..2 + self.parameters])
-    }
-
-    fn information(&self) -> DMatrix<f64> {
-        let n = self.parameters;
-        DMatrix::from_fn(n, n, |i, j| self.totals[self.place(i.max(j), i.min(j))])
-    }
-
-    /// Whether a step changes the residuals by rounding alone.
-    fn settled(&self, step: &DVector<f64>) -> bool {
-        step.dot(&(self.information() * step)) <= SETTLED * SETTLED * self.measured
-    }
-}
-
-/// Rates and derivatives at all samples, summed.
-struct Pass<'a> {
+/// A fit to samples on its way down.
+struct RateDescent<'a> {
     fit: &'a RateFit,
     samples: &'a RateSamples,
-    weights: &'a [f64],
-    workspace: Workspace<LANES>,
-    sums: &'a mut Sums,
+    weights: Vec<f64>,
 }
 
-impl Kernel for Pass<'_> {
-    #[inline(always)]
-    fn run(mut self) {
-        let RateSamples { states, inputs, rates, .. } = self.samples;
-        let (mut z, mut u) = (vec![[0.0; LANES]; states.len()], vec![[0.0; LANES]; inputs.len()]);
-        let rows = rates[0].len();
-        for first in (0..rows).step_by(LANES) {
-            z.iter_mut().zip(states).for_each(|(lane, column)| take(lane, column, first));
-            u.iter_mut().zip(inputs).for_each(|(lane, column)| take(lane, column, first));
-            let slopes = self.fit.equations.jacobian_here(&mut self.workspace, &z, &u);
-            for (i, by) in self.fit.by.iter().enumerate() {
-                let mut measured = [f64::NAN; LANES];
-                let there = LANES.min(rows - first);
-                measured[..there].copy_from_slice(&rates[i][first..first + there]);
-                let derivatives = &slopes[states.len() + i * self.fit.start.len()..];
-                add(self.sums, &slopes[i], &measured, self.weights[i], by, derivatives);
-            }
-        }
+impl RateDescent<'_> {
+    fn at(&self, p: DVector<f64>) -> (DVector<f64>, Sums) {
+        let sums = Sums::over(&self.fit.equations, &self.fit.by, self.samples, &self.weights, &p);
+        (p, sums)
     }
 }
 
-/// A block of a column; the last value stands for those that are not there.
-#[inline(always)]
-fn take(lane: &mut Lane, column: &[f64], first: usize) {
-    match column[first..].first_chunk() {
-        Some(block) => *lane = *block,
-        None => (0..LANES).for_each(|l| lane[l] = column[(first + l).min(column.len() - 1)]),
-    }
-}
+impl LeastSquares for RateDescent<'_> {
+    type Point = (DVector<f64>, Sums);
 
-/// Adds the residuals of a rate; where it is not measured nothing.
-#[inline(always)]
-fn add(sums: &mut Sums, rate: &Lane, measured: &Lane, weight: f64, by: &[usize], derivatives: &[Lane]) {
-    let (mut r, mut w, mut size) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
-    for l in 0..LANES {
-        let there = if measured[l].is_nan() { 0.0 } else { measured[l] };
-        w[l] = if measured[l].is_nan() { 0.0 } else { weight };
-        r[l] = (rate[l] - there) * w[l];
-        size[l] = there * w[l];
+    fn normal(&self, (_, sums): &Self::Point) -> (DMatrix<f64>, DVector<f64>) {
+        (sums.information(), sums.gradient())
     }
-    add_product(&mut sums.lanes[0], &r, &r);
-    add_product(&mut sums.lanes[1], &size, &size);
-    for (n, a) in by.iter().enumerate() {
-        let slope = product(&derivatives[*a], &w);
-        add_product(&mut sums.lanes[2 + a], &slope, &r);
-        for b in &by[..=n] {
-            let place = sums.place(*a, *b);
-            add_product(&mut sums.lanes[place], &slope, &product(&derivatives[*b], &w));
-        }
-    }
-}
 
-#[inline(always)]
-fn product(a: &Lane, b: &Lane) -> Lane {
-    let mut out = [0.0; LANES];
-    for l in 0..LANES {
-        out[l] = a[l] * b[l];
+    fn next(&self, (p, _): &Self::Point, step: &DVector<f64>, _: f64) -> Option<Self::Point> {
+        Some(self.at(self.fit.bounds.within(p, step)))
     }
-    out
-}
 
-#[inline(always)]
-fn add_product(sum: &mut Lane, a: &Lane, b: &Lane) {
-    let mut total = *sum;
-    for l in 0..LANES {
-        total[l] += a[l] * b[l];
+    fn gain(&self, (_, here): &Self::Point, (_, next): &Self::Point, _: f64) -> f64 {
+        here.squares - next.squares
     }
-    *sum = total;
+
+    fn tolerance(&self, (_, here): &Self::Point) -> f64 {
+        here.squares * FLAT
+    }
+
+    fn is_small(&self, (p, sums): &Self::Point, step: &DVector<f64>, _: Option<f64>) -> bool {
+        sums.is_rounding(&(self.fit.bounds.within(p, step) - p))
+    }
 }

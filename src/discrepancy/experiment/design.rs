@@ -6,9 +6,10 @@
 use super::envelope::Envelope;
 use super::manoeuvre::{LENGTH, Manoeuvre, library};
 use super::next_step::{NextStep, PlannedManoeuvre};
+use super::predicted_fit::{PredictedFit, PriorInformation};
 use crate::discrepancy::diagnosis::equivalents::EquivalentEffect;
 use crate::discrepancy::diagnosis::verdict::{Outcome, missed};
-use crate::discrepancy::estimation::elimination::eliminate;
+use crate::discrepancy::estimation::descent::Windows;
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::noise_model::NoiseModel;
@@ -19,19 +20,15 @@ use crate::discrepancy::report::Verdict;
 use crate::discrepancy::selection::choice::Selected;
 use crate::discrepancy::selection::search::without_effect;
 use crate::discrepancy::selection::select::Candidate;
-use crate::discrepancy::shooting::window_integration::linearise;
 use crate::discrepancy::shooting::windows::plan;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
 use crate::motion::{StateSensitivity, Stepper, Timing};
-use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 /// Rows a second of a manoeuvre that is thought through; more rows are less noise.
 const RATE: f64 = 10.0;
-/// Steps of the fit to a manoeuvre.
-const PASSES: usize = 3;
 /// Evidence that separates two effects beyond doubt.
 const ENOUGH: f64 = 25.0;
 /// A manoeuvre within this share of the best one is as good.
@@ -40,35 +37,6 @@ pub(crate) const ALIKE: f64 = 0.9;
 const MOST_REPETITIONS: f64 = 30.0;
 /// More rivals than these are not thought of at once.
 const MOST_RIVALS: usize = 4;
-
-/// A model, and what the runs at hand say of its free parameters.
-struct PriorInformation {
-    model: Model,
-    p: DVector<f64>,
-    information: DMatrix<f64>,
-}
-
-impl PriorInformation {
-    fn of(fit: &Fit) -> Self {
-        let p = DVector::from_column_slice(&fit.p);
-        Self { model: fit.model.clone(), p, information: fit.information.clone() }
-    }
-
-    /// A step that keeps a positive value positive: it is at most divided or multiplied by five.
-    fn held(&self, p: &DVector<f64>, step: &DVector<f64>) -> DVector<f64> {
-        let positive: Vec<bool> =
-            self.model.free_effects().flat_map(|e| e.effect.parameters.values()).map(|p| p.positive).collect();
-        DVector::from_fn(p.len(), |i, _| match positive[i] {
-            true => (p[i] + step[i]).max(p[i] / 5.0).min(p[i] * 5.0) - p[i],
-            false => step[i],
-        })
-    }
-
-    /// The BIC's charge for its parameters.
-    fn charge(&self, sample_size: f64) -> f64 {
-        self.p.len() as f64 * sample_size.ln()
-    }
-}
 
 /// What is needed to think a manoeuvre through.
 pub(crate) struct PredictedExperiment<'a> {
@@ -206,33 +174,11 @@ impl<'a> PredictedExperiment<'a> {
 
     /// By how much the BIC of `other` is expected to exceed that of `truth` after a manoeuvre.
     fn expected_delta_bic(&self, m: &Manoeuvre, truth: &PriorInformation, other: &PriorInformation) -> Option<f64> {
-        let record = self.driven(m, &truth.model)?;
         let equations = other.model.free_equations().ok()?;
-        let records = [record];
+        let records = [self.driven(m, &truth.model)?];
         let plan = plan(&records);
-        let mut starts = starts(&other.model, &records, &plan).ok()?;
-        let mut p = other.p.clone();
-        let mut left = f64::NAN;
-        for _ in 0..PASSES {
-            let linear = linearise(&equations, p.as_slice(), &records, &plan, &starts)?;
-            let e = eliminate(&linear, &self.variances, p.len())?;
-            let away = &p - &other.p;
-            let (information, gradient) = e.normal();
-            let held = &other.information * &away;
-            let (information, gradient) = (information + &other.information, gradient + &held);
-            let scale = information.diagonal().iter().copied().fold(0.0, f64::max);
-            let step = match p.len() {
-                0 => DVector::zeros(0),
-                k => -(information + DMatrix::identity(k, k) * (1e-12 * scale)).cholesky()?.solve(&gradient),
-            };
-            // What is left after this step, were the model as linear as it looks.
-            left = e.cost() + away.dot(&held) + gradient.dot(&step);
-            let delta = other.held(&p, &step);
-            for (s, by) in starts.iter_mut().zip(e.corrections(&linear, &delta)) {
-                s.iter_mut().zip(by).for_each(|(z, d)| z.iter_mut().zip(d.iter()).for_each(|(z, d)| *z += d));
-            }
-            p += delta;
-        }
+        let windows = Windows { records: &records, plan: &plan, equations: &equations, v: &self.variances };
+        let left = PredictedFit { windows, other }.left(starts(&other.model, &records, &plan).ok()?)?;
         Some(left + other.charge(self.sample_size) - truth.charge(self.sample_size)).filter(|w| w.is_finite())
     }
 
@@ -245,11 +191,11 @@ impl<'a> PredictedExperiment<'a> {
             "manoeuvre",
             times,
             vec![vec![]; self.like.columns.len()],
-            self.like.has_heading,
+            self.like.has_heading(),
             &inputs,
             Timing::Sample,
         );
-        record.trailers = self.like.trailers;
+        record.observation = self.like.observation.clone();
         let (signals, channels) = (record.signals.clone(), record.channels());
         let mut stepper = Stepper::new(&equations, &signals, &[]);
         let mut z = vec![0.0; equations.visible];
@@ -271,25 +217,8 @@ impl<'a> PredictedExperiment<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::discrepancy::fixtures::{KNOWN, WEAVING, applied, fit_of, logged, noise_of, unicycle};
-
-    /// A value with a sign goes to a fifth or to five times itself at most, another as far as the step leads.
-    #[test]
-    fn a_positive_value_stays_positive() {
-        let known = PriorInformation::of(&fit_of(unicycle(&KNOWN)));
-        assert_eq!(known.p.as_slice(), [0.3, 0.1, 0.8, -0.05]);
-        for (step, goes) in [
-            (0.05, [0.05, 0.05, 0.05, 0.05]),
-            (-0.05, [-0.05, -0.05, -0.05, -0.05]),
-            (2.0, [1.2, 2.0, 2.0, 2.0]),
-            (10.0, [1.2, 10.0, 3.2, 10.0]),
-            (-0.5, [-0.24, -0.5, -0.5, -0.5]),
-            (-10.0, [-0.24, -10.0, -0.64, -10.0]),
-        ] {
-            let held = known.held(&known.p, &DVector::from_element(4, step));
-            held.iter().zip(goes).for_each(|(a, b)| assert!((a - b).abs() < 1e-12, "{step}: {held}"));
-        }
-    }
+    use crate::discrepancy::fixtures::{WEAVING, applied, fit_of, logged, noise_of, unicycle};
+    use nalgebra::DMatrix;
 
     #[test]
     fn a_worth_is_near_the_most_on_either_side_of_nothing() {

@@ -163,6 +163,7 @@ pub(crate) mod samples {
     use crate::discrepancy::record::input_noise::InputNoise;
     use crate::discrepancy::record::run_record::{Known, Record};
     use crate::model::Model;
+    use crate::model::observation::Observation;
     use crate::motion::{Signals, Timing};
 
     /// What a vehicle was driven at: ahead and turning for five seconds, then straight back.
@@ -176,9 +177,8 @@ pub(crate) mod samples {
             rows: 0..time.len(),
             time,
             columns: vec![],
-            has_heading: false,
+            observation: Observation::new(0, false, 0),
             signals,
-            trailers: 0,
             input_noise: InputNoise::of(&[], &[], &[]).into(),
             known: Known::default(),
         };

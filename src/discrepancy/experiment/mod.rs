@@ -4,3 +4,4 @@ pub mod design;
 pub mod envelope;
 pub mod manoeuvre;
 pub mod next_step;
+mod predicted_fit;

@@ -99,7 +99,7 @@ fn findings(runs: &[RunHealth], records: &[Record]) -> Vec<DataFinding> {
     let mut found: Vec<DataFinding> = runs.iter().flat_map(of_run).collect();
     found.extend(turns(runs));
     found.extend(speeds(runs));
-    found.extend(records.iter().all(|r| !r.has_heading).then_some(DataFinding::NoHeading));
+    found.extend(records.iter().all(|r| !r.has_heading()).then_some(DataFinding::NoHeading));
     found
 }
 

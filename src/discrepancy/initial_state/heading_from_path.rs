@@ -5,6 +5,8 @@ use crate::discrepancy::initial_state::pose::pose_of;
 use crate::discrepancy::record::angle::wrapped;
 use crate::discrepancy::record::run_record::Record;
 use crate::model::Equations;
+use crate::model::observation::BODY_HEADING;
+use crate::model::state::DIRECTION;
 use crate::motion::{StateSensitivity, Stepper};
 use nalgebra::{Rotation2, Vector2};
 use std::ops::Range;
@@ -65,7 +67,7 @@ pub fn heading_at(equations: &Equations, record: &Record, row: usize) -> PathHea
 /// and no less of it than tells a heading. From a short stretch the error of the guess would grow with the span, and be
 /// taken for the model's.
 pub fn heading_over(equations: &Equations, record: &Record, row: usize, span: f64) -> PathHeading {
-    let mut best = PathHeading { heading: record.smoothed(row)[2], ..PathHeading::default() };
+    let mut best = PathHeading { heading: record.smoothed(row)[BODY_HEADING], ..PathHeading::default() };
     for half in HALF_WIDTHS {
         let rows = stretch(record, row, [half, half.max(span)]);
         let Some(course) = laid_on(equations, record, row, rows, best.heading) else { continue };
@@ -88,7 +90,7 @@ fn laid_on(equations: &Equations, record: &Record, row: usize, rows: Range<usize
     for _ in 0..ROUNDS {
         let here = path(equations, record, rows.clone(), begin)?;
         let beside = path(equations, record, rows.clone(), begin + TRIED)?;
-        let heading = here[row - rows.start][2];
+        let heading = here[row - rows.start][BODY_HEADING];
         let found = HeadingRegistration::of(record, rows.start, &here, &beside)?;
         begin += found.turn;
         course = Some(PathHeading { heading: heading + found.turn, reach: found.reach, weights: found.weights });
@@ -111,7 +113,7 @@ fn stretch(record: &Record, row: usize, [before, after]: [f64; 2]) -> Range<usiz
 fn path(equations: &Equations, record: &Record, rows: Range<usize>, heading: f64) -> Option<Vec<[f64; 3]>> {
     let mut stepper = Stepper::new(equations, &record.signals, &[]);
     let mut start = record.smoothed(rows.start);
-    start[2] = heading;
+    start[BODY_HEADING] = heading;
     let start = pose_of(equations, &start);
     let hidden = hidden_states::carried(equations, &[], record, rows.start, &start);
     let mut arc = StateSensitivity { z: [start, hidden.z].concat(), s: vec![] };
@@ -172,7 +174,7 @@ pub fn starts(equations: &Equations, record: &Record, windows: &[Range<usize>]) 
     let rows: Vec<usize> = windows.iter().map(|w| w.start).collect();
     let placed: Vec<MeasuredPose> = rows.iter().map(|i| MeasuredPose::at(equations, record, *i)).collect();
     let mut poses: Vec<Vec<f64>> = placed.iter().map(|p| pose_of(equations, &p.measured)).collect();
-    if record.has_heading {
+    if record.has_heading() {
         return poses;
     }
     let best = (0..rows.len()).max_by(|a, b| placed[*a].reach().total_cmp(&placed[*b].reach())).unwrap_or(0);
@@ -193,14 +195,14 @@ fn turning(equations: &Equations, record: &Record, rows: Range<usize>, pose: &[f
     let hidden = hidden_states::at_rest(equations, &[], &mut stepper, record.time[rows.start], pose);
     let mut arc = StateSensitivity { z: [pose, &hidden.z].concat(), s: vec![] };
     rows.clone().for_each(|i| stepper.advance(&mut arc, record.time[i], record.time[i + 1]));
-    arc.z[2] - pose[2]
+    arc.z[DIRECTION] - pose[DIRECTION]
 }
 
 /// Keeps a heading that agrees with its neighbour's, and else takes the neighbour's, turned.
 fn follow(poses: &mut [Vec<f64>], k: usize, neighbour: usize, turn: f64) {
-    let expected = poses[neighbour][2] + turn;
-    let off = wrapped(poses[k][2] - expected);
-    poses[k][2] = if off.abs() < AGREEMENT { expected + off } else { expected };
+    let expected = poses[neighbour][DIRECTION] + turn;
+    let off = wrapped(poses[k][DIRECTION] - expected);
+    poses[k][DIRECTION] = if off.abs() < AGREEMENT { expected + off } else { expected };
 }
 
 /// The smoothed measurement at a row, with the heading that the model says where none is measured.
@@ -226,7 +228,7 @@ impl MeasuredPose {
     /// At a row of a record, known well enough for a span of time, s.
     pub fn over(equations: &Equations, record: &Record, row: usize, span: f64) -> Self {
         let mut measured = record.smoothed(row);
-        let course = (!record.has_heading).then(|| heading_over(equations, record, row, span));
+        let course = (!record.has_heading()).then(|| heading_over(equations, record, row, span));
         if let Some(course) = &course {
             // Trailers that nothing measures follow straight.
             measured[2..].iter_mut().enumerate().for_each(|(i, y)| {

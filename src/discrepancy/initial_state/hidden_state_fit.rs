@@ -4,13 +4,14 @@ use super::first_rows::Rows;
 use crate::discrepancy::record::run_record::Record;
 use crate::model::Equations;
 use crate::motion::StateSensitivity;
-use nalgebra::{Cholesky, DMatrix, DVector};
+use crate::numerics::levenberg_marquardt::{Damping, LeastSquares, Minimum, minimise};
+use nalgebra::{DMatrix, DVector};
 
 /// A state of which less is left of how it began is taken as it was carried.
 const FADED: f64 = 0.02;
-/// Rounds of Gauss and Newton, at most.
-const ROUNDS: usize = 8;
-/// What gains less, in units of χ², is the last round: what one leaves goes with the square of what it gains.
+/// Steps that are evaluated, at most.
+const MOST_STEPS: usize = 7;
+/// A step that gains less, in units of χ², is the last: what one leaves goes with the square of what it gains.
 const SETTLED: f64 = 0.1;
 /// How far a pose is moved to see what it does, m and rad; a value of the model by such a share of itself.
 const TRIED: f64 = 1e-4;
@@ -81,47 +82,84 @@ struct Posterior {
     by_values: DMatrix<f64>,
 }
 
-/// Hidden states that fit both the rows and what they were carried to.
-fn fitted(rows: &Rows, carried: &[f64], pose: &[f64], spread: &[f64]) -> Option<Posterior> {
-    let m = pose.len();
-    let before = [pose, carried].concat();
-    let free = |i: usize| if i < m { ANYWHERE } else { spread[i - m] };
-    let prior = DVector::from_fn(before.len(), |i, _| free(i).powi(-2));
-    let mut begin = before.clone();
-    let mut last: Option<(Cholesky<f64, nalgebra::Dyn>, DMatrix<f64>)> = None;
-    for _ in 0..ROUNDS {
-        let here = rows.missed(rows.p, &begin)?;
+/// What misses both the rows and what was carried to them, as a sum of squares.
+struct Prior<'a> {
+    rows: &'a Rows<'a>,
+    before: Vec<f64>,
+    /// Standard deviations beforehand of pose and hidden states.
+    deviations: Vec<f64>,
+    information: DVector<f64>,
+}
+
+/// What is missed from a beginning, and its slopes.
+struct Missed {
+    begin: Vec<f64>,
+    residuals: DVector<f64>,
+    jacobian: DMatrix<f64>,
+}
+
+impl<'a> Prior<'a> {
+    fn of(rows: &'a Rows<'a>, carried: &[f64], pose: &[f64], spread: &[f64]) -> Self {
+        let deviations = [&vec![ANYWHERE; pose.len()], spread].concat();
+        let information = DVector::from_iterator(deviations.len(), deviations.iter().map(|d| d.powi(-2)));
+        Self { rows, before: [pose, carried].concat(), deviations, information }
+    }
+
+    fn at(&self, begin: Vec<f64>) -> Option<Missed> {
+        let rows = self.rows;
+        let residuals = rows.missed(rows.p, &begin)?;
         let jacobian = slopes(
             &begin,
-            |i| free(i).min(1.0),
-            &here,
+            |i| self.deviations[i].min(1.0),
+            &residuals,
             |tries| rows.all_missed(tries.iter().map(|begin| (rows.p, &begin[..]))),
         )?;
-        let mut information = jacobian.tr_mul(&jacobian);
-        (0..begin.len()).for_each(|i| information[(i, i)] += prior[i]);
-        let away = DVector::from_fn(begin.len(), |i, _| prior[i] * (begin[i] - before[i]));
-        let factors = information.cholesky()?;
-        let slope = jacobian.tr_mul(&here) + away;
-        let step = factors.solve(&slope);
-        begin.iter_mut().zip(step.iter()).for_each(|(z, s)| *z -= s);
-        last = Some((factors, jacobian));
-        if slope.dot(&step) < SETTLED {
-            break;
-        }
+        Some(Missed { begin, residuals, jacobian })
     }
-    let (factors, jacobian) = last?;
+}
+
+fn plus(begin: &[f64], step: &DVector<f64>) -> Vec<f64> {
+    begin.iter().zip(step.iter()).map(|(z, s)| z + s).collect()
+}
+
+impl LeastSquares for Prior<'_> {
+    type Point = Missed;
+
+    fn normal(&self, here: &Missed) -> (DMatrix<f64>, DVector<f64>) {
+        let mut information = here.jacobian.tr_mul(&here.jacobian);
+        (0..self.before.len()).for_each(|i| information[(i, i)] += self.information[i]);
+        let away = |i: usize, _| self.information[i] * (here.begin[i] - self.before[i]);
+        (information, here.jacobian.tr_mul(&here.residuals) + DVector::from_fn(self.before.len(), away))
+    }
+
+    fn next(&self, here: &Missed, step: &DVector<f64>, _: f64) -> Option<Missed> {
+        self.at(plus(&here.begin, step))
+    }
+
+    fn is_small(&self, here: &Missed, step: &DVector<f64>, _: Option<f64>) -> bool {
+        -self.normal(here).1.dot(step) < SETTLED
+    }
+}
+
+/// Hidden states that fit both the rows and what they were carried to: whole steps of Gauss and Newton, for the start
+/// is near, and the last of them is taken unevaluated.
+fn fitted(rows: &Rows, carried: &[f64], pose: &[f64], spread: &[f64]) -> Option<Posterior> {
+    let (m, h) = (pose.len(), carried.len());
+    let prior = Prior::of(rows, carried, pose, spread);
+    let Minimum { here, step, .. } = minimise(&prior, prior.at(prior.before.clone())?, &Damping::NONE, MOST_STEPS);
+    let mut begin = plus(&here.begin, &step?);
+    let factors = prior.normal(&here).0.cholesky()?;
     let covariance = factors.inverse();
-    let h = carried.len();
-    let share = DMatrix::from_fn(h, h, |i, j| covariance[(m + i, m + j)] * prior[m + j]);
+    let share = DMatrix::from_fn(h, h, |i, j| covariance[(m + i, m + j)] * prior.information[m + j]);
     // Where the sum is least its slope is zero whatever the values: they move the states by −(JᵀJ + P)⁻¹·Jᵀ·∂r/∂p.
-    let here = rows.missed(rows.p, &begin)?;
+    let residuals = rows.missed(rows.p, &begin)?;
     let by_values = slopes(
         rows.p,
         |j| rows.p[j].abs().max(SMALL),
-        &here,
+        &residuals,
         |tries| rows.all_missed(tries.iter().map(|p| (&p[..], &begin[..]))),
     )?;
-    let moved = -factors.solve(&jacobian.tr_mul(&by_values));
+    let moved = -factors.solve(&here.jacobian.tr_mul(&by_values));
     let by_values = moved.rows(m, h).into_owned();
     begin.iter().all(|z| z.is_finite()).then(|| Posterior { z: begin.split_off(m), share, by_values })
 }

@@ -90,7 +90,7 @@ impl ConstraintResiduals {
         let share: f64 = record.smoothing(i).iter().map(|(_, w)| w * w).sum();
         let duration = self.windows.iter().map(|w| w.span[1] - w.span[0]).sum::<f64>() / count;
         let speed = self.rms_of(|w| w.speed);
-        let turned = match record.has_heading {
+        let turned = match record.has_heading() {
             true => share * noise[HEADING],
             false => noise[POSITION] * courses.iter().sum::<f64>() / count,
         };

@@ -5,6 +5,7 @@ use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::shooting::rollout::Rollout;
 use crate::error::Result;
 use crate::model::Model;
+use crate::model::observation::BODY_HEADING;
 use nalgebra::Complex;
 
 /// Windows over which ways and turns are told, s.
@@ -58,14 +59,14 @@ pub fn steps(model: &Model, record: &Record) -> Result<Vec<Step>> {
         let way = |p: &[f64], q: &[f64], heading: f64| (q[0] - p[0]) * heading.cos() + (q[1] - p[1]) * heading.sin();
         let chord = |p: &[f64], q: &[f64]| {
             let length = (q[0] - p[0]).hypot(q[1] - p[1]);
-            let middle = p[2] + 0.5 * wrapped(q[2] - p[2]);
+            let middle = p[BODY_HEADING] + 0.5 * wrapped(q[BODY_HEADING] - p[BODY_HEADING]);
             length.copysign(way(p, q, middle))
         };
         let step = Step {
             way: chord(&y[0], last),
-            turn: last[2] - y[0][2],
+            turn: last[BODY_HEADING] - y[0][BODY_HEADING],
             measured_way: chord(&a, &b),
-            measured_turn: b[2] - a[2],
+            measured_turn: b[BODY_HEADING] - a[BODY_HEADING],
             moved: [[&y[0], last], [&a, &b]].map(|[from, to]| Complex::new(to[0] - from[0], to[1] - from[1])),
             seconds: record.time[to] - record.time[from],
         };
@@ -103,7 +104,7 @@ impl Ratios {
             yaw_rate: (squares / seconds.max(f64::MIN_POSITIVE)).sqrt(),
             alike: [alike(&|model, measured| model.conj() * measured), alike(&|model, measured| model * measured)],
             way: (ways[1] > 0.0).then(|| ways[0] / ways[1]).filter(|r| r.is_finite()),
-            turn: (turned && record.has_heading)
+            turn: (turned && record.has_heading())
                 .then(|| steps.iter().map(|s| s.turn * s.measured_turn).sum::<f64>() / squares),
         }
     }

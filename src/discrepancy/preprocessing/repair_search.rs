@@ -10,6 +10,7 @@ use crate::discrepancy::record::run_record::Record;
 use crate::error::Result;
 use crate::files::{ModelFile, Run};
 use crate::model::Model;
+use crate::vehicles::Moves;
 use rayon::prelude::*;
 
 /// Repairs that leave up to so many times as much as the best one, or so much more, are not told apart.
@@ -93,7 +94,7 @@ impl Trial<'_> {
     fn input_repairs(&self, model: &Model, before: &SignedRatios) -> Vec<Accepted> {
         let candidates = self.candidates(model);
         let tried = candidates.into_par_iter().filter_map(|(repairs, cost)| {
-            let (repairs, after) = self.scaled(repairs)?;
+            let (repairs, after) = self.scaled(model, repairs)?;
             let is_scale = repairs.iter().all(|r| matches!(r.change, Change::Scale(_, unit) if unit != Unit::Sign));
             let accepted = accepts(before, &after, is_scale);
             accepted.then(|| Accepted { repair: Repair::Inputs(repairs), cost, unexplained: after.unexplained() })
@@ -102,9 +103,9 @@ impl Trial<'_> {
     }
 
     /// Differences of what has any scale, such as counts, with the scale that fits.
-    fn scaled(&self, repairs: Vec<InputRepair>) -> Option<(Vec<InputRepair>, SignedRatios)> {
+    fn scaled(&self, model: &Model, repairs: Vec<InputRepair>) -> Option<(Vec<InputRepair>, SignedRatios)> {
         let after = self.with(&repairs);
-        let is_count = |r: &InputRepair| matches!(r.change, Change::Difference(_)) && r.role.starts_with("wheel_rate");
+        let is_count = |r: &InputRepair| matches!(r.change, Change::Difference(_)) && is_wheel(model, &r.role);
         let factor = after.way.or(after.turn)?.slope;
         if !repairs.iter().all(is_count)
             || (RIGHT[0]..RIGHT[1]).contains(&factor)
@@ -124,7 +125,7 @@ impl Trial<'_> {
         let mut found = self.signs_and_places();
         let radius = self.file.parameters.get("wheel_radius").copied();
         let unit = |role: &str| model.vehicle.inputs.get(role).map_or("m/s", |input| input.unit.as_str());
-        let usual = |role: &str| Change::of_either_sign(role, unit(role), radius);
+        let usual = |role: &str| Change::of_either_sign(is_wheel(model, role), unit(role), radius);
         for role in &self.run.roles {
             for (change, cost) in usual(role) {
                 found.push((vec![self.repair(role, role, change)], cost));
@@ -197,14 +198,19 @@ impl Trial<'_> {
         if let Some((i, j)) = same.next() {
             return Some(SlipKind::LoggedTwice { roles: [roles[i].clone(), roles[j].clone()], way });
         }
-        let stands = (0..roles.len()).find(|i| !varies(i) && roles.len() > 1 && turns_by(&roles[*i]));
+        let stands = (0..roles.len()).find(|i| !varies(i) && roles.len() > 1 && is_turning(model, &roles[*i]));
         stands.map(|i| SlipKind::Stands { role: roles[i].clone(), value: inputs[i][0] })
     }
 }
 
-/// Inputs that say how the vehicle turns.
-fn turns_by(role: &str) -> bool {
-    role == "yaw_rate" || role == "steering_angle"
+/// Whether an input is the rate of a wheel.
+fn is_wheel(model: &Model, role: &str) -> bool {
+    model.vehicle.moved_by(role).is_some_and(Moves::is_wheel)
+}
+
+/// Whether an input says how the vehicle turns.
+fn is_turning(model: &Model, role: &str) -> bool {
+    model.vehicle.moved_by(role).is_some_and(Moves::is_turning)
 }
 
 fn fails(ratios: &SignedRatios) -> bool {

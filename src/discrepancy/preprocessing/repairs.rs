@@ -158,21 +158,21 @@ impl Change {
         }
     }
 
-    /// Every usual one of an input of some unit, and how far-fetched it is.
-    pub fn usual(role: &str, unit: &str, radius: Option<f64>) -> Vec<(Self, u32)> {
+    /// Every usual one of an input of some unit, the rate of a wheel or not, and how far-fetched it is.
+    pub fn usual(is_wheel: bool, unit: &str, radius: Option<f64>) -> Vec<(Self, u32)> {
         let named = |name, factor| (Self::Scale(factor, Unit::Named(name)), 12);
-        let mut found = match (role, unit) {
-            (_, "m/s") => {
+        let mut found = match unit {
+            "m/s" => {
                 let mut found =
                     vec![named("km/h", 1.0 / 3.6), named("mph", 0.447_04), named("mm/s", 1e-3), named("cm/s", 1e-2)];
                 found.extend(radius.map(|r| (Self::Scale(r, Unit::Radius), 13)));
                 found
             }
-            (_, "rad/s") => vec![named("deg/s", PI / 180.0), named("turns/s", TAU), named("rpm", TAU / 60.0)],
-            (_, "rad") => vec![named("deg", PI / 180.0), named("turns", TAU)],
+            "rad/s" => vec![named("deg/s", PI / 180.0), named("turns/s", TAU), named("rpm", TAU / 60.0)],
+            "rad" => vec![named("deg", PI / 180.0), named("turns", TAU)],
             _ => vec![],
         };
-        if role.starts_with("wheel_rate") {
+        if is_wheel {
             found.extend([0.25, 0.5, 2.0, 4.0].map(|factor| (Self::Scale(factor, Unit::Counts), 13)));
             found.extend(radius.map(|r| (Self::Scale(1.0 / r, Unit::Radius), 13)));
         }
@@ -183,9 +183,9 @@ impl Change {
     }
 
     /// The usual ones, and those with a sign the other way round, which are more far-fetched.
-    pub fn of_either_sign(role: &str, unit: &str, radius: Option<f64>) -> Vec<(Self, u32)> {
+    pub fn of_either_sign(is_wheel: bool, unit: &str, radius: Option<f64>) -> Vec<(Self, u32)> {
         let both = |(change, cost): (Self, u32)| [Some((change, cost)), change.reversed().map(|r| (r, cost + 3))];
-        Self::usual(role, unit, radius).into_iter().flat_map(both).flatten().collect()
+        Self::usual(is_wheel, unit, radius).into_iter().flat_map(both).flatten().collect()
     }
 
     /// The same with the sign reversed, of what has one.

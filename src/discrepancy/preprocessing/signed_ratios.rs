@@ -71,7 +71,7 @@ impl Windows {
         let noise = record.position_noise();
         let longest = record.time[record.rows.end - 1] - record.time[record.rows.start];
         DURATIONS.into_iter().filter(|s| s * FEWEST as f64 <= longest).find_map(|seconds| {
-            let windows = Self { rows: rows(record, seconds), seconds, noise, has_heading: record.has_heading };
+            let windows = Self { rows: rows(record, seconds), seconds, noise, has_heading: record.has_heading() };
             let squares = windows.motions([&record.columns[0], &record.columns[1]], None);
             let mean = squares.iter().map(|m| m.moved.norm_sqr()).sum::<f64>() / squares.len().max(1) as f64;
             let is_far = mean.sqrt() > OUT_OF_NOISE * SQRT_2 * noise;

@@ -216,7 +216,7 @@ pub fn another_motion(model: &Model, records: &[Record]) -> Result<Option<Slip>>
 }
 
 fn mirrored(record: &Record, ratios: &Ratios) -> Option<SlipKind> {
-    (record.has_heading && ratios.is_mirrored()).then_some(SlipKind::Mirrored)
+    (record.has_heading() && ratios.is_mirrored()).then_some(SlipKind::Mirrored)
 }
 
 fn no_turn_of_its(ratios: &Ratios) -> Option<SlipKind> {

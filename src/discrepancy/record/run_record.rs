@@ -4,7 +4,7 @@ use super::angle::wrapped;
 use super::input_noise::InputNoise;
 use super::local_polynomial;
 use crate::files::{InputTiming, Run};
-use crate::model::observation::{self, BODY_HEADING, PLACE};
+use crate::model::observation::{self, BODY_HEADING, Observation, PLACE};
 use crate::motion::{Signals, Timing, timings};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
@@ -18,12 +18,10 @@ pub struct Record {
     pub time: Vec<f64>,
     /// Measured x, y and, when measured, heading and trailer headings; angles unwrapped.
     pub columns: Vec<Vec<f64>>,
-    /// Whether a heading was measured.
-    pub has_heading: bool,
+    /// Which outputs of the vehicle they are.
+    pub observation: Observation,
     /// The inputs.
     pub signals: Signals,
-    /// Trailers of the vehicle, measured or not.
-    pub trailers: usize,
     /// What was added to each input before it was logged.
     pub(crate) input_noise: Arc<InputNoise>,
     /// Rows that take part.
@@ -77,8 +75,9 @@ impl Record {
         let input_noise = Arc::new(InputNoise::of(&time, inputs, &vec![timing; inputs.len()]));
         let rows = 0..time.len();
         let trailers = columns.len() - PLACE.len() - usize::from(has_heading);
+        let observation = Observation::new(trailers, has_heading, columns.len());
         let (name, known) = (name.to_string(), Known::default());
-        Self { name, time, columns, has_heading, signals, trailers, input_noise, rows, known }
+        Self { name, time, columns, observation, signals, input_noise, rows, known }
     }
 
     /// A run as it was read, of a vehicle with some trailers.
@@ -88,9 +87,9 @@ impl Record {
         columns.extend(run.trailer_headings.iter().cloned());
         let signals = Signals::of_run(run, timing);
         let input_noise = Arc::new(InputNoise::of(run.input_time(), &run.inputs, &timings(&run.differences, timing)));
-        let (rows, has_heading) = (0..run.time.len(), run.heading.is_some());
-        let (name, time) = (run.name.clone(), run.time.clone());
-        Self { name, time, columns, has_heading, signals, trailers, input_noise, rows, known: Known::default() }
+        let observation = Observation::new(trailers, run.heading.is_some(), columns.len());
+        let (name, time, rows) = (run.name.clone(), run.time.clone(), 0..run.time.len());
+        Self { name, time, columns, observation, signals, input_noise, rows, known: Known::default() }
     }
 
     /// The run with inputs that are as noisy again.
@@ -112,11 +111,19 @@ impl Record {
 
     /// What each measured column is.
     pub fn channels(&self) -> Vec<Channel> {
-        let outputs = observation::outputs(self.trailers).enumerate();
-        let measured = outputs.filter(|(i, _)| self.has_heading || *i != BODY_HEADING);
-        let channel =
-            |(output, y): (usize, observation::Output)| Channel { output, noise: y.noise, is_angle: y.is_angle };
-        measured.map(channel).take(self.columns.len()).collect()
+        let outputs: Vec<observation::Output> = observation::outputs(self.trailers()).collect();
+        let channel = |i: &usize| Channel { output: *i, noise: outputs[*i].noise, is_angle: outputs[*i].is_angle };
+        self.observation.measured().iter().map(channel).collect()
+    }
+
+    /// Whether a heading of the body was measured.
+    pub fn has_heading(&self) -> bool {
+        self.observation.measures(BODY_HEADING)
+    }
+
+    /// Trailers of the vehicle, measured or not.
+    pub fn trailers(&self) -> usize {
+        self.observation.trailers()
     }
 
     /// The run up to a time and from it on, as shares of the whole duration.
@@ -168,7 +175,7 @@ impl Record {
     /// The measured values at a row as outputs of the equations; what is not measured is zero.
     pub fn measured(&self, i: usize) -> Vec<f64> {
         let mut y: Vec<f64> = self.columns.iter().map(|c| c[i]).collect();
-        if !self.has_heading {
+        if !self.has_heading() {
             y.insert(BODY_HEADING, 0.0);
         }
         y.resize(self.outputs(), y[BODY_HEADING]);
@@ -181,7 +188,7 @@ impl Record {
     pub fn smoothed(&self, i: usize) -> Vec<f64> {
         let weights = self.smoothing(i);
         let mut y: Vec<f64> = self.columns.iter().map(|c| local_polynomial::value(c, &weights)).collect();
-        if !self.has_heading {
+        if !self.has_heading() {
             y.insert(BODY_HEADING, self.course(i));
         }
         // A trailer that nothing measures is taken to follow straight.
@@ -191,7 +198,7 @@ impl Record {
 
     /// How many outputs the equations have.
     fn outputs(&self) -> usize {
-        observation::outputs(self.trailers).count()
+        observation::outputs(self.trailers()).count()
     }
 
     /// The weights of the smoothing around a row.
@@ -240,7 +247,8 @@ mod tests {
         let along = |x: f64, y: f64| {
             let columns = vec![rows.iter().map(|i| 5.0 + x * i).collect(), rows.iter().map(|i| y * i - 2.0).collect()];
             let time = rows.iter().map(|i| 0.1 * i).collect();
-            Record { trailers: 1, ..Record::new("run.csv", time, columns, false, &[vec![1.0; 40]], Timing::Sample) }
+            let observation = Observation::new(1, false, 2);
+            Record { observation, ..Record::new("run.csv", time, columns, false, &[vec![1.0; 40]], Timing::Sample) }
         };
         for (x, y) in [(0.3, 0.4), (-0.3, 0.4), (0.4, -0.3), (-0.1, -0.1)] {
             for i in [0, 20, 39] {

@@ -9,6 +9,7 @@ use crate::discrepancy::record::local_polynomial;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::record::sensor_noise::Noise;
 use crate::error::Result;
+use crate::model::observation::{BODY_HEADING, PLACE};
 use crate::model::{Equations, Model};
 use crate::motion::{LaneStates, LaneStepper, StateSensitivity, Stepper};
 use rand::SeedableRng;
@@ -163,8 +164,8 @@ impl<'a> Rollout<'a> {
         let windows = self.windows(horizon);
         for ((_, to), [_, end]) in windows.iter().zip(self.ends(&windows)) {
             let measured = |c: usize| self.record.columns[c][*to];
-            let heading = self.record.has_heading.then(|| end[2] - measured(2));
-            errors.add([0, 1].map(|c| end[c] - measured(c)), heading);
+            let heading = self.record.has_heading().then(|| end[BODY_HEADING] - measured(BODY_HEADING));
+            errors.add(PLACE.map(|c| end[c] - measured(c)), heading);
         }
         errors
     }
@@ -198,8 +199,8 @@ impl<'a> Rollout<'a> {
         let beside = Rollout { record: &noisier, equations: self.equations.clone(), hidden: self.hidden.clone() };
         let windows = self.windows(horizon);
         for ([_, here], [_, there]) in self.ends(&windows).iter().zip(beside.ends(&windows)) {
-            let heading = self.record.has_heading.then(|| there[2] - here[2]);
-            moved.add([0, 1].map(|c| there[c] - here[c]), heading);
+            let heading = self.record.has_heading().then(|| there[BODY_HEADING] - here[BODY_HEADING]);
+            moved.add(PLACE.map(|c| there[c] - here[c]), heading);
         }
         moved
     }
@@ -214,7 +215,7 @@ impl<'a> Rollout<'a> {
                 clean: self.record.columns.iter().map(|c| local_polynomial::value(c, &smoothing)).collect(),
                 smoothing,
                 displacement: [last[0] - first[0], last[1] - first[1]],
-                course: (!self.record.has_heading).then(|| heading_over(&self.equations, self.record, from, horizon)),
+                course: (!self.record.has_heading()).then(|| heading_over(&self.equations, self.record, from, horizon)),
             }
         };
         windows.iter().zip(self.ends(&windows)).map(restart).collect()
@@ -236,14 +237,14 @@ struct Restart {
 impl Restart {
     fn add_error(&self, record: &Record, noisy: &[Vec<f64>], errors: &mut PredictionError) {
         let shift = |c: usize| local_polynomial::value(&noisy[c], &self.smoothing) - self.clean[c];
-        let moved = |i: usize| [0, 1].map(|c| noisy[c][i] - record.columns[c][i]);
-        let turn = wrapped(self.course.as_ref().map_or_else(|| shift(2), |c| c.error(moved)));
+        let moved = |i: usize| PLACE.map(|c| noisy[c][i] - record.columns[c][i]);
+        let turn = wrapped(self.course.as_ref().map_or_else(|| shift(BODY_HEADING), |c| c.error(moved)));
         let (sin, cos) = turn.sin_cos();
         let d = self.displacement;
         let turned = [(cos - 1.0) * d[0] - sin * d[1], sin * d[0] + (cos - 1.0) * d[1]];
         let end = |c: usize| noisy[c][self.to] - record.columns[c][self.to];
-        let error = [0, 1].map(|c| shift(c) + turned[c] - end(c));
-        errors.add(error, record.has_heading.then(|| turn - end(2)));
+        let error = PLACE.map(|c| shift(c) + turned[c] - end(c));
+        errors.add(error, record.has_heading().then(|| turn - end(BODY_HEADING)));
     }
 }
 

@@ -3,7 +3,7 @@
 /// The stages in their order, folders and files below `src`. Stages of one line are level: none of them imports another.
 const STAGES: [&[&str]; 47] = [
     &["error"],
-    &["provenance", "wording", "number_format", "progress"],
+    &["provenance", "wording", "number_format", "progress", "numerics"],
     &["formula"],
     &["mechanism"],
     &["vehicles"],

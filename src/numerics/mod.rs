@@ -1,0 +1,3 @@
+//! Methods of numerical mathematics that know nothing of vehicles.
+
+pub mod levenberg_marquardt;

@@ -1,7 +1,7 @@
 //! An effect that stands in a model, with its values.
 
 use super::course::SINCE;
-use super::effect::INPUT;
+use super::effect::{INPUT, INPUT_RATE};
 use super::{Effect, Scope};
 use crate::formula::{Expr, Symbol};
 use std::collections::BTreeMap;
@@ -89,6 +89,7 @@ impl Applied {
         let own = |s: &str| self.effect.parameters.contains_key(s) || self.effect.states.contains_key(s);
         formula.substitute(&|s| match s.as_str() {
             INPUT => self.effect.on.as_deref().map(Expr::sym),
+            INPUT_RATE => self.effect.on.as_deref().map(|role| Expr::sym(Symbol::new(role).rate())),
             SINCE if self.effect.course.is_some() => Some(Expr::sym(self.symbol(SINCE))),
             name => own(name).then(|| Expr::sym(self.symbol(name))),
         })

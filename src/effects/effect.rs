@@ -128,6 +128,8 @@ fn neutral_start() -> Vec<f64> {
 
 /// What stands for an input: as a unit its unit, in a formula the logged value.
 pub(super) const INPUT: &str = "input";
+/// What stands for the rate of an input.
+pub(super) const INPUT_RATE: &str = "input'";
 /// What stands for an input among the definitions that an effect changes.
 const INPUT_PATTERN: &str = "{input}";
 

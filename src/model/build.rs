@@ -103,7 +103,7 @@ impl Model {
         }
         let stands = |s: &str| match s {
             "it" | TIME => true,
-            "input" => e.on.is_some(),
+            "input" | "input'" => e.on.is_some(),
             "since" => e.course.is_some(),
             _ => false,
         };

@@ -27,6 +27,12 @@ const TOGETHER: usize = 8;
 const TRIED_PER_BLOCK: usize = 10;
 /// Of these so many are fitted.
 const TRIED: usize = 2 * FINALISTS;
+/// And of one kind of scope so many.
+const OF_A_KIND: usize = 2;
+/// Two fits whose criteria differ by no more say the same.
+const SAME: f64 = 1.0;
+/// The effort of a fit by which scopes are compared.
+const QUICK: Effort = Effort { passes: 3, ..Effort::SCREENING };
 /// The steps by which the numbers of a scope are moved: shares of a window, or of a fifth of their size.
 const STEPS: [f64; 4] = [1.0, 0.4, 0.15, 0.05];
 /// Steps of one number one way, at most.
@@ -91,7 +97,8 @@ impl Search<'_> {
             let is_second = partial(&found.fit).next().is_some();
             let mut trail = [&steps[..], &[(label, fit.model.clone())]].concat();
             let fit = self.eliminate_backward(fit, self.margin())?;
-            let more = self.grown(&fit, progress)?;
+            // What is explained to its noise needs nothing beside.
+            let more = if remains(&fit) { self.grown(&fit, progress)? } else { SearchState::from(&fit) };
             trail.extend(more.steps);
             if is_second && remains(&more.fit) {
                 break;
@@ -122,18 +129,40 @@ impl Search<'_> {
         let cost = |a: &Applied| (a.values.len() + a.effect.scope.as_ref().map_or(0, |s| s.cost())) as f64 * n.ln();
         let worth = |p: &ScoreTest| rounded(p.deviance + cost(&p.applied));
         weighed.sort_by(|a, b| worth(a).total_cmp(&worth(b)).then(place(&a.applied).cmp(&place(&b.applied))));
-        let tried = weighed.iter().take(TRIED).collect::<Vec<_>>().into_par_iter();
-        let fits = tried.map(|promise| self.in_part(base, promise, margin)).collect::<Result<Vec<_>>>()?;
+        let fits = of_each_kind(&weighed).into_par_iter().map(|promise| self.in_part(base, promise, margin)).collect::<Result<Vec<_>>>()?;
         let mut fits: Vec<(Applied, Fit)> = fits.into_iter().flatten().collect();
         let n = fits.iter().map(|(_, f)| f.sample_size).fold(n, f64::max);
         fits.sort_by(|(a, f), (b, g)| rounded(bic(f, n)).total_cmp(&rounded(bic(g, n))).then(place(a).cmp(&place(b))));
         let worse = |fit: &Fit| self.problem.predicts_worse(fit, base);
         for (own, fit) in fits {
             if !worse(&fit)? {
-                return Ok(Some((own.label(), fit)));
+                let fit = self.named_first(base, &own, fit, &weighed)?;
+                let label = partial(&fit).last().map_or_else(|| own.label(), Applied::label);
+                return Ok(Some((label, fit)));
             }
         }
         Ok(None)
+    }
+
+    /// The fit with the first effect of the library that says the same in the same scope.
+    fn named_first(&self, base: &Fit, own: &Applied, fit: Fit, weighed: &[ScoreTest]) -> Result<Fit> {
+        let Some(scope) = &own.effect.scope else { return Ok(fit) };
+        let mut rivals: Vec<Applied> = vec![];
+        for promise in weighed.iter().map(|p| &p.applied).filter(|a| place(a) < place(own)) {
+            if promise.values.len() == own.values.len() && !rivals.iter().any(|r| r.same_as(promise)) {
+                rivals.push(Applied { effect: promise.effect.within(scope.clone()), ..promise.clone() });
+            }
+        }
+        rivals.sort_by_key(place);
+        for rival in rivals {
+            let model = base.model.clone().with_effect(rival);
+            let other = self.problem.fit(&model, &fit.window_states, &fit.variances, Effort::FULL)?;
+            let n = fit.sample_size;
+            if let Some(other) = other.filter(|o| rounded(bic(o, n)) <= rounded(bic(&fit, n)) + SAME) {
+                return Ok(other);
+            }
+        }
+        Ok(fit)
     }
 
     /// The fit with an effect in part, the numbers of its scope moved to where they explain most; `None` where it is not
@@ -186,8 +215,8 @@ impl Search<'_> {
         let Some(scope) = scope.moved(&numbers) else { return Ok(None) };
         own.effect.scope = Some(scope);
         let model = best.model.clone().with_effect(own);
-        let fit = self.problem.fit(&model, &best.window_states, &best.variances, Effort::SCREENING)?;
-        Ok(fit.filter(|fit| fit.deviance < best.deviance - Effort::SCREENING.enough))
+        let fit = self.problem.fit(&model, &best.window_states, &best.variances, QUICK)?;
+        Ok(fit.filter(|fit| fit.deviance < best.deviance - QUICK.enough))
     }
 
     /// Effects with the scopes and courses by which they promise most.
@@ -256,6 +285,21 @@ impl Search<'_> {
         }
         Ok(found)
     }
+}
+
+/// The most promising candidates, a few of each kind of scope.
+fn of_each_kind(weighed: &[ScoreTest]) -> Vec<&ScoreTest> {
+    let mut found: Vec<&ScoreTest> = vec![];
+    for promise in weighed {
+        let alike = |a: &&&ScoreTest| match (&a.applied.effect.scope, &promise.applied.effect.scope) {
+            (Some(a), Some(b)) => a.is_like(b),
+            (a, b) => a.is_none() == b.is_none(),
+        };
+        if found.len() < TRIED && found.iter().filter(alike).count() < OF_A_KIND {
+            found.push(promise);
+        }
+    }
+    found
 }
 
 /// The effects of a fit that hold in part, and have a name.

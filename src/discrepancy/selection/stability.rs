@@ -3,6 +3,7 @@
 //! A model that misses a law is wrong, and then the formal evidence for whatever stands in for that law is large: each
 //! run is imitated by other values of it. What is there has the same value in all runs.
 
+use super::scopes::is_partial;
 use super::search::{Search, SearchState};
 use super::unnamed_terms;
 use crate::discrepancy::estimation::fit::Fit;
@@ -86,7 +87,9 @@ impl Stable {
 
 /// The effect that stands out least, of those that do not stand out; one without a name before one that has one.
 fn least_shared(fit: &Fit, scatter: &Jackknife) -> Option<Applied> {
-    let ranked = fit.model.free_effects().map(|e| (!is_term(e), scatter.shows(fit, e), e));
+    // What holds in part is told by that part; it has paid for being sought.
+    let whole = fit.model.free_effects().filter(|e| !is_partial(e));
+    let ranked = whole.map(|e| (!is_term(e), scatter.shows(fit, e), e));
     let inconsistent = ranked.filter(|(_, shows, _)| *shows < 1.0);
     inconsistent.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))).map(|(_, _, e)| e.clone())
 }

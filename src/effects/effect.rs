@@ -34,6 +34,9 @@ pub struct Effect {
     /// size and its starts are shares of the input's own size.
     #[serde(default)]
     pub per_input: bool,
+    /// Whether it may act on one input, too, and not on all of them alike.
+    #[serde(default)]
+    pub input_optional: bool,
     /// Whether it is of inputs that come in steps alone.
     #[serde(default)]
     pub coarse: bool,
@@ -133,6 +136,16 @@ pub(super) const INPUT_RATE: &str = "input'";
 /// What stands for an input among the definitions that an effect changes.
 const INPUT_PATTERN: &str = "{input}";
 
+/// The definition by which all inputs are late.
+const DELAY: &str = "delay";
+/// What stands for the delay of one input among the definitions that an effect changes.
+const DELAY_PATTERN: &str = "{delay}";
+
+/// The definition by which one input is late, beside what all of them are.
+pub fn delaying(role: &str) -> Symbol {
+    Symbol::new(&format!("{role}.delay"))
+}
+
 /// The definition of an input as it acts, after the effects on it.
 pub fn acting(role: &str) -> Symbol {
     Symbol::new(&format!("{role}.acting"))
@@ -156,10 +169,14 @@ impl Effect {
     /// ```
     pub fn on_input(&self, role: &str, unit: &str, size: f64) -> Self {
         let mut effect = self.clone();
-        if !self.per_input {
+        if !self.per_input && !self.input_optional {
             return effect;
         }
         effect.on = Some(role.to_string());
+        if let Some(formula) = effect.changes.remove(DELAY).filter(|_| self.input_optional) {
+            effect.place = INPUT.into();
+            effect.changes.insert(DELAY_PATTERN.into(), formula);
+        }
         for p in effect.parameters.values_mut().filter(|p| p.unit == INPUT) {
             p.unit = unit.to_string();
             p.size *= size;
@@ -201,7 +218,10 @@ impl Effect {
                 None => pattern.clone(),
             };
             let pattern = match &self.on {
-                Some(role) => pattern.replace(INPUT_PATTERN, acting(role).as_str()),
+                Some(role) => {
+                    let own = pattern.replace(DELAY_PATTERN, delaying(role).as_str());
+                    own.replace(INPUT_PATTERN, acting(role).as_str())
+                }
                 None => pattern,
             };
             let before = found.len();

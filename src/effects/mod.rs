@@ -8,8 +8,8 @@ mod scope;
 
 pub use applied::Applied;
 pub use course::Course;
-pub(crate) use effect::acting;
 pub use effect::{Effect, Parameter, State};
+pub(crate) use effect::{acting, delaying};
 pub use scope::{DrivingRegime, Scope};
 
 use std::sync::LazyLock;

@@ -99,7 +99,9 @@ impl Scope {
             Self::Regime(regime) => step(regime.row().2),
             Self::Above(_) => step("abs(v_0) - above"),
             Self::Disk(_) => step("radius^2 - (x - x_0)^2 - (y - y_0)^2"),
-            Self::Where(positive) => parsed("heaviside(it)").substitute(&|s| (s.as_str() == "it").then(|| positive.clone())),
+            Self::Where(positive) => {
+                parsed("heaviside(it)").substitute(&|s| (s.as_str() == "it").then(|| positive.clone()))
+            }
         }
     }
 
@@ -202,9 +204,7 @@ impl fmt::Display for Scope {
             _ => format!("from {} to {} s", short(*from), short(*until)),
         };
         match self {
-            Self::Times(intervals) => {
-                f.write_str(&intervals.iter().map(one).collect::<Vec<_>>().join(" and "))
-            }
+            Self::Times(intervals) => f.write_str(&intervals.iter().map(one).collect::<Vec<_>>().join(" and ")),
             Self::Regime(DrivingRegime::Forward) => f.write_str("forward"),
             Self::Regime(DrivingRegime::Reverse) => f.write_str("in reverse"),
             Self::Regime(DrivingRegime::Left) => f.write_str("in left turns"),

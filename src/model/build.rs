@@ -1,10 +1,10 @@
 //! The definitions of a model: constraints solved for the motion, effects applied.
 
 use super::constraints::{behind, section_heading, trailer_creep, trailer_direction, trailer_lengths};
+use super::reference_speeds::REFERENCE;
 use super::trailer::trailer_heading;
 use super::vehicle_model::Model;
-use super::reference_speeds::REFERENCE;
-use crate::effects::{Applied, Effect, acting};
+use crate::effects::{Applied, Effect, acting, delaying};
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Definitions, Velocity, solve};
@@ -80,8 +80,9 @@ impl Model {
         let logged = e.needs.iter().all(|role| self.vehicle.inputs.contains_key(role));
         let found = match &e.on {
             Some(role) if self.inputs.contains(role) => {
-                let known = names.iter().filter(|n| **n != acting(role)).cloned();
-                e.targets(&known.chain([acting(role)]).collect::<Vec<_>>(), trailer)
+                let own = [acting(role), delaying(role)];
+                let known = names.iter().filter(|n| !own.contains(n)).cloned();
+                e.targets(&known.chain(own.clone()).collect::<Vec<_>>(), trailer)
             }
             Some(_) => None,
             None => e.targets(names, trailer),
@@ -273,6 +274,7 @@ fn define_acting(role: &str, d: &mut Definitions) {
         d.define(name, formula.substitute(&|s| (*s == logged).then(|| Expr::sym(acts.clone()))));
     }
     d.define(acts, Expr::sym(logged));
+    d.define(delaying(role), Expr::int(0));
 }
 
 /// The velocity of the reference point (zero) or of a trailer's axle, by the names of its components.

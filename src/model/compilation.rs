@@ -4,7 +4,7 @@ use super::build::TIME;
 use super::equations::{Derived, Equations};
 use super::vehicle_model::Model;
 use super::{observation, state};
-use crate::effects::Scope;
+use crate::effects::{Scope, delaying};
 use crate::error::{Error, Result};
 use crate::formula::{Changes, Expr, Graph, Lanes, NodeId, Program, Symbol};
 use crate::mechanism::Definitions;
@@ -133,8 +133,11 @@ impl Model {
         let measured: Vec<NodeId> = outputs.map(|y| graph.insert(&Expr::sym(y.symbol()))).collect();
         let measured = with_derivatives(&mut graph, &measured, &[&states[..visible], free].concat());
         let outputs = compile(&graph, &measured)?;
-        let delay = graph.insert(&Expr::sym("delay"));
-        let delay = with_derivatives(&mut graph, &[delay], free);
+        let own = |role: &String| definitions.get(&delaying(role)).filter(|f| !f.is_zero()).cloned();
+        let own_delays = if self.inputs.iter().any(|role| own(role).is_some()) { self.inputs.len() } else { 0 };
+        let own = self.inputs.iter().take(own_delays).map(|role| own(role).unwrap_or_default());
+        let delays: Vec<NodeId> = [Expr::sym("delay")].into_iter().chain(own).map(|f| graph.insert(&f)).collect();
+        let delay = with_derivatives(&mut graph, &delays, free);
         let delay = compile(&graph, &delay)?;
         let constants = values.into_iter().map(|(_, v)| v).collect();
         let whole = Equations {
@@ -150,6 +153,7 @@ impl Model {
             live: read,
             outputs,
             delay,
+            own_delays,
             carried: None,
         };
         let carried = carried.map(|(live, jacobian)| Box::new(Equations { live, jacobian, ..whole.clone() }));

@@ -31,6 +31,8 @@ pub struct Equations {
     pub(super) live: Vec<usize>,
     pub(super) outputs: Lanes,
     pub(super) delay: Lanes,
+    /// How many inputs have a delay of their own beside that of all: none, or all that are logged.
+    pub(crate) own_delays: usize,
     /// The motion of the hidden states alone, where it does not ask for the pose.
     pub(super) carried: Option<Box<Equations>>,
 }
@@ -242,7 +244,7 @@ impl Equations {
         &w.results[..self.outputs.outputs()]
     }
 
-    /// The delay of the inputs, s, followed by its derivatives with respect to p.
+    /// The delay of all inputs, s, those that each has beside it, and their derivatives with respect to p, row by row.
     pub fn delay<'w>(&self, w: &'w mut Workspace) -> &'w [f64] {
         self.delays(w).as_flattened()
     }

@@ -76,6 +76,7 @@ fn known_effect(e: &Effect) -> KnownEffect {
         parameters: e.parameters.iter().map(parameter).collect(),
         per_trailer: e.per_trailer,
         per_input: e.per_input,
+        input_optional: e.input_optional,
     }
 }
 

@@ -249,7 +249,8 @@ fn term(target: &Target, factors: &[&Factor], symbols: &Symbols, model: &Model) 
     let logged = model.vehicle.input_that(Moves::Yaw).is_some();
     let steered = model.vehicle.input_that(Moves::Steering).is_some();
     let taken = NAMED.contains(&(target.definition, name.as_str()))
-        || (target.definition == "phi'" && (logged && (name == "constant" || name == "v") || steered && name == "v2-yaw"));
+        || (target.definition == "phi'"
+            && (logged && (name == "constant" || name == "v") || steered && name == "v2-yaw"));
     // The effects that have these names speak of vehicles that move.
     if taken && !model.vehicle.stays() {
         return None;

@@ -1,6 +1,6 @@
 //! Simulation of a model under given inputs, as the table a logger would write.
 
-use super::trajectory::{all_inputs, simulate_by};
+use super::trajectory::{all_inputs, delays, simulate_by};
 use super::{Drive, Integrator, initial_hidden, visible_state};
 use crate::error::{Error, Result};
 use crate::formula::{Graph, Program, Symbol};
@@ -75,10 +75,10 @@ pub fn simulate_model(
         return Err(Error::input(format!("{given} inputs are given, the model has {wanted}")));
     }
     let mut w = equations.workspace(&[]);
-    let delay = equations.delay(&mut w)[0];
+    let (delay, own) = delays(&equations, equations.delay(&mut w));
     let at = |t: f64| {
         let (mut u, mut slope) = (vec![0.0; equations.inputs.len()], vec![0.0; equations.inputs.len()]);
-        all_inputs(&equations, inputs, t - delay, &mut u, &mut slope);
+        all_inputs(&equations, inputs, t - delay, &own, &mut u, &mut slope);
         u
     };
     let mut z0 = visible_state(&equations, &[], start)?;

@@ -55,12 +55,12 @@ pub(crate) fn simulate_by(
 ) -> Result<()> {
     fits(equations, p, inputs, z0)?;
     let mut w = equations.workspace(p);
-    let delay = equations.delay(&mut w)[0];
-    let knots = knots(equations, inputs, delay);
-    if !equations.derived.is_empty() {
+    let (delay, own) = delays(equations, equations.delay(&mut w));
+    let knots = knots(equations, inputs, delay, &own);
+    if !equations.derived.is_empty() || !own.is_empty() {
         let (mut u, mut slope) = (vec![0.0; equations.inputs.len()], vec![0.0; equations.inputs.len()]);
         let rhs = |look_up: f64, z: &[f64], rates: &mut [f64]| {
-            all_inputs(equations, inputs, look_up, &mut u, &mut slope);
+            all_inputs(equations, inputs, look_up, &own, &mut u, &mut slope);
             equations.rates(&mut w, z, &u, rates);
         };
         return Route { knots: &knots, delay, start: z0, times }.follow(integrator, rhs, Differences, see);
@@ -111,13 +111,17 @@ pub fn with_sensitivities(
     fits(equations, p, inputs, z0)?;
     let (n, m, parameters) = (equations.n(), equations.inputs.len(), p.len());
     let mut w = equations.workspace(p);
-    let (delay, delay_by_p) = match equations.delay(&mut w) {
-        [delay, by_p @ ..] => (*delay, by_p.to_vec()),
-        [] => (0.0, vec![0.0; parameters]),
+    let all_delays = equations.delay(&mut w).to_vec();
+    let (delay, own) = delays(equations, &all_delays);
+    // The derivatives of each input's whole delay, row by row.
+    let by_p = &all_delays[1 + own.len()..];
+    let delay_by_p = |c: usize, q: usize| {
+        let beside = if c < own.len() { by_p[(1 + c) * parameters + q] } else { 0.0 };
+        by_p[q] + beside
     };
     let (mut u, mut slope) = (vec![0.0; m], vec![0.0; m]);
     let rhs = |look_up: f64, y: &[f64], rates: &mut [f64]| {
-        all_inputs(equations, inputs, look_up, &mut u, &mut slope);
+        all_inputs(equations, inputs, look_up, &own, &mut u, &mut slope);
         let (z, s) = y.split_at(n);
         let (f, jacobian) = equations.rates_and_jacobian(&mut w, z, &u).split_at(n);
         let (rates, s_rates) = rates.split_at_mut(n);
@@ -125,16 +129,18 @@ pub fn with_sensitivities(
         for (i, row) in jacobian.chunks_exact(n + m + parameters).enumerate() {
             let (by_z, rest) = row.split_at(n);
             let (by_u, by_p) = rest.split_at(m);
-            let along_inputs = dot(by_u, &slope);
+            let along_inputs = |q: usize| -> f64 {
+                by_u.iter().zip(&slope).enumerate().map(|(c, (by, slope))| by * slope * delay_by_p(c, q)).sum()
+            };
             for (c, column) in s.chunks_exact(n).enumerate() {
-                let forced = if c < n { 0.0 } else { by_p[c - n] - along_inputs * delay_by_p[c - n] };
+                let forced = if c < n { 0.0 } else { by_p[c - n] - along_inputs(c - n) };
                 s_rates[c * n + i] = dot(by_z, column) + forced;
             }
         }
     };
     let identity = DMatrix::<f64>::identity(n, n + parameters);
     let y0 = [z0, identity.as_slice()].concat();
-    let knots = knots(equations, inputs, delay);
+    let knots = knots(equations, inputs, delay, &own);
     let route = Route { knots: &knots, delay, start: &y0, times };
     let rows = kept(times, |see| route.follow(integrator, rhs, Differences, see))?;
     let split = |y: Vec<f64>| (y[..n].to_vec(), DMatrix::from_column_slice(n, n + parameters, &y[n..]));
@@ -159,9 +165,23 @@ fn fits(equations: &Equations, p: &[f64], inputs: &impl Drive, z0: &[f64]) -> Re
 
 /// All inputs that equations ask for, and their slopes: those logged, and what is derived from them. The slope of a rate
 /// is left out: it is asked for by a delay that is free alone.
-pub(crate) fn all_inputs(equations: &Equations, inputs: &impl Drive, t: f64, value: &mut [f64], slope: &mut [f64]) {
+///
+/// `own` are the delays that inputs have beside that of all.
+pub(crate) fn all_inputs(
+    equations: &Equations,
+    inputs: &impl Drive,
+    t: f64,
+    own: &[f64],
+    value: &mut [f64],
+    slope: &mut [f64],
+) {
     let logged = equations.logged();
     inputs.at(t, &mut value[..logged], &mut slope[..logged]);
+    let (mut u, mut along) = (vec![0.0; own.len()], vec![0.0; own.len()]);
+    for (c, delay) in own.iter().enumerate().filter(|(_, delay)| **delay != 0.0) {
+        inputs.at(t - delay, &mut u, &mut along);
+        (value[c], slope[c]) = (u[c], along[c]);
+    }
     for (k, derived) in equations.derived.iter().enumerate() {
         (value[logged + k], slope[logged + k]) = match derived {
             Derived::Time => (t, 1.0),
@@ -170,11 +190,17 @@ pub(crate) fn all_inputs(equations: &Equations, inputs: &impl Drive, t: f64, val
     }
 }
 
+/// The delay of all inputs, and those that each has beside it, from what [`Equations::delay`] gives.
+pub(crate) fn delays(equations: &Equations, all: &[f64]) -> (f64, Vec<f64>) {
+    (all[0], all[1..1 + equations.own_delays].to_vec())
+}
+
 /// Where the inputs are not smooth, and where effects begin and end, at the times at which inputs are looked up.
-fn knots(equations: &Equations, inputs: &impl Drive, delay: f64) -> Vec<f64> {
+fn knots(equations: &Equations, inputs: &impl Drive, delay: f64, own: &[f64]) -> Vec<f64> {
     let edges = equations.edges.iter().map(|t| t - delay);
-    let mut all: Vec<f64> = inputs.knots().iter().copied().chain(edges).collect();
-    if !equations.edges.is_empty() {
+    let late = own.iter().filter(|d| **d != 0.0).flat_map(|d| inputs.knots().iter().map(move |k| k + d));
+    let mut all: Vec<f64> = inputs.knots().iter().copied().chain(edges).chain(late).collect();
+    if all.len() > inputs.knots().len() {
         all.sort_by(f64::total_cmp);
         all.dedup();
     }

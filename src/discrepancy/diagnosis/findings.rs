@@ -19,11 +19,14 @@ pub(crate) fn estimates(a: &Applied, std: &[Option<f64>]) -> BTreeMap<String, Es
     let std = |i: usize| std.get(i).copied().flatten();
     let values = a.effect.parameters.iter().zip(&a.values).enumerate();
     let mut parameters: BTreeMap<String, Estimate> = values
-        .map(|(i, ((name, p), value))| (name.clone(), Estimate { value: *value, std: std(i), unit: p.unit.clone(), course: None }))
+        .map(|(i, ((name, p), value))| {
+            (name.clone(), Estimate { value: *value, std: std(i), unit: p.unit.clone(), course: None })
+        })
         .collect();
     if let Some(course) = &a.effect.course {
         let moving = parameters.remove(&course.rate());
-        let moving = moving.map(|m| CourseFound { kind: LINEAR.into(), per_s: m.value, std: m.std, since: course.since });
+        let moving =
+            moving.map(|m| CourseFound { kind: LINEAR.into(), per_s: m.value, std: m.std, since: course.since });
         parameters.entry(course.parameter.clone()).and_modify(|p| p.course = moving);
     }
     if let Some(i) = a.trailer {

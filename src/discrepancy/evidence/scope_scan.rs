@@ -83,9 +83,8 @@ impl BlockScores {
         }
         let (information, gradient) = joined.normal();
         let (known, open) = (0..kept.len(), kept.len()..kept.len() + wide);
-        let part = |r: &Range<usize>, c: &Range<usize>| {
-            information.view((r.start, c.start), (r.len(), c.len())).into_owned()
-        };
+        let part =
+            |r: &Range<usize>, c: &Range<usize>| information.view((r.start, c.start), (r.len(), c.len())).into_owned();
         let (mut a, mut g) = (part(&open, &open), gradient.rows(open.start, wide).into_owned());
         if !known.is_empty() {
             let mut corner = part(&known, &known);

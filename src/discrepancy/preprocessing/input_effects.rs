@@ -14,10 +14,12 @@ const BEYOND: f64 = 0.01;
 pub(crate) fn on_inputs(library: &[Effect], model: &Model, runs: &[Run]) -> Vec<Effect> {
     let mut found: Vec<Effect> = vec![];
     for effect in library {
-        match effect.per_input {
-            true => found.extend(model.inputs.iter().filter_map(|role| on_input(effect, role, model, runs))),
-            false => found.push(effect.clone()),
+        if !effect.per_input {
+            found.push(effect.clone());
         }
+        let one_alone = effect.per_input || effect.input_optional && model.inputs.len() > 1;
+        let roles = model.inputs.iter().filter(|_| one_alone);
+        found.extend(roles.filter_map(|role| on_input(effect, role, model, runs)));
     }
     found
 }
@@ -37,7 +39,8 @@ fn column<'r>(run: &'r Run, role: &str) -> Option<&'r [f64]> {
 
 /// The size that all but a few of the values of an input stay below.
 fn size(columns: &[&[f64]]) -> f64 {
-    let mut sizes: Vec<f64> = columns.iter().flat_map(|c| c.iter()).map(|u| u.abs()).filter(|u| u.is_finite()).collect();
+    let mut sizes: Vec<f64> =
+        columns.iter().flat_map(|c| c.iter()).map(|u| u.abs()).filter(|u| u.is_finite()).collect();
     sizes.sort_by(f64::total_cmp);
     let at = ((1.0 - BEYOND) * sizes.len() as f64) as usize;
     sizes.get(at.min(sizes.len().saturating_sub(1))).copied().unwrap_or(0.0)

@@ -3,8 +3,8 @@
 pub(crate) mod clock_jumps;
 pub(crate) mod dataset;
 pub(crate) mod dead_reckoning;
-pub(crate) mod motion_ratios;
 pub(crate) mod input_effects;
+pub(crate) mod motion_ratios;
 pub mod outliers;
 pub(crate) mod prepared_run;
 pub(crate) mod quantisation;

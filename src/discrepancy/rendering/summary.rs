@@ -1,6 +1,8 @@
 //! The report on one screen of a terminal, and the sentences every form of the report shares.
 
-use crate::discrepancy::report::{BeforeAfter, CourseFound, Estimate, Gap, Named, Report, Rival, RunClock, Unnamed, Verdict};
+use crate::discrepancy::report::{
+    BeforeAfter, CourseFound, Estimate, Gap, Named, Report, Rival, RunClock, Unnamed, Verdict,
+};
 use crate::discrepancy::report::{judged, judged_alike};
 use crate::number_format::{decimals, plain, prefixed, significant, with_error};
 use crate::picture::svg::cut;

@@ -129,7 +129,11 @@ impl BlockRows {
                 let shares: Vec<f64> = self.times.iter().map(open).collect();
                 let ends = if late { [t, f64::INFINITY] } else { [f64::NEG_INFINITY, t] };
                 let some = shares.iter().any(|s| *s > 0.0) && shares.contains(&0.0);
-                some.then(|| Proposal { scope: Scope::Times(vec![ends]), gain: scores.gain(&shares), of: self.times.len() })
+                some.then(|| Proposal {
+                    scope: Scope::Times(vec![ends]),
+                    gain: scores.gain(&shares),
+                    of: self.times.len(),
+                })
             };
             best(self.times.iter().filter_map(|[from, _]| at(*from)).collect())
         };
@@ -163,7 +167,8 @@ impl BlockRows {
     fn above_speed(&self, scores: &BlockScores) -> Vec<Proposal> {
         let bounds = self.quantiles(|r| r.speed.abs());
         let tried = bounds.iter().filter(|b| **b > 0.0);
-        let above = |b: &f64| self.proposal(scores, &|r| r.speed.abs() > *b, Scope::Above(rounded(*b)), QUANTILES.len());
+        let above =
+            |b: &f64| self.proposal(scores, &|r| r.speed.abs() > *b, Scope::Above(rounded(*b)), QUANTILES.len());
         best(tried.filter_map(above).collect())
     }
 
@@ -186,7 +191,8 @@ impl BlockRows {
         let side = |k: usize| all().map(move |p| p[k]);
         let extent = |k: usize| side(k).fold(f64::NEG_INFINITY, f64::max) - side(k).fold(f64::INFINITY, f64::min);
         let extent = extent(0).max(extent(1));
-        let centres: Vec<[f64; 2]> = self.rows.iter().filter_map(|rows| rows.get(rows.len() / 2)).map(|r| r.place).collect();
+        let centres: Vec<[f64; 2]> =
+            self.rows.iter().filter_map(|rows| rows.get(rows.len() / 2)).map(|r| r.place).collect();
         let of = centres.len() * RADII.len();
         let disk = |[x, y]: [f64; 2], radius: f64| {
             let open = |r: &Row| (r.place[0] - x).hypot(r.place[1] - y) < radius;

@@ -44,11 +44,7 @@ const STAMP: f64 = 1e4;
 ///
 /// A scope is one of many, so it must do more: its ends, centre and bound count as parameters, and what it gains must
 /// exceed what the best of all that were tried gains by chance.
-pub(crate) fn search(
-    selection: &Search,
-    named: &SearchState,
-    progress: &OnProgress,
-) -> Result<Option<SearchState>> {
+pub(crate) fn search(selection: &Search, named: &SearchState, progress: &OnProgress) -> Result<Option<SearchState>> {
     if !is_wanted(&named.fit) {
         return Ok(None);
     }
@@ -129,7 +125,10 @@ impl Search<'_> {
         let cost = |a: &Applied| (a.values.len() + a.effect.scope.as_ref().map_or(0, |s| s.cost())) as f64 * n.ln();
         let worth = |p: &ScoreTest| rounded(p.deviance + cost(&p.applied));
         weighed.sort_by(|a, b| worth(a).total_cmp(&worth(b)).then(place(&a.applied).cmp(&place(&b.applied))));
-        let fits = of_each_kind(&weighed).into_par_iter().map(|promise| self.in_part(base, promise, margin)).collect::<Result<Vec<_>>>()?;
+        let fits = of_each_kind(&weighed)
+            .into_par_iter()
+            .map(|promise| self.in_part(base, promise, margin))
+            .collect::<Result<Vec<_>>>()?;
         let mut fits: Vec<(Applied, Fit)> = fits.into_iter().flatten().collect();
         let n = fits.iter().map(|(_, f)| f.sample_size).fold(n, f64::max);
         fits.sort_by(|(a, f), (b, g)| rounded(bic(f, n)).total_cmp(&rounded(bic(g, n))).then(place(a).cmp(&place(b))));
@@ -188,7 +187,9 @@ impl Search<'_> {
     fn with_scope_moved(&self, fit: &Fit, of: &Applied) -> Result<Fit> {
         let mut best = self.problem.fit(&fit.model, &fit.window_states, &fit.variances, Effort::SCREENING)?;
         for share in STEPS {
-            let Some(scope) = best.as_ref().and_then(|b| find(&b.model, of)).and_then(|a| a.effect.scope) else { break };
+            let Some(scope) = best.as_ref().and_then(|b| find(&b.model, of)).and_then(|a| a.effect.scope) else {
+                break;
+            };
             for k in 0..scope.movable().len() {
                 for sign in [1.0, -1.0] {
                     for _ in 0..MOST_STEPS {
@@ -232,7 +233,8 @@ impl Search<'_> {
         let rows = BlockRows::of(self.problem, model, &blocks)?;
         let groups: Vec<&[(&Effect, Option<usize>)]> = open.chunks(TOGETHER).collect();
         let of_group = |group: &&[(&Effect, Option<usize>)]| self.scopes_of(base, group, &blocks, &rows);
-        let all: Vec<Vec<(Effect, Option<usize>, Proposal)>> = groups.par_iter().map(of_group).collect::<Result<_>>()?;
+        let all: Vec<Vec<(Effect, Option<usize>, Proposal)>> =
+            groups.par_iter().map(of_group).collect::<Result<_>>()?;
         let mut all: Vec<(Effect, Option<usize>, Proposal)> = all.into_iter().flatten().collect();
         let n = base.sample_size;
         let worth = |(e, _, p): &(Effect, Option<usize>, Proposal)| {
@@ -269,8 +271,7 @@ impl Search<'_> {
         let free = joint.free_parameters();
         let equations = joint.equations(&free)?;
         let problem = self.problem;
-        let linear =
-            linearise(&equations, &joint.free_values(), &problem.records, &problem.plan, &base.window_states);
+        let linear = linearise(&equations, &joint.free_values(), &problem.records, &problem.plan, &base.window_states);
         let Some(linear) = linear else { return Ok(vec![]) };
         let position = |s: &crate::formula::Symbol| free.iter().position(|f| f == s);
         let columns = |a: &Applied| a.parameters().iter().filter_map(position).collect::<Vec<usize>>();

@@ -3,8 +3,8 @@
 use super::candidates::FINALISTS;
 use super::input_sampling::{InputSampling, keep_sampled};
 use super::refusals::Standing;
-use super::search::{MOST, Search, SearchState, find};
 use super::scopes;
+use super::search::{MOST, Search, SearchState, find};
 use super::stability;
 use super::stability::Stable;
 use super::transients;

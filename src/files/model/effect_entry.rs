@@ -72,12 +72,13 @@ fn read_entry(section: &Section, known: &Known, trailers: usize, inputs: &[&Know
     let id = section.need("id", "id = \"…\"; `creepage effects` lists the ids")?;
     let effect = find(&id, known)?;
     let mut keys = vec!["id", "scope", "course"];
-    keys.extend(effect.per_input.then_some("input"));
+    keys.extend((effect.per_input || effect.input_optional).then_some("input"));
     keys.extend(effect.per_trailer.then_some("trailer"));
     keys.extend(effect.parameters.iter().map(|p| p.name.as_str()));
     section.only(&keys)?;
     let trailer = if effect.per_trailer { Some(read_trailer(section, &id, trailers)?) } else { None };
-    let input = if effect.per_input { Some(read_input(section, &id, inputs)?) } else { None };
+    let named = effect.per_input || effect.input_optional && section.get("input").is_some();
+    let input = if named { Some(read_input(section, &id, inputs)?) } else { None };
     let mut parameters = BTreeMap::new();
     for parameter in &effect.parameters {
         parameters.insert(parameter.name.clone(), read_parameter(section, effect, parameter)?);
@@ -119,7 +120,8 @@ fn read_trailer(section: &Section, id: &Value, trailers: usize) -> Result<usize>
 }
 
 fn read_input(section: &Section, id: &Value, inputs: &[&KnownInput]) -> Result<String> {
-    let roles: Vec<&str> = inputs.iter().flat_map(|i| [Some(i.role.as_str()), i.instead.as_deref()]).flatten().collect();
+    let roles: Vec<&str> =
+        inputs.iter().flat_map(|i| [Some(i.role.as_str()), i.instead.as_deref()]).flatten().collect();
     if roles.is_empty() {
         return Err(id
             .error(format!("{} acts on an input, but this vehicle has none", id.text()?))

@@ -99,6 +99,8 @@ pub struct KnownEffect {
     pub per_trailer: bool,
     /// It acts on one input, named by the key `input`.
     pub per_input: bool,
+    /// It may act on one input, named by the key `input`.
+    pub input_optional: bool,
 }
 
 /// A parameter of an effect and the values it may take, bounds included.

@@ -1,6 +1,6 @@
 //! `[parameters]`: the lengths and other constants of the vehicle, and of the trailers it pulls.
 
-use super::known::{KnownInput, Known, KnownVehicle};
+use super::known::{Known, KnownInput, KnownVehicle};
 use crate::error::Result;
 use crate::files::toml::spanned_table::{Section, Value};
 use crate::files::toml::suggestions;

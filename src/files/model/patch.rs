@@ -206,9 +206,7 @@ fn scope(scope: &Scope) -> Value {
             several => one("intervals", Value::Array(several.iter().map(|ends| numbers(ends)).collect())),
         },
         Scope::Regime(regime) => one("regime", regime.name().into()),
-        Scope::Above(speed) => {
-            one("above", Value::InlineTable([("speed", spelled(*speed))].into_iter().collect()))
-        }
+        Scope::Above(speed) => one("above", Value::InlineTable([("speed", spelled(*speed))].into_iter().collect())),
         Scope::Disk(disk) => one("disk", numbers(disk)),
         Scope::Where(formula) => one("where", format!("{formula} > 0").into()),
     };

@@ -112,7 +112,9 @@ fn intervals(list: &Value) -> Result<Vec<[f64; 2]>> {
         ordered(&element, [from, until])?;
         if found.last().is_some_and(|[_, end]| from < *end) {
             let help = "intervals follow one another and do not overlap";
-            return Err(element.error(format!("the interval from {from:?} begins before the one before it ends")).help(help));
+            return Err(element
+                .error(format!("the interval from {from:?} begins before the one before it ends"))
+                .help(help));
         }
         found.push([from, until]);
     }

@@ -93,9 +93,10 @@ impl Ensemble {
             return Err(Error::input("times have to rise from the start on, and the error has to be positive"));
         }
         known(model, inputs, varied, wanted)?;
-        if model.effects.iter().any(|e| e.effect.scope.is_some() || e.effect.course.is_some()) {
-            return Err(Error::input("a sweep takes no effect with a scope or a course")
-                .help("leave `scope` and `course` out of the model, or simulate its cases one by one"));
+        if model.effects.iter().any(|e| e.effect.scope.is_some() || e.effect.course.is_some() || e.effect.on.is_some())
+        {
+            return Err(Error::input("a sweep takes no effect with a scope, a course or an input of its own")
+                .help("leave it out of the model, or simulate its cases one by one"));
         }
         let equations = LaneEquations::new(model, inputs, varied, None)?;
         Ok(Self {

@@ -1,7 +1,7 @@
 //! The variational equations S′ = J_z·S + J_p of several trajectories side by side.
 
 use super::states::{LaneStates, add};
-use crate::model::{Equations, Workspace};
+use crate::model::{Derived, Equations, Workspace};
 use crate::motion::Signals;
 use crate::motion::inputs::lane_lookup::Lookup;
 
@@ -13,6 +13,8 @@ pub(crate) struct VariationalEquations<'a, const L: usize> {
     lookup: Lookup<L>,
     delay: [f64; L],
     delay_slopes: Vec<[f64; L]>,
+    /// What inputs with delays of their own are at their own times.
+    own: Vec<OwnDelay<L>>,
     /// Whether parameters move the time at which inputs are looked up.
     delayed: bool,
     /// Rows of S before this one stay as they are.
@@ -21,6 +23,30 @@ pub(crate) struct VariationalEquations<'a, const L: usize> {
     pub first: usize,
     /// Which states each rate depends on.
     read_by: Vec<Vec<usize>>,
+}
+
+/// An input that is late by itself.
+struct OwnDelay<const L: usize> {
+    /// The places of what it gives among the inputs: its own, and that of its rate.
+    inputs: Vec<usize>,
+    delay: [f64; L],
+    slopes: Vec<[f64; L]>,
+    lookup: Lookup<L>,
+}
+
+/// The inputs that have delays of their own.
+fn own_delays<const L: usize>(equations: &Equations, signals: &Signals, delays: &[[f64; L]]) -> Vec<OwnDelay<L>> {
+    let (count, p) = (1 + equations.own_delays, equations.free.len());
+    let own = |c: usize| {
+        let of_rate = equations.derived.iter().position(|d| *d == Derived::Rate(c));
+        OwnDelay {
+            inputs: [Some(c), of_rate.map(|k| equations.logged() + k)].into_iter().flatten().collect(),
+            delay: delays[1 + c],
+            slopes: delays[count + (1 + c) * p..count + (2 + c) * p].to_vec(),
+            lookup: Lookup::new(signals, &equations.derived),
+        }
+    };
+    (0..equations.own_delays).map(own).collect()
 }
 
 impl<'a, const L: usize> VariationalEquations<'a, L> {
@@ -34,8 +60,9 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
             lookup: Lookup::new(signals, &equations.derived),
             workspace,
             delay: delay[0],
-            delay_slopes: delay[1..].to_vec(),
-            delayed: delay[1..].as_flattened().iter().any(|slope| *slope != 0.0),
+            delay_slopes: delay[1 + equations.own_delays..][..equations.free.len()].to_vec(),
+            own: own_delays(equations, signals, &delay),
+            delayed: delay[1 + equations.own_delays..].as_flattened().iter().any(|slope| *slope != 0.0),
             still: equations.still(),
             first: equations.unread(),
             read_by: equations.read_by(),
@@ -89,6 +116,15 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
             earlier[l] = t[l] - self.delay[l];
         }
         self.lookup.find(self.signals, &earlier);
+        for own in &mut self.own {
+            let mut then = earlier;
+            (0..L).for_each(|l| then[l] -= own.delay[l]);
+            own.lookup.find(self.signals, &then);
+            for i in &own.inputs {
+                self.lookup.value[*i] = own.lookup.value[*i];
+                self.lookup.slope[*i] = own.lookup.slope[*i];
+            }
+        }
     }
 
     /// z′ and S′, but for the rows and columns that stay as they are.
@@ -102,9 +138,9 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
         let (width, k) = (n + m + p, self.columns());
         let f = self.equations.jacobian_here(&mut self.workspace, z, &self.lookup.value);
         rate.z.copy_from_slice(&f[..n]);
-        for (i, read) in self.read_by.iter().enumerate().skip(self.still) {
-            let row = &f[n + i * width..n + (i + 1) * width];
-            let out = &mut rate.s[i * k + self.first..(i + 1) * k];
+        for (i_row, read) in self.read_by.iter().enumerate().skip(self.still) {
+            let row = &f[n + i_row * width..n + (i_row + 1) * width];
+            let out = &mut rate.s[i_row * k + self.first..(i_row + 1) * k];
             out.fill([0.0; L]);
             for j in read {
                 add(out, &row[*j], &s[j * k + self.first..(j + 1) * k]);
@@ -123,6 +159,16 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
             for ((out, by_p), delay_slope) in out.iter_mut().zip(by_p).zip(&self.delay_slopes) {
                 for l in 0..L {
                     out[l] += by_p[l] - along_inputs[l] * delay_slope[l];
+                }
+            }
+            for own in &self.own {
+                for i in &own.inputs {
+                    let (by_input, slope) = (&row[n + i], &self.lookup.slope[*i]);
+                    let mut along = [0.0; L];
+                    (0..L).for_each(|l| along[l] = -by_input[l] * slope[l]);
+                    for (out, delay_slope) in rate.s[(i_row + 1) * k - p..(i_row + 1) * k].iter_mut().zip(&own.slopes) {
+                        (0..L).for_each(|l| out[l] += along[l] * delay_slope[l]);
+                    }
                 }
             }
         }

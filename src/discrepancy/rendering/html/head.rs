@@ -135,7 +135,9 @@ mod tests {
 
     #[test]
     fn a_pure_number_has_no_unit() {
-        let told = |unit: &str| parameter("e_rc", &Estimate { value: 0.05, std: Some(0.001), unit: unit.into(), course: None });
+        let told = |unit: &str| {
+            parameter("e_rc", &Estimate { value: 0.05, std: Some(0.001), unit: unit.into(), course: None })
+        };
         let (number, length) = (told("1"), told("m"));
         assert!(number.starts_with("e_rc = 0.05") && !number.ends_with('1'), "{number}");
         assert_eq!(length, number + " m");

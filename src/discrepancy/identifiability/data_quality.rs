@@ -41,7 +41,7 @@ pub(crate) fn health(
         driving(model, record, rows(run, record, *left_out), noise)
     };
     let each: Vec<RunHealth> = runs.par_iter().zip(records).zip(left_out).map(one).collect::<Result<_>>()?;
-    let mut found = findings(&each, records);
+    let mut found = findings(model, &each, records);
     for run in runs {
         let reading = |says: &String| DataFinding::Reading { run: run.name.clone(), says: says.clone() };
         found.extend(run.warnings.iter().map(reading));
@@ -95,9 +95,9 @@ fn rows(run: &Run, record: &Record, left_out: LeftOut) -> RunHealth {
     }
 }
 
-fn findings(runs: &[RunHealth], records: &[Record]) -> Vec<DataFinding> {
+fn findings(model: &Model, runs: &[RunHealth], records: &[Record]) -> Vec<DataFinding> {
     let mut found: Vec<DataFinding> = runs.iter().flat_map(of_run).collect();
-    found.extend(turns(runs));
+    found.extend(turns(runs).filter(|_| !model.vehicle.line));
     found.extend(speeds(runs));
     found.extend(records.iter().all(|r| !r.has_heading()).then_some(DataFinding::NoHeading));
     found

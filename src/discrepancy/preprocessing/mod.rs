@@ -3,6 +3,8 @@
 pub(crate) mod clock_jumps;
 pub(crate) mod dataset;
 pub(crate) mod dead_reckoning;
+#[cfg(test)]
+mod generated_run;
 pub(crate) mod motion_ratios;
 pub mod outliers;
 pub(crate) mod prepared_run;

@@ -89,7 +89,8 @@ impl PoseRepair {
     pub fn all(has_heading: bool) -> Vec<(Self, u32)> {
         let units = [("mm", 1e-3), ("cm", 1e-2), ("ft", 0.3048)];
         let mut found: Vec<(Self, u32)> = units.map(|(name, metres)| (Self::PositionUnit(name, metres), 12)).to_vec();
-        found.push((Self::FromBelow, 11));
+        // Without a heading there is none to count clockwise.
+        found.push((if has_heading { Self::FromBelow } else { Self::AxisReversed(1) }, 11));
         if has_heading {
             found.extend([
                 (Self::HeadingTurned(PI), 11),

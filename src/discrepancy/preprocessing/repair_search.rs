@@ -101,22 +101,40 @@ impl Trial<'_> {
         tried.collect()
     }
 
-    /// Differences of what has any scale, such as counts, with the scale that fits.
+    /// Counts, cumulative or since the row before, which have any scale, with the scale that fits.
     fn scaled(&self, repairs: Vec<InputRepair>) -> Option<(Vec<InputRepair>, SignedRatios)> {
         let after = self.with(&repairs);
-        let is_count = |r: &InputRepair| matches!(r.change, Change::Difference(_)) && r.role.starts_with("wheel_rate");
-        let factor = after.way.or(after.turn)?.slope;
-        if !repairs.iter().all(is_count)
-            || (RIGHT[0]..RIGHT[1]).contains(&factor)
-            || !factor.is_finite()
-            || factor == 0.0
-        {
-            return Some((repairs, after));
-        }
-        let by = |r: InputRepair| InputRepair { change: Change::Difference(factor), ..r };
+        let is_count = |r: &InputRepair| {
+            let counts = match r.change {
+                Change::Difference(_) => true,
+                // In even rows these are any scale of a rate, unless they count.
+                Change::PerRow(..) => self.counts(&r.source),
+                _ => false,
+            };
+            counts && r.role.starts_with("wheel_rate")
+        };
+        let is_wrong = |slope: &f64| !(RIGHT[0]..RIGHT[1]).contains(slope) && slope.is_finite() && *slope != 0.0;
+        // A turn is in proportion to its rates; ways wind up where it is far too large.
+        let factor = [after.turn, after.way].into_iter().flatten().map(|r| r.slope).find(is_wrong);
+        let Some(factor) = factor.filter(|_| repairs.iter().all(is_count)) else { return Some((repairs, after)) };
+        let by = |r: InputRepair| {
+            let change = match r.change {
+                Change::PerRow(sign, rate) => Change::PerRow(sign * factor, rate),
+                Change::Difference(sign) => Change::Difference(sign * factor),
+                other => other,
+            };
+            InputRepair { change, ..r }
+        };
         let repairs: Vec<InputRepair> = repairs.into_iter().map(by).collect();
         let after = self.with(&repairs);
         Some((repairs, after))
+    }
+
+    /// Whether a column holds whole numbers, and several of them.
+    fn counts(&self, role: &str) -> bool {
+        let column = self.run.roles.iter().position(|r| r == role).map_or(&[][..], |i| &self.run.inputs[i]);
+        let sizes = column.iter().map(|u| u.abs());
+        column.iter().all(|u| u.fract() == 0.0) && sizes.fold(0.0, f64::max) > 3.0
     }
 
     /// Every repair of the inputs, and how far-fetched it is.
@@ -124,7 +142,9 @@ impl Trial<'_> {
         let mut found = self.signs_and_places();
         let radius = self.file.parameters.get("wheel_radius").copied();
         let unit = |role: &str| model.vehicle.inputs.get(role).map_or("m/s", |input| input.unit.as_str());
-        let usual = |role: &str| Change::of_either_sign(role, unit(role), radius);
+        let time = self.run.input_time();
+        let rate = (time.len() - 1) as f64 / (time[time.len() - 1] - time[0]);
+        let usual = |role: &str| Change::of_either_sign(role, unit(role), radius, rate);
         for role in &self.run.roles {
             for (change, cost) in usual(role) {
                 found.push((vec![self.repair(role, role, change)], cost));
@@ -239,6 +259,7 @@ fn goes_beyond(repair: &Repair, simpler: &Repair) -> bool {
 mod tests {
     use super::*;
     use crate::discrepancy::preprocessing::generated_run::{generated, turning};
+    use crate::effects::Applied;
     use crate::vehicles;
 
     /// No ordinary effect, and no noise, is taken for a slip, whatever the vehicle.
@@ -298,6 +319,68 @@ mod tests {
     fn reverse(run: &mut Run, role: &str) {
         let at = run.roles.iter().position(|r| r == role).unwrap();
         run.inputs[at].iter_mut().for_each(|u| *u *= -1.0);
+    }
+
+    /// What adds up an input, and what is added in a row.
+    #[test]
+    fn integrals_and_differences_are_told() {
+        fn summed(column: &mut [f64], factor: f64) {
+            let mut total = 0.0;
+            column.iter_mut().for_each(|u| {
+                total += 0.08 * *u;
+                *u = factor * total;
+            });
+        }
+        let counts = |factor: f64| move |u: &mut f64| *u = (factor * *u).round();
+        let all = |run: &mut Run, of: &dyn Fn(&mut f64)| run.inputs.iter_mut().flatten().for_each(of);
+        let cases: [(&str, &dyn Fn(&mut Run), [&str; 2]); 6] = [
+            (
+                "unicycle",
+                &|run| summed(&mut run.inputs[1], 1.0),
+                ["yaw_rate is an angle", "yaw_rate = { angle = \"yaw_rate\" }"],
+            ),
+            ("unicycle", &|run| summed(&mut run.inputs[1], -1.0), ["yaw_rate is an angle", "scale = -1.0 }"]),
+            (
+                "differential-drive",
+                &|run| run.inputs.iter_mut().for_each(|c| summed(c, 1.0)),
+                ["are an angle", "wheel_rate_left = { angle = \"wheel_rate_left\" }"],
+            ),
+            (
+                "differential-drive",
+                &|run| run.inputs.iter_mut().for_each(|c| summed(c, 4096.0 / std::f64::consts::TAU)),
+                ["are cumulative counts", "wheel_rate_left = { ticks = \"wheel_rate_left\""],
+            ),
+            (
+                "differential-drive",
+                &|run| all(run, &|u| *u *= 0.08),
+                ["since the row before, not a rate", "column = \"wheel_rate_left\", scale = 12.5 }"],
+            ),
+            (
+                "differential-drive",
+                &|run| all(run, &counts(0.08 * 500.0)),
+                ["are counts since the row before", "column = \"wheel_rate_left\", scale = 0.02"],
+            ),
+        ];
+        for (vehicle, slipped, words) in cases {
+            for seed in 0..4 {
+                let (file, model, mut run) = generated(vehicle, 1000 + 7 * seed, true).unwrap();
+                slipped(&mut run);
+                let found = slip(&file, &model, &[&run]).unwrap();
+                let said = found.as_ref().map(crate::discrepancy::rendering::slip_text::sentence).unwrap_or_default();
+                assert!(words.iter().all(|w| said.contains(w)), "{vehicle} {seed} {words:?}: {said:?}");
+            }
+        }
+    }
+
+    /// A model whose effects have states of their own is looked at without them.
+    #[test]
+    fn a_slip_is_told_beside_an_effect_with_states() {
+        let (file, model, mut run) = generated("unicycle", 1000, true).unwrap();
+        reverse(&mut run, "yaw_rate");
+        let creep = Applied::new(crate::effects::named("traction-creep").unwrap(), None, vec![0.1]);
+        let found = slip(&file, &model.with_effect(creep), &[&run]).unwrap();
+        let said = found.as_ref().map(crate::discrepancy::rendering::slip_text::sentence).unwrap_or_default();
+        assert!(said.contains("yaw_rate has the wrong sign"), "{said}");
     }
 
     /// Without a heading a speed has no sign: a yaw rate of the wrong sign is told alone.

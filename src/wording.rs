@@ -8,6 +8,12 @@ pub(crate) const GROSS: &str = "gross error of the measured pose";
 /// Why rows are left out around a jump of the reference.
 pub(crate) const JUMPED: &str = "the reference jumps";
 
+/// Why rows are left out whose pose is that of the row before.
+pub(crate) const HELD: &str = "the measured pose repeats";
+
+/// Why rows are left out in which something else moves the vehicle, or nothing.
+pub(crate) const LIFTED: &str = "the vehicle is lifted or carried";
+
 /// Names as a phrase: "a", "a and b", "a, b and c".
 pub(crate) fn listed<S: Borrow<str>>(names: impl IntoIterator<Item = S>) -> String {
     let names: Vec<S> = names.into_iter().collect();

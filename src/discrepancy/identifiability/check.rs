@@ -19,6 +19,7 @@ use crate::discrepancy::preprocessing::clock_jumps::ClockJump;
 use crate::discrepancy::preprocessing::outliers::without_gross_errors;
 use crate::discrepancy::preprocessing::prepared_run::{LeftOut, PreparedRun};
 use crate::discrepancy::preprocessing::reference_jumps::Jumps;
+use crate::discrepancy::preprocessing::row_defects::RowDefect;
 use crate::discrepancy::preprocessing::slips;
 use crate::discrepancy::preprocessing::unit_errors::too_sparse;
 use crate::discrepancy::record::run_record::Record;
@@ -80,15 +81,17 @@ pub(crate) fn assess(of: &Checked, progress: &OnProgress) -> Result<Assessment> 
         }
         let run = PreparedRun::of(r, &model, timing)?;
         let (record, gross) = without_gross_errors(&run.record, &model)?;
-        let left_out = LeftOut { gross, jumped: run.jumped };
+        let left_out = LeftOut { gross, ..run.left_out };
         Ok((PreparedRun { record, ..run }, left_out))
     };
     let prepared: Vec<(PreparedRun, LeftOut)> = of.runs.par_iter().map(prepared).collect::<Result<_>>()?;
     let (prepared, left_out): (Vec<PreparedRun>, Vec<LeftOut>) = prepared.into_iter().unzip();
     let clocks: Vec<ClockJump> = prepared.iter().filter_map(|r| r.clock.clone()).collect();
     let jumps: Vec<Jumps> = prepared.iter().flat_map(|r| r.jumps.clone()).collect();
+    let defects: Vec<RowDefect> = prepared.iter().flat_map(|r| r.defects.clone()).collect();
     let records: Vec<Record> = prepared.into_iter().map(|r| r.record).collect();
     let (data, mut findings) = health(&model, of.runs, &records, &left_out)?;
+    findings.extend(defects.into_iter().map(DataFinding::Defect));
     findings.extend(clocks.into_iter().map(DataFinding::ClockJump));
     findings.extend(jumps.into_iter().map(DataFinding::Jumps));
     if let Some(slip) = sparse {

@@ -4,6 +4,7 @@ use crate::discrepancy::diagnosis::warning::Warning;
 use crate::discrepancy::preprocessing::clock_jumps::ClockJump;
 use crate::discrepancy::preprocessing::quantisation::CoarseInput;
 use crate::discrepancy::preprocessing::reference_jumps::Jumps;
+use crate::discrepancy::preprocessing::row_defects::RowDefect;
 use crate::discrepancy::preprocessing::unit_errors::{Slip, TurningCause, WayCause};
 use std::collections::BTreeMap;
 
@@ -83,6 +84,8 @@ pub enum DataFinding {
     ColouredNoise(f64),
     /// The runs hold motion that the model does not explain, most of it of this component.
     UnexplainedMotion(usize),
+    /// Something is wrong with rows, or in a stretch.
+    Defect(RowDefect),
     /// A clock jumps within a run.
     ClockJump(ClockJump),
     /// A slip of units and columns.
@@ -129,6 +132,7 @@ impl DataFinding {
             Self::ColouredNoise(_) => "coloured-noise",
             Self::UnexplainedMotion(_) => "unexplained-motion",
             Self::Slip(slip) => slip.id(),
+            Self::Defect(defect) => defect.id(),
             Self::ClockJump(_) => "clock-jump",
             Self::Jumps(_) => "reference-jumps",
             Self::Clock(_) => "clock-offset",

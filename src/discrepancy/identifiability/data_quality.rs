@@ -78,6 +78,8 @@ pub(crate) fn of_fit(fit: &Fit) -> Vec<DataFinding> {
 fn rows(run: &Run, record: &Record, left_out: LeftOut) -> RunHealth {
     let steps: Vec<f64> = record.time.windows(2).map(|w| w[1] - w[0]).collect();
     let step = record.step();
+    // Where rows were left out the log is not interrupted.
+    let logged = || run.time.windows(2).map(|w| w[1] - w[0]);
     let spread = |q| quantile(steps.clone(), q).unwrap_or(step);
     let mut why_dropped = run.why_dropped.clone();
     left_out.tell(&mut why_dropped);
@@ -89,8 +91,8 @@ fn rows(run: &Run, record: &Record, left_out: LeftOut) -> RunHealth {
         duration_s: record.time[record.time.len() - 1] - record.time[0],
         rate_hz: 1.0 / step,
         jitter: 0.5 * (spread(0.95) - spread(0.05)) / step,
-        gaps: steps.iter().filter(|s| **s > record.gap()).count(),
-        longest_gap_s: steps.iter().copied().fold(0.0, f64::max),
+        gaps: logged().filter(|s| *s > record.gap()).count(),
+        longest_gap_s: logged().fold(0.0, f64::max),
         ..RunHealth::default()
     }
 }
@@ -167,10 +169,15 @@ mod tests {
         }
     }
 
+    /// A vehicle that turns.
+    fn plane() -> Model {
+        crate::discrepancy::fixtures::unicycle(&[])
+    }
+
     #[test]
     fn each_fault_of_a_run_is_found_by_itself() {
         let found = |r: RunHealth| {
-            let found = findings(&[usual(), r], &[]);
+            let found = findings(&plane(), &[usual(), r], &[]);
             found.into_iter().filter(|f| *f != DataFinding::NoHeading).collect::<Vec<_>>()
         };
         let run = || "a.csv".to_string();
@@ -204,7 +211,7 @@ mod tests {
     /// What one run lacks another may have: shares of the time are those of all runs, by how long they last.
     #[test]
     fn turns_and_speeds_are_those_of_all_runs() {
-        let of = |runs: &[RunHealth]| findings(runs, &[]).into_iter().find(|f| *f != DataFinding::NoHeading);
+        let of = |runs: &[RunHealth]| findings(&plane(), runs, &[]).into_iter().find(|f| *f != DataFinding::NoHeading);
         let lefts = RunHealth { right: 0.0, ..usual() };
         let straight = RunHealth { left: 0.0, ..lefts.clone() };
         assert_eq!(of(std::slice::from_ref(&straight)), Some(DataFinding::NoTurns));
@@ -229,7 +236,7 @@ mod tests {
         time.for_each(|t| log += &format!("{t},0,0,0,1,0\n"));
         let run = Run::parse("run.csv", &log, &file).unwrap();
         let record = Record::of_run(&run, file.input_timing, 0);
-        let told = rows(&run, &record, LeftOut { gross: 3, jumped: 0 });
+        let told = rows(&run, &record, LeftOut { gross: 3, ..LeftOut::default() });
         let close = |a: f64, b: f64| (a - b).abs() < 1e-9;
         assert!(close(told.duration_s, 5.8) && close(told.rate_hz, 10.0) && close(told.longest_gap_s, 2.0), "{told:?}");
         // Of 39 steps five are 0.14 s and five 0.06 s.

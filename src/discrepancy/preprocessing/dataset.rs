@@ -4,6 +4,7 @@ use super::clock_jumps::ClockJump;
 use super::outliers;
 use super::prepared_run::{LeftOut, PreparedRun};
 use super::reference_jumps::Jumps;
+use super::row_defects::RowDefect;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::request::Request;
 use crate::discrepancy::shooting::windows::has_windows;
@@ -26,6 +27,10 @@ pub(crate) struct Data {
     pub jumps: Vec<Jumps>,
     /// Jumps of a clock.
     pub clocks: Vec<ClockJump>,
+    /// Rows and stretches in which something is wrong.
+    pub defects: Vec<RowDefect>,
+    /// Runs that were logged in pieces.
+    pub interrupted: Vec<(String, usize)>,
 }
 
 impl Data {
@@ -39,7 +44,11 @@ impl Data {
         let all = || runs.iter().chain(&judged);
         let (jumps, clocks) =
             (all().flat_map(|r| r.jumps.clone()).collect(), all().filter_map(|r| r.clock.clone()).collect());
-        let jumped = all().map(|r| r.jumped).sum();
+        let defects = all().flat_map(|r| r.defects.clone()).collect();
+        let in_pieces = all().filter(|r| r.pieces > 1);
+        let interrupted = in_pieces.map(|r| (r.record.name.clone(), r.pieces)).collect();
+        let sum = |of: &dyn Fn(LeftOut) -> usize| all().map(|r| of(r.left_out)).sum::<usize>();
+        let [jumped, held, lifted] = [sum(&|l| l.jumped), sum(&|l| l.held), sum(&|l| l.lifted)];
         let records = |runs: Vec<PreparedRun>| runs.into_iter().map(|r| r.record).collect::<Vec<Record>>();
         let whole = records(runs);
         let (fitted, held_out): (Vec<Record>, Vec<Record>) = match judged.is_empty() {
@@ -51,19 +60,23 @@ impl Data {
             Ok(each.collect::<Result<Vec<_>>>()?.into_iter().unzip())
         };
         let ((fitted, a), (held_out, b)) = (clean(&fitted)?, clean(&held_out)?);
-        Ok(Self { fitted, held_out, left_out: LeftOut { gross: a.iter().chain(&b).sum(), jumped }, jumps, clocks })
+        let left_out = LeftOut { gross: a.iter().chain(&b).sum(), jumped, held, lifted };
+        Ok(Self { fitted, held_out, left_out, jumps, clocks, defects, interrupted })
     }
 
     /// Logs that were interrupted, and such as are too short to be fitted beside others.
     pub fn notes(&self) -> Vec<DatasetNote> {
-        let interrupted = self.fitted.iter().chain(&self.held_out).filter_map(|r| {
-            let pieces = r.segments(0.0).len();
-            (pieces > 1).then(|| DatasetNote::Interrupted { run: r.name.clone(), pieces })
-        });
+        // Where rows were left out is said with the reason.
+        let interrupted =
+            self.interrupted.iter().map(|(run, pieces)| DatasetNote::Interrupted { run: run.clone(), pieces: *pieces });
         let some = self.fitted.iter().any(has_windows);
         let short = self.fitted.iter().filter(|r| some && !has_windows(r));
         let jumps = self.jumps.iter().cloned().map(DatasetNote::Jumps);
-        jumps
+        self.defects
+            .iter()
+            .cloned()
+            .map(DatasetNote::Defect)
+            .chain(jumps)
             .chain(self.clocks.iter().cloned().map(DatasetNote::ClockJump))
             .chain(interrupted)
             .chain(short.map(|r| DatasetNote::NotFitted { run: r.name.clone() }))
@@ -74,6 +87,8 @@ impl Data {
 /// How a run enters the data otherwise than as a whole.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DatasetNote {
+    /// Something is wrong with rows, or in a stretch.
+    Defect(RowDefect),
     /// The reference jumps, and the stretch is left out.
     Jumps(Jumps),
     /// A clock jumps.

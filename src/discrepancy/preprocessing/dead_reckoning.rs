@@ -4,7 +4,8 @@ use crate::files::{InputTiming, Run};
 use crate::model::{Equations, Model};
 use crate::motion::initial_hidden;
 
-/// What turns inputs into a path; none for a model with states that no sensor sees, and for a single row.
+/// What turns inputs into a path; none for a vehicle with states that no sensor sees, and for a single row. Effects that add
+/// such states are left out: what they add dies away.
 pub(crate) struct DeadReckoning<'a> {
     equations: Equations,
     timing: InputTiming,
@@ -17,7 +18,12 @@ impl<'a> DeadReckoning<'a> {
     /// # Errors
     /// When the model's formulas are malformed.
     pub fn of(model: &Model, timing: InputTiming, run: &'a Run) -> crate::error::Result<Option<Self>> {
-        let equations = model.equations(&[])?;
+        let mut equations = model.equations(&[])?;
+        if equations.n() != equations.visible {
+            let mut ideal = model.clone();
+            ideal.effects.retain(|applied| applied.effect.states.is_empty());
+            equations = ideal.equations(&[])?;
+        }
         let is_whole = equations.n() == equations.visible && equations.visible >= 3;
         Ok((is_whole && run.input_time().len() > 1).then_some(Self { equations, timing, run }))
     }

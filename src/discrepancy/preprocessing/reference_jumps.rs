@@ -89,13 +89,14 @@ fn stretches(run: &Run, found: &[usize]) -> Vec<Jumps> {
     found.chunk_by(near).flat_map(of_group).collect()
 }
 
-/// A record without the rows in which the reference jumps: it goes on in pieces, behind an interruption each.
-pub fn without(record: Record, jumps: &[Jumps]) -> Record {
-    if jumps.is_empty() {
+/// A record without some stretches, such as those in which the reference jumps: it goes on in pieces, behind an interruption
+/// each.
+pub fn without(record: Record, spans: &[[f64; 2]]) -> Record {
+    if spans.is_empty() {
         return record;
     }
     let half = 0.6 * record.gap();
-    let is_out = |t: f64| jumps.iter().any(|j| t > j.span[0] - half && t < j.span[1] + half);
+    let is_out = |t: f64| spans.iter().any(|[from, to]| t > from - half && t < to + half);
     record.keeping(|i| !is_out(record.time[i]))
 }
 

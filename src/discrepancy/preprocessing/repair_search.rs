@@ -17,7 +17,7 @@ use rayon::prelude::*;
 const ALIKE: [f64; 2] = [1.5, 0.004];
 /// More far-fetched repairs beside a simple one are not listed.
 const FAR_FETCHED: u32 = 2;
-/// Repairs that are listed.
+/// Repairs that are listed; without a heading one more comes to the same.
 const LISTED: usize = 2;
 /// Turning of its own that no unequal wheels make: a share of all, and rad/s.
 const OF_ITS_OWN: [f64; 2] = [0.3, 0.1];
@@ -79,7 +79,7 @@ impl Trial<'_> {
                 unexplained: 0.0,
             }));
         }
-        let repairs = alike(found);
+        let repairs = alike(found, LISTED + usize::from(self.run.heading.is_none()));
         let columns = &self.file.columns;
         let heading = columns.heading.clone().unwrap_or_else(|| "heading".into());
         let pose = [columns.x.clone(), columns.y.clone(), heading];
@@ -102,22 +102,40 @@ impl Trial<'_> {
         tried.collect()
     }
 
-    /// Differences of what has any scale, such as counts, with the scale that fits.
+    /// Counts, cumulative or since the row before, which have any scale, with the scale that fits.
     fn scaled(&self, model: &Model, repairs: Vec<InputRepair>) -> Option<(Vec<InputRepair>, SignedRatios)> {
         let after = self.with(&repairs);
-        let is_count = |r: &InputRepair| matches!(r.change, Change::Difference(_)) && is_wheel(model, &r.role);
-        let factor = after.way.or(after.turn)?.slope;
-        if !repairs.iter().all(is_count)
-            || (RIGHT[0]..RIGHT[1]).contains(&factor)
-            || !factor.is_finite()
-            || factor == 0.0
-        {
-            return Some((repairs, after));
-        }
-        let by = |r: InputRepair| InputRepair { change: Change::Difference(factor), ..r };
+        let is_count = |r: &InputRepair| {
+            let counts = match r.change {
+                Change::Difference(_) => true,
+                // In even rows these are any scale of a rate, unless they count.
+                Change::PerRow(..) => self.counts(&r.source),
+                _ => false,
+            };
+            counts && is_wheel(model, &r.role)
+        };
+        let is_wrong = |slope: &f64| !(RIGHT[0]..RIGHT[1]).contains(slope) && slope.is_finite() && *slope != 0.0;
+        // A turn is in proportion to its rates; ways wind up where it is far too large.
+        let factor = [after.turn, after.way].into_iter().flatten().map(|r| r.slope).find(is_wrong);
+        let Some(factor) = factor.filter(|_| repairs.iter().all(is_count)) else { return Some((repairs, after)) };
+        let by = |r: InputRepair| {
+            let change = match r.change {
+                Change::PerRow(sign, rate) => Change::PerRow(sign * factor, rate),
+                Change::Difference(sign) => Change::Difference(sign * factor),
+                other => other,
+            };
+            InputRepair { change, ..r }
+        };
         let repairs: Vec<InputRepair> = repairs.into_iter().map(by).collect();
         let after = self.with(&repairs);
         Some((repairs, after))
+    }
+
+    /// Whether a column holds whole numbers, and several of them.
+    fn counts(&self, role: &str) -> bool {
+        let column = self.run.roles.iter().position(|r| r == role).map_or(&[][..], |i| &self.run.inputs[i]);
+        let sizes = column.iter().map(|u| u.abs());
+        column.iter().all(|u| u.fract() == 0.0) && sizes.fold(0.0, f64::max) > 3.0
     }
 
     /// Every repair of the inputs, and how far-fetched it is.
@@ -125,7 +143,9 @@ impl Trial<'_> {
         let mut found = self.signs_and_places();
         let radius = self.file.parameters.get("wheel_radius").copied();
         let unit = |role: &str| model.vehicle.inputs.get(role).map_or("m/s", |input| input.unit.as_str());
-        let usual = |role: &str| Change::of_either_sign(is_wheel(model, role), unit(role), radius);
+        let time = self.run.input_time();
+        let rate = (time.len() - 1) as f64 / (time[time.len() - 1] - time[0]);
+        let usual = |role: &str| Change::of_either_sign(is_wheel(model, role), unit(role), radius, rate);
         for role in &self.run.roles {
             for (change, cost) in usual(role) {
                 found.push((vec![self.repair(role, role, change)], cost));
@@ -220,113 +240,50 @@ fn fails(ratios: &SignedRatios) -> bool {
 }
 
 /// The simplest of the repairs that leave least, and others like it.
-fn alike(mut found: Vec<Accepted>) -> Vec<Repair> {
+fn alike(mut found: Vec<Accepted>, most: usize) -> Vec<Repair> {
     let best = found.iter().map(|a| a.unexplained).fold(f64::INFINITY, f64::min);
     found.retain(|a| a.unexplained < (ALIKE[0] * best).max(best + ALIKE[1]));
     found.sort_by_key(|a| a.cost);
     let simplest = found.first().map_or(0, |a| a.cost);
-    found.into_iter().filter(|a| a.cost <= simplest + FAR_FETCHED).take(LISTED).map(|a| a.repair).collect()
+    found.retain(|a| a.cost <= simplest + FAR_FETCHED);
+    let mut kept: Vec<Repair> = vec![];
+    for Accepted { repair, .. } in found {
+        if kept.len() < most && !kept.iter().any(|simpler| goes_beyond(&repair, simpler)) {
+            kept.push(repair);
+        }
+    }
+    kept
+}
+
+/// Whether a repair does all that another does, and something that the data do not show.
+fn goes_beyond(repair: &Repair, simpler: &Repair) -> bool {
+    match (repair, simpler) {
+        (Repair::Inputs(all), Repair::Inputs(some)) => some.iter().all(|one| all.contains(one)),
+        _ => false,
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::effects::{self, Applied};
-    use crate::motion::{StateSensitivity, Stepper, Timing};
+    use crate::discrepancy::preprocessing::generated_run::{generated, turning};
+    use crate::effects::Applied;
     use crate::vehicles;
-    use rand::{Rng, SeedableRng};
-    use rand_chacha::ChaCha8Rng;
-
-    /// A run of a vehicle that drives in all directions, with an ordinary effect or none, and noise.
-    fn generated(vehicle: &str, seed: u64, has_heading: bool) -> Option<(ModelFile, Model, Run)> {
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let known = vehicles::named(vehicle)?;
-        let value = |name: &str| if name.contains("radius") { 0.1 } else { 0.4 };
-        let parameters: Vec<(&str, f64)> = known.parameters.keys().map(|name| (name.as_str(), value(name))).collect();
-        let list: Vec<String> = parameters.iter().map(|(name, value)| format!("{name} = {value}")).collect();
-        let text = format!("vehicle = \"{vehicle}\"\n[parameters]\n{}\n", list.join("\n"));
-        let file = ModelFile::parse(&text, "model.toml", &crate::model::known(effects::all())).ok()?;
-        let roles: Vec<String> = known.inputs.keys().filter(|r| *r != "speed").cloned().collect();
-        let model = Model::from_file(&file, effects::all(), &roles).ok()?;
-        let time: Vec<f64> = (0..500).map(|i| 0.08 * f64::from(i)).collect();
-        let phase = random.random_range(0.0..6.0);
-        let turns = random.random_range(0.4..1.0);
-        let speed = |t: f64| 8.0 + 3.0 * (0.3 * t + phase).sin();
-        let column = |(k, role): (usize, &String)| -> Vec<f64> {
-            let unit = known.inputs[role].unit.as_str();
-            let of = |t: f64| match (role.as_str(), unit) {
-                ("yaw_rate", _) => turns * (0.5 * t + phase).sin(),
-                (_, "rad") => 0.4 * (0.5 * t + phase).sin(),
-                (name, _) if name.contains("left") => speed(t) - 2.0 * turns * (0.5 * t + phase).sin(),
-                (name, _) if name.contains("right") => speed(t) + 2.0 * turns * (0.5 * t + phase).sin(),
-                _ => speed(t) + 0.1 * k as f64,
-            };
-            time.iter().map(|t| of(*t)).collect()
-        };
-        let inputs: Vec<Vec<f64>> = roles.iter().enumerate().map(column).collect();
-        let applicable = model.applicable(effects::all());
-        let chosen = random.random_range(0..2 * applicable.len().max(1));
-        let truth = match applicable.get(chosen) {
-            Some((effect, trailer)) => {
-                let sign = if random.random_range(0..2) == 0 { 1.0 } else { -1.0 };
-                let signed = |p: &crate::effects::Parameter| if p.positive { p.size } else { sign * p.size };
-                let values = effect.parameters.values().map(signed).collect();
-                model.clone().with_effect(Applied::new(effect, *trailer, values))
-            }
-            None => model.clone(),
-        };
-        let equations = truth.equations(&[]).ok()?;
-        let record = Record::new("run", time.clone(), vec![vec![]; 2], false, &inputs, Timing::Sample);
-        let mut stepper = Stepper::new(&equations, &record.signals, &[]);
-        let mut arc = StateSensitivity { z: vec![0.3; equations.n()], s: vec![] };
-        let noise = 10.0_f64.powf(random.random_range(-4.0..-2.0));
-        let mut pose = [const { Vec::new() }; 3];
-        for i in 0..time.len() {
-            let y = stepper.outputs(&arc.z).to_vec();
-            (0..3).for_each(|c| pose[c].push(y[c] + noise * random.random_range(-1.0..1.0)));
-            if i + 1 < time.len() {
-                stepper.advance(&mut arc, time[i], time[i + 1]);
-            }
-        }
-        if pose.iter().flatten().any(|v| !v.is_finite()) {
-            return None;
-        }
-        let [x, y, heading] = pose;
-        let run = Run {
-            deviations: Default::default(),
-            differences: vec![None; inputs.len()],
-            name: "run.csv".into(),
-            path: "run.csv".into(),
-            sha256: String::new(),
-            time,
-            x,
-            y,
-            heading: has_heading.then_some(heading),
-            defined: crate::files::Defined::default(),
-            trailer_headings: vec![],
-            roles,
-            inputs,
-            rows_dropped: 0,
-            why_dropped: std::collections::BTreeMap::new(),
-            warnings: vec![],
-            apart: None,
-        };
-        Some((file, model, run))
-    }
 
     /// No ordinary effect, and no noise, is taken for a slip, whatever the vehicle.
     #[test]
     fn a_run_as_it_should_be_is_never_repaired() {
         let all: Vec<&str> = vehicles::all().iter().map(|v| v.id.as_str()).collect();
-        let each = 0..500_u64;
-        let tried = each.into_par_iter().filter_map(|seed| {
-            let (file, model, run) = generated(all[seed as usize % all.len()], seed, seed % 3 > 0)?;
+        let each = (0..500_u64).flat_map(|seed| [(seed, true), (seed, false)]).collect::<Vec<_>>();
+        let tried = each.into_par_iter().filter_map(|(seed, has_heading)| {
+            let much = [1.0, 0.4][(seed / 7 % 2) as usize];
+            let (file, model, run) = turning(all[seed as usize % all.len()], seed, has_heading, much)?;
             Some((seed, file.vehicle.clone(), slip(&file, &model, &[&run]).unwrap()))
         });
         let tried: Vec<_> = tried.collect();
         let wrong: Vec<_> = tried.iter().filter(|t| t.2.is_some()).collect();
         assert!(wrong.is_empty(), "{wrong:#?}");
-        assert!(tried.len() > 250, "{}", tried.len());
+        assert!(tried.len() > 500, "{}", tried.len());
     }
 
     /// What a slip of one kind makes of a run.
@@ -363,6 +320,104 @@ mod tests {
                 let found = slip(&file, &model, &[&run]).unwrap();
                 let said = found.as_ref().map(crate::discrepancy::rendering::slip_text::sentence).unwrap_or_default();
                 assert!(said.contains(word) && said.contains("Paste into"), "{vehicle} {word}: {said:?}");
+            }
+        }
+    }
+
+    fn reverse(run: &mut Run, role: &str) {
+        let at = run.roles.iter().position(|r| r == role).unwrap();
+        run.inputs[at].iter_mut().for_each(|u| *u *= -1.0);
+    }
+
+    /// What adds up an input, and what is added in a row.
+    #[test]
+    fn integrals_and_differences_are_told() {
+        fn summed(column: &mut [f64], factor: f64) {
+            let mut total = 0.0;
+            column.iter_mut().for_each(|u| {
+                total += 0.08 * *u;
+                *u = factor * total;
+            });
+        }
+        let counts = |factor: f64| move |u: &mut f64| *u = (factor * *u).round();
+        let all = |run: &mut Run, of: &dyn Fn(&mut f64)| run.inputs.iter_mut().flatten().for_each(of);
+        let cases: [(&str, &dyn Fn(&mut Run), [&str; 2]); 6] = [
+            (
+                "unicycle",
+                &|run| summed(&mut run.inputs[1], 1.0),
+                ["yaw_rate is an angle", "yaw_rate = { angle = \"yaw_rate\" }"],
+            ),
+            ("unicycle", &|run| summed(&mut run.inputs[1], -1.0), ["yaw_rate is an angle", "scale = -1.0 }"]),
+            (
+                "differential-drive",
+                &|run| run.inputs.iter_mut().for_each(|c| summed(c, 1.0)),
+                ["are an angle", "wheel_rate_left = { angle = \"wheel_rate_left\" }"],
+            ),
+            (
+                "differential-drive",
+                &|run| run.inputs.iter_mut().for_each(|c| summed(c, 4096.0 / std::f64::consts::TAU)),
+                ["are cumulative counts", "wheel_rate_left = { ticks = \"wheel_rate_left\""],
+            ),
+            (
+                "differential-drive",
+                &|run| all(run, &|u| *u *= 0.08),
+                ["since the row before, not a rate", "column = \"wheel_rate_left\", scale = 12.5 }"],
+            ),
+            (
+                "differential-drive",
+                &|run| all(run, &counts(0.08 * 500.0)),
+                ["are counts since the row before", "column = \"wheel_rate_left\", scale = 0.02"],
+            ),
+        ];
+        for (vehicle, slipped, words) in cases {
+            for seed in 0..4 {
+                let (file, model, mut run) = generated(vehicle, 1000 + 7 * seed, true).unwrap();
+                slipped(&mut run);
+                let found = slip(&file, &model, &[&run]).unwrap();
+                let said = found.as_ref().map(crate::discrepancy::rendering::slip_text::sentence).unwrap_or_default();
+                assert!(words.iter().all(|w| said.contains(w)), "{vehicle} {seed} {words:?}: {said:?}");
+            }
+        }
+    }
+
+    /// A model whose effects have states of their own is looked at without them.
+    #[test]
+    fn a_slip_is_told_beside_an_effect_with_states() {
+        let (file, model, mut run) = generated("unicycle", 1000, true).unwrap();
+        reverse(&mut run, "yaw_rate");
+        let creep = Applied::new(crate::effects::named("traction-creep").unwrap(), None, vec![0.1]);
+        let found = slip(&file, &model.with_effect(creep), &[&run]).unwrap();
+        let said = found.as_ref().map(crate::discrepancy::rendering::slip_text::sentence).unwrap_or_default();
+        assert!(said.contains("yaw_rate has the wrong sign"), "{said}");
+    }
+
+    /// Without a heading a speed has no sign: a yaw rate of the wrong sign is told alone.
+    #[test]
+    fn what_the_data_do_not_show_is_not_told() {
+        let (file, model, mut run) = turning("unicycle", 1000, false, 0.4).unwrap();
+        reverse(&mut run, "yaw_rate");
+        let Some(Slip { kind: SlipKind::Repair(found), .. }) = slip(&file, &model, &[&run]).unwrap() else { panic!() };
+        let inputs = |r: &Repair| if let Repair::Inputs(all) = r { all.len() } else { 0 };
+        assert_eq!(found.repairs.iter().map(inputs).collect::<Vec<_>>(), [1, 0], "{:?}", found.repairs);
+    }
+
+    /// Without a heading the path turns to the other side.
+    #[test]
+    fn a_slip_of_sides_is_told_without_a_heading() {
+        let cases: [(&str, Slipped, &str); 4] = [
+            ("unicycle", |run| run.inputs[1].iter_mut().for_each(|u| *u *= -1.0), "yaw_rate has the wrong sign"),
+            ("unicycle", |run| run.y.iter_mut().for_each(|u| *u *= -1.0), "y has the wrong sign"),
+            ("differential-drive", |run| run.inputs.swap(0, 1), "left and right are swapped"),
+            ("car", |run| reverse(run, "steering_angle"), "steering_angle has the wrong sign"),
+        ];
+        for (vehicle, slipped, word) in cases {
+            for seed in 0..8 {
+                // Gentle turns, as those of most robots.
+                let (file, model, mut run) = turning(vehicle, 1000 + 7 * seed, false, 0.4).unwrap();
+                slipped(&mut run);
+                let found = slip(&file, &model, &[&run]).unwrap();
+                let said = found.as_ref().map(crate::discrepancy::rendering::slip_text::sentence).unwrap_or_default();
+                assert!(said.contains(word) && said.contains("Paste into"), "{vehicle} {word} {seed}: {said:?}");
             }
         }
     }

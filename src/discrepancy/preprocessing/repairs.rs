@@ -44,8 +44,11 @@ pub enum Change {
     Scale(f64, Unit),
     /// The integral of what is wanted, such as an angle or counts, so many times too small.
     Difference(f64),
-    /// What is wanted times the time between rows, such as counts since the row before.
-    PerRow,
+    /// What is wanted times the time between rows, such as counts since the row before, so many times too small; and how many
+    /// rows there are in a second.
+    PerRow(f64, f64),
+    /// The way driven in the place of a speed, of a vehicle whose wheel has this radius.
+    Odometer(f64),
     /// A straight line of what is wanted: scale and offset.
     Line([f64; 2]),
 }
@@ -89,7 +92,8 @@ impl PoseRepair {
     pub fn all(has_heading: bool) -> Vec<(Self, u32)> {
         let units = [("mm", 1e-3), ("cm", 1e-2), ("ft", 0.3048)];
         let mut found: Vec<(Self, u32)> = units.map(|(name, metres)| (Self::PositionUnit(name, metres), 12)).to_vec();
-        found.push((Self::FromBelow, 11));
+        // Without a heading there is none to count clockwise.
+        found.push((if has_heading { Self::FromBelow } else { Self::AxisReversed(1) }, 11));
         if has_heading {
             found.extend([
                 (Self::HeadingTurned(PI), 11),
@@ -143,9 +147,10 @@ impl Change {
         match self {
             Self::Scale(factor, _) => column.iter().map(|u| factor * u).collect(),
             Self::Line([scale, offset]) => column.iter().map(|u| scale * u + offset).collect(),
-            Self::PerRow => {
+            Self::Odometer(_) => Self::Difference(1.0).applied(time, timing, column),
+            Self::PerRow(factor, _) => {
                 let step = |i: usize| time[i.max(1)] - time[i.max(1) - 1];
-                column.iter().enumerate().map(|(i, u)| u / step(i)).collect()
+                column.iter().enumerate().map(|(i, u)| factor * u / step(i)).collect()
             }
             Self::Difference(factor) => {
                 let ends = |i: usize| match timing {
@@ -158,8 +163,8 @@ impl Change {
         }
     }
 
-    /// Every usual one of an input of some unit, the rate of a wheel or not, and how far-fetched it is.
-    pub fn usual(is_wheel: bool, unit: &str, radius: Option<f64>) -> Vec<(Self, u32)> {
+    /// Every usual one of an input of some unit, with so many rows in a second, and how far-fetched it is.
+    pub fn usual(is_wheel: bool, unit: &str, radius: Option<f64>, rate: f64) -> Vec<(Self, u32)> {
         let named = |name, factor| (Self::Scale(factor, Unit::Named(name)), 12);
         let mut found = match unit {
             "m/s" => {
@@ -176,16 +181,22 @@ impl Change {
             found.extend([0.25, 0.5, 2.0, 4.0].map(|factor| (Self::Scale(factor, Unit::Counts), 13)));
             found.extend(radius.map(|r| (Self::Scale(1.0 / r, Unit::Radius), 13)));
         }
+        // The way itself, or the angle, and what is added to it in a row.
+        match unit {
+            "m/s" => found.extend(radius.map(|r| (Self::Odometer(r), 12))),
+            _ if unit.ends_with("/s") => found.push((Self::Difference(1.0), 12)),
+            _ => (),
+        }
         if unit.ends_with("/s") {
-            found.extend([(Self::Difference(1.0), 12), (Self::PerRow, 13)]);
+            found.push((Self::PerRow(1.0, rate), 13));
         }
         found
     }
 
     /// The usual ones, and those with a sign the other way round, which are more far-fetched.
-    pub fn of_either_sign(is_wheel: bool, unit: &str, radius: Option<f64>) -> Vec<(Self, u32)> {
+    pub fn of_either_sign(is_wheel: bool, unit: &str, radius: Option<f64>, rate: f64) -> Vec<(Self, u32)> {
         let both = |(change, cost): (Self, u32)| [Some((change, cost)), change.reversed().map(|r| (r, cost + 3))];
-        Self::usual(is_wheel, unit, radius).into_iter().flat_map(both).flatten().collect()
+        Self::usual(is_wheel, unit, radius, rate).into_iter().flat_map(both).flatten().collect()
     }
 
     /// The same with the sign reversed, of what has one.
@@ -193,7 +204,8 @@ impl Change {
         match self {
             Self::Scale(factor, unit) => Some(Self::Scale(-factor, unit)),
             Self::Difference(factor) => Some(Self::Difference(-factor)),
-            _ => None,
+            Self::PerRow(factor, rate) => Some(Self::PerRow(-factor, rate)),
+            Self::Line(_) | Self::Odometer(_) => None,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! An angle that was logged as the command of a servo: a straight line of what is wanted.
 
 use super::repair_trial::{Trial, accepts};
-use super::repairs::{Change, InputRepair, Repair};
+use super::repairs::{Change, InputRepair, Repair, Unit};
 use super::signed_ratios::{Motion, SignedRatios};
 use crate::model::Model;
 use crate::numerics::levenberg_marquardt::{Damping, LeastSquares, minimise};
@@ -30,9 +30,18 @@ pub(crate) fn repair(trial: &Trial, model: &Model, before: &SignedRatios) -> Opt
     let found = minimise(&fit, fit.at(line)?, &Damping::NONE, MOST_STEPS);
     let line = plus(found.here.line, &found.step?);
     let ([low, high], offset) = USUAL;
-    let is_usual = (low..high).contains(&line[0]) && line[1].abs() < offset;
+    let is_usual = |scale: f64| (low..high).contains(&scale) && line[1].abs() < offset;
     let found = vec![repair(line)];
-    (!is_usual && accepts(before, &trial.with(&found), false)).then_some(Repair::Inputs(found))
+    if is_usual(line[0]) || !accepts(before, &trial.with(&found), false) {
+        return None;
+    }
+    // Beside the wrong sign a gain and an offset of the steering are effects, as ever.
+    let is_reversed = is_usual(-line[0]);
+    Some(Repair::Inputs(if is_reversed {
+        vec![trial.repair(role, role, Change::Scale(-1.0, Unit::Sign))]
+    } else {
+        found
+    }))
 }
 
 fn turns(trial: &Trial, repair: InputRepair) -> Vec<Motion> {

@@ -13,6 +13,10 @@ const OUT_OF_NOISE: f64 = 20.0;
 const FEWEST: usize = 8;
 /// A vehicle that turns less, root mean square, says nothing of its turns, rad/s.
 const TURNING: f64 = 0.05;
+/// Turns of a path so many times what the noise of its positions makes have left it.
+const TURNS_OUT_OF_NOISE: f64 = 5.0;
+/// A path that turns by more from one window to the next turns back, to no side, rad.
+const BACK: f64 = 2.5;
 /// Ways shorter than this share of the usual one have no direction.
 const SHORT: f64 = 0.3;
 /// Motion beyond so many times that of nine windows in ten is a jump of the reference.
@@ -66,17 +70,42 @@ pub struct Ratio {
 }
 
 impl Windows {
-    /// Of a run that moves out of its noise; none of another.
+    /// Of a run that moves out of its noise; none of another. Without a heading they are as long as its turns need to leave
+    /// it as well, where any are.
     pub fn of(record: &Record) -> Option<Self> {
         let noise = record.position_noise();
         let longest = record.time[record.rows.end - 1] - record.time[record.rows.start];
-        DURATIONS.into_iter().filter(|s| s * FEWEST as f64 <= longest).find_map(|seconds| {
+        let mut far = None;
+        for seconds in DURATIONS.into_iter().filter(|s| s * FEWEST as f64 <= longest) {
             let windows = Self { rows: rows(record, seconds), seconds, noise, has_heading: record.has_heading() };
-            let squares = windows.motions([&record.columns[0], &record.columns[1]], None);
-            let mean = squares.iter().map(|m| m.moved.norm_sqr()).sum::<f64>() / squares.len().max(1) as f64;
-            let is_far = mean.sqrt() > OUT_OF_NOISE * SQRT_2 * noise;
-            (windows.rows.len() >= FEWEST && is_far).then_some(windows)
-        })
+            let path = windows.motions([&record.columns[0], &record.columns[1]], None);
+            let is_far = usual_way(&path) > OUT_OF_NOISE * SQRT_2 * noise;
+            if windows.rows.len() < FEWEST || !is_far {
+                continue;
+            }
+            if record.has_heading() || windows.path_turns(&path) {
+                return Some(windows);
+            }
+            far.get_or_insert(windows);
+        }
+        far
+    }
+
+    /// Whether a path turns out of its noise.
+    fn path_turns(&self, path: &[Motion]) -> bool {
+        let turns: Vec<f64> = path.iter().filter_map(|m| m.turn).collect();
+        let square = turns.iter().map(|t| t * t).sum::<f64>() / turns.len().max(1) as f64;
+        turns.len() >= FEWEST && square.sqrt() > self.least_turn(path)
+    }
+
+    /// Turns within a window that say anything, root mean square, rad.
+    ///
+    /// Of a path a turn is that between two ways in a row, (p₂ − p₁) − (p₁ − p₀) over a way: the noise σ of its positions
+    /// makes √6·σ over a way of it.
+    fn least_turn(&self, measured: &[Motion]) -> f64 {
+        let of_noise = 6.0_f64.sqrt() * self.noise / usual_way(measured).max(f64::MIN_POSITIVE);
+        let of_path = if self.has_heading { 0.0 } else { TURNS_OUT_OF_NOISE * of_noise };
+        (TURNING * self.seconds).max(of_path)
     }
 
     /// The motions of a pose.
@@ -94,6 +123,7 @@ impl Windows {
                 let before = k.checked_sub(1).map(|k| self.rows[k]).filter(|w| w.1 == *from).map(moved);
                 let is_long = |d: &Complex<f64>| d.norm() > SHORT * usual;
                 let turn = before.filter(is_long).filter(|_| is_long(&here)).map(|d| wrapped((here * d.conj()).arg()));
+                let turn = turn.filter(|turn| turn.abs() < BACK);
                 Motion { moved: Complex::new(here.norm(), 0.0), turn }
             }
         };
@@ -114,10 +144,9 @@ impl Windows {
         let ways: Vec<_> = pairs().map(|(r, m)| [r.moved, m.moved]).collect();
         let turns: Vec<_> =
             pairs().filter_map(|(r, m)| Some([r.turn?, m.turn?].map(|turn| Complex::new(turn, 0.0)))).collect();
-        let of_path = if self.has_heading { 0.0 } else { 10.0 / OUT_OF_NOISE };
         SignedRatios {
             way: Ratio::of(&ways, OUT_OF_NOISE * self.noise),
-            turn: Ratio::of(&turns, (TURNING * self.seconds).max(of_path)),
+            turn: Ratio::of(&turns, self.least_turn(measured)),
         }
     }
 
@@ -129,6 +158,11 @@ impl Windows {
         let share = 1.0 - both * both / (ways * turns).max(f64::MIN_POSITIVE);
         [share, (turns / each.len().max(1) as f64).sqrt() / self.seconds]
     }
+}
+
+/// Root mean square of ways, m.
+fn usual_way(path: &[Motion]) -> f64 {
+    (path.iter().map(|m| m.moved.norm_sqr()).sum::<f64>() / path.len().max(1) as f64).sqrt()
 }
 
 fn rows(record: &Record, seconds: f64) -> Vec<(usize, usize)> {

@@ -1,6 +1,6 @@
 //! Findings of the state of the data in words.
 
-use super::{slip_text, warning_text};
+use super::{defect_text, slip_text, warning_text};
 use crate::discrepancy::identifiability::data_finding::{DataFinding, Side};
 use crate::discrepancy::preprocessing::unit_errors::Slip;
 use crate::discrepancy::report::Finding;
@@ -65,6 +65,7 @@ fn says(of: &DataFinding) -> String {
             "these runs hold motion that the model does not explain, most of it {}: `creepage discover` has something to find",
             COMPONENTS[*component]
         ),
+        DataFinding::Defect(defect) => defect_text::sentence(defect),
         DataFinding::ClockJump(jump) => warning_text::clock_jumped(jump),
         DataFinding::Jumps(jumps) => warning_text::jumped(jumps),
         DataFinding::Slip(slip) => slip_text::sentence(slip),

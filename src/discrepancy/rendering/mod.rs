@@ -1,6 +1,7 @@
 //! Report, page and pictures for people: every sentence of an answer is made here.
 
 pub mod check_text;
+pub(crate) mod defect_text;
 pub(crate) mod effect_names;
 pub(crate) mod experiment_text;
 pub mod figure_data;

@@ -79,11 +79,17 @@ fn of_inputs(inputs: &[InputRepair]) -> String {
                 _ => format!("{names} {noun} a wheel's rate in rad/s, not a speed in m/s{sign}"),
             }
         }
+        Change::Odometer(_) => format!("{names} {noun} the way driven (an odometer), not a speed: its differences fit"),
         Change::Difference(factor) if (factor.abs() - 1.0).abs() < 0.2 => {
             format!("{names} {noun} an angle (the position of the joint), not a rate: its differences fit")
         }
         Change::Difference(_) => format!("{names} {noun} cumulative counts, not a rate: their differences fit"),
-        Change::PerRow => format!("{names} {noun} what happened since the row before, not a rate"),
+        Change::PerRow(factor, _) if (factor.abs() - 1.0).abs() < 0.2 => {
+            format!(
+                "{names} {noun} what happened since the row before, not a rate: divided by the time between rows they fit"
+            )
+        }
+        Change::PerRow(..) => format!("{names} {noun} counts since the row before, not a rate"),
         Change::Line([scale, offset]) => format!(
             "{names} {noun} the command of a servo, a straight line of the angle: angle = {}·{names} + {} rad",
             significant(scale, 4),
@@ -162,11 +168,19 @@ fn line(of: &InputRepair) -> String {
             format!("{role} = {{ column = {column}, unit = \"{unit}\", scale = -1.0 }}")
         }
         Change::Scale(factor, _) => format!("{role} = {{ column = {column}, scale = {} }}", number(factor)),
+        // Differences are read of wheels alone.
+        Change::Odometer(radius) => format!("wheel_rate = {{ angle = {column}, scale = {} }}", number(1.0 / radius)),
+        Change::Difference(factor) if (factor + 1.0).abs() < 0.2 => {
+            format!("{role} = {{ angle = {column}, scale = -1.0 }}")
+        }
         Change::Difference(factor) if (factor - 1.0).abs() < 0.2 => format!("{role} = {{ angle = {column} }}"),
         Change::Difference(factor) => {
             format!("{role} = {{ ticks = {column}, ticks_per_turn = {} }}", number((TAU / factor).round()))
         }
-        Change::PerRow => format!("{role} = {{ column = {column} }}  # divided by the time since the row before"),
+        Change::PerRow(factor, rate) => {
+            let unit = if (factor.abs() - 1.0).abs() < 0.2 { factor.signum() } else { factor };
+            format!("{role} = {{ column = {column}, scale = {} }}", number(unit * rate))
+        }
         Change::Line([scale, offset]) => {
             format!("{role} = {{ column = {column}, scale = {}, offset = {} }}", number(scale), number(offset))
         }

@@ -1,5 +1,6 @@
 //! Warnings in words.
 
+use super::defect_text;
 use super::effect_names::{named, values};
 use super::refusal_text;
 use super::slip_text;
@@ -37,6 +38,7 @@ pub fn clock_jumped(of: &ClockJump) -> String {
 pub fn line(warning: &Warning) -> String {
     match warning {
         Warning::Reading { run, says } => format!("{run}: {says}"),
+        Warning::Dataset(DatasetNote::Defect(defect)) => defect_text::sentence(defect),
         Warning::Dataset(DatasetNote::Jumps(jumps)) => jumped(jumps),
         Warning::Dataset(DatasetNote::ClockJump(jump)) => clock_jumped(jump),
         Warning::Dataset(DatasetNote::Interrupted { run, pieces }) => {

@@ -129,7 +129,7 @@ impl Run {
     }
 
     /// The run with some of its poses: what is taken of each of their columns, the times among them.
-    fn with_poses(&self, take: impl Fn(&Vec<f64>) -> Vec<f64>) -> Self {
+    pub(crate) fn with_poses(&self, take: impl Fn(&Vec<f64>) -> Vec<f64>) -> Self {
         Self {
             time: take(&self.time),
             x: take(&self.x),

@@ -25,7 +25,9 @@ impl From<InputTiming> for Timing {
 /// Inputs between the rows of a log: a cubic spline through samples, or the derivative of the cubic spline
 /// through the running integral of interval means, which keeps every mean exactly.
 ///
-/// Before the first and after the last row the inputs keep their end values.
+/// Before the first and after the last row the inputs keep their end values. Across a hole, a step longer than five usual ones
+/// and than half a second, samples lie on a straight line and a mean is constant: a cubic would carry the slopes at its edges far
+/// beyond both.
 ///
 /// ```
 /// use creepage::motion::{Signals, Timing};
@@ -66,10 +68,13 @@ impl Signals {
     pub fn mixed(time: &[f64], columns: &[Vec<f64>], timings: &[Timing]) -> Self {
         let intervals = time.len().saturating_sub(1);
         let mut pieces = vec![[0.0; 4]; intervals * columns.len()];
+        let holes = holes(time);
         for (c, column) in columns.iter().enumerate() {
             let of_channel = match timings[c] {
-                Timing::Sample => cubics(time, column),
-                Timing::IntervalMean => cubics(time, &running_integral(time, column)).iter().map(slope).collect(),
+                Timing::Sample => between_holes(time, column, &holes),
+                Timing::IntervalMean => {
+                    between_holes(time, &running_integral(time, column), &holes).iter().map(slope).collect()
+                }
             };
             of_channel.into_iter().enumerate().for_each(|(i, p)| pieces[i * columns.len() + c] = p);
         }
@@ -216,6 +221,36 @@ pub(crate) fn timings(differences: &[Option<f64>], timing: InputTiming) -> Vec<T
     differences.iter().map(one).collect()
 }
 
+/// Steps of a hole, so many usual ones, and the shortest, s.
+const HOLE: (f64, f64) = (5.0, 0.5);
+
+/// Intervals of a log across which nothing was logged.
+fn holes(time: &[f64]) -> Vec<usize> {
+    let Some(usual) = usual_step(time) else { return vec![] };
+    let least = (HOLE.0 * usual).max(HOLE.1);
+    (0..time.len() - 1).filter(|i| time[i + 1] - time[*i] > least).collect()
+}
+
+/// The median of the steps.
+fn usual_step(time: &[f64]) -> Option<f64> {
+    let mut steps: Vec<f64> = time.windows(2).map(|w| w[1] - w[0]).collect();
+    let middle = steps.len() / 2;
+    (!steps.is_empty()).then(|| *steps.select_nth_unstable_by(middle, f64::total_cmp).1)
+}
+
+/// Splines of their own between holes, and straight lines across them.
+fn between_holes(t: &[f64], y: &[f64], holes: &[usize]) -> Vec<[f64; 4]> {
+    let mut found = Vec::with_capacity(t.len().saturating_sub(1));
+    let mut start = 0;
+    for i in holes {
+        found.extend(cubics(&t[start..=*i], &y[start..=*i]));
+        found.push([y[*i], (y[i + 1] - y[*i]) / (t[i + 1] - t[*i]), 0.0, 0.0]);
+        start = i + 1;
+    }
+    found.extend(cubics(&t[start..], &y[start..]));
+    found
+}
+
 /// Coefficients of the spline in powers of (t − tᵢ), interval by interval.
 fn cubics(t: &[f64], y: &[f64]) -> Vec<[f64; 4]> {
     let m = curvatures(t, y);
@@ -234,12 +269,7 @@ fn integral([a, b, d, e]: &[f64; 4], h: f64) -> f64 {
 
 /// Rows without every second one; beside an interruption all stay.
 fn every_second(time: &[f64]) -> Vec<usize> {
-    let mut steps: Vec<f64> = time.windows(2).map(|w| w[1] - w[0]).collect();
-    if steps.is_empty() {
-        return (0..time.len()).collect();
-    }
-    let middle = steps.len() / 2;
-    let usual = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let Some(usual) = usual_step(time) else { return (0..time.len()).collect() };
     let mut kept = vec![0];
     for i in 1..time.len() {
         let before = kept[kept.len() - 1];
@@ -345,6 +375,22 @@ mod tests {
             assert_eq!(v[c], value(&alone, 0.45));
         }
         assert_eq!(timings(&[None, Some(0.0)], InputTiming::Sample), [Timing::Sample, Timing::IntervalMean]);
+    }
+
+    /// Slopes at the edges of a minute without rows lead nowhere; beside it each part is as if it were alone.
+    #[test]
+    fn a_hole_is_crossed_on_a_straight_line() {
+        let time: Vec<f64> = (0..40).map(|i| 0.1 * f64::from(i) + if i < 20 { 0.0 } else { 60.0 }).collect();
+        let column: Vec<f64> = time.iter().map(|t| (3.0 * t).sin()).collect();
+        let alone =
+            |rows: std::ops::Range<usize>| Signals::new(&time[rows.clone()], &[column[rows].to_vec()], Timing::Sample);
+        let s = Signals::new(&time, std::slice::from_ref(&column), Timing::Sample);
+        let middle = 0.5 * (time[19] + time[20]);
+        assert!((value(&s, middle) - 0.5 * (column[19] + column[20])).abs() < 1e-12);
+        assert_eq!([1.234, 1.85].map(|t| value(&s, t)), [1.234, 1.85].map(|t| value(&alone(0..20), t)));
+        assert!([62.05, 63.3].into_iter().all(|t| (value(&s, t) - value(&alone(20..40), t)).abs() < 1e-12));
+        let means = Signals::new(&time, std::slice::from_ref(&column), Timing::IntervalMean);
+        assert!([2.0, middle, 61.0].into_iter().all(|t| (value(&means, t) - column[20]).abs() < 1e-9));
     }
 
     #[test]

@@ -15,6 +15,7 @@ use super::estimation::problem::Problem;
 use super::estimation::unexplained;
 use super::experiment::design;
 use super::experiment::next_step::NextStep;
+use super::localisation::constraint_residuals::ConstraintResiduals;
 use super::localisation::driving_regimes;
 use super::localisation::unexplained_motion::remaining;
 use super::preprocessing::dataset::{Data, FITTED_SHARE};
@@ -84,6 +85,11 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
     let remains = unexplained::remains(&selected.after);
     // What is explained to its noise needs no other clock.
     let drifts = if remains { problem.drifts(&selected.after)? } else { vec![] };
+    let unseen: Vec<_> = data
+        .held_out
+        .iter()
+        .map(|r| ConstraintResiduals::of(&selected.after.model, r, &noise))
+        .collect::<Result<_>>()?;
     let outcome = verdict::after_fitting(&problem, &selected, &after, &drifts)?;
     let relatives = relatives(&selected, request.library, measured(&data.fitted[0]));
     let usable = outcome.verdict != Verdict::UnusableData;
@@ -114,7 +120,7 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
         effects,
         unnamed,
         disagreement: driving_regimes::disagreements(&before),
-        rest: rest(&selected.after, &after, &gap).filter(|_| usable && !is_noise),
+        rest: rest(&selected.after, &after, &unseen, &gap).filter(|_| usable && !is_noise),
         covariance: covariance(&selected.after).filter(|_| usable),
         refused: selected.refused.iter().filter(|_| usable).cloned().collect(),
         remaining: Some(remaining(&selected.after, data.fitted[0].has_heading, &after)),

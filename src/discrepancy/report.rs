@@ -240,7 +240,7 @@ pub struct Refuted {
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Remains {
-    /// The error over the noise floor, where that is largest.
+    /// The error over the noise floor: of the position at the horizon of the first page, or as `says` has it.
     pub ratio: f64,
     /// The constraint that is violated most.
     #[serde(rename = "where")]

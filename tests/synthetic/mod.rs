@@ -184,6 +184,7 @@ fn cornering_creep() -> Named {
         evidence: Evidence { delta_bic: 8120.0, p_value: 1e-12 },
         indistinguishable_from: vec![Rival { id: "load-dependent-creep".into(), why: "data".into() }],
         equation: "mass_over_bT*(v_t' + phi'*v_l) + v_t = 0".into(),
+        per_run: BTreeMap::new(),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Findings of the state of the data in words.
 
-use super::{slip_text, warning_text};
+use super::{odd_run_text, slip_text, warning_text};
 use crate::discrepancy::identifiability::data_finding::{DataFinding, Side};
 use crate::discrepancy::preprocessing::unit_errors::Slip;
 use crate::discrepancy::report::Finding;
@@ -67,6 +67,7 @@ fn says(of: &DataFinding) -> String {
         ),
         DataFinding::ClockJump(jump) => warning_text::clock_jumped(jump),
         DataFinding::Jumps(jumps) => warning_text::jumped(jumps),
+        DataFinding::OddRun(odd) => odd_run_text::says(odd),
         DataFinding::Slip(slip) => slip_text::sentence(slip),
         DataFinding::Clock(warning) => warning_text::line(warning),
     }

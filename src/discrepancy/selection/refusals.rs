@@ -1,14 +1,15 @@
 //! Names that were found and do not stand: what a fit asks for is no finding by that alone.
 
 use super::input_noise;
-use super::search::{Search, SearchState, find, forget};
+use super::search::{Search, SearchState, find, first_of, forget};
 use crate::discrepancy::estimation::bounds::is_possible;
 use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::evidence::jackknife::Jackknife;
 use crate::discrepancy::evidence::wald_test::neutral_at_zero;
+use crate::discrepancy::localisation::unexplained_motion::prominence;
 use crate::discrepancy::selection::choice::{Refusal, Refused, SelectedEffect};
 use crate::effects::Applied;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::model::effect_equation::is_term;
 use crate::progress::OnProgress;
 
@@ -21,6 +22,8 @@ const LEANS: f64 = 0.5;
 pub(crate) struct Standing {
     pub chosen: Vec<SelectedEffect>,
     pub refused: Vec<Refused>,
+    /// What the interpolation of the inputs may make up of each value that stands.
+    pub missed: Vec<f64>,
 }
 
 impl Search<'_> {
@@ -36,12 +39,21 @@ impl Search<'_> {
     ) -> Result<Standing> {
         let mut refused: Vec<Refused> = vec![];
         loop {
-            let chosen = self.examined(&grown.fit, scatter, &missed, progress)?;
-            let Some((applied, why)) = self.fallen(&grown.fit, &chosen)? else {
-                return Ok(Standing { chosen, refused });
+            let weighed = self.weighed(&grown.fit, scatter, &missed, progress)?;
+            let chosen: Vec<SelectedEffect> = weighed.iter().map(|w| w.effect.clone()).collect();
+            if let Some((whole, smaller)) = self.at_limit(&grown.fit, &chosen)? {
+                forget(&mut missed, &grown.fit, &whole);
+                scatter = None;
+                grown.go_back_to(smaller);
+                continue;
+            }
+            let fallen = self.fallen(&grown.fit, &chosen)?;
+            let without = |(applied, why): (Applied, Refusal)| {
+                let smaller = self.without(&grown.fit, &applied)?;
+                Ok::<_, Error>(smaller.map(|smaller| (applied, why, smaller)))
             };
-            let Some(smaller) = self.without(&grown.fit, &applied)? else {
-                return Ok(Standing { chosen, refused });
+            let Some((applied, why, smaller)) = fallen.map(without).transpose()?.flatten() else {
+                return Ok(Standing { chosen: self.examined(&grown.fit, weighed)?, refused, missed });
             };
             forget(&mut missed, &grown.fit, &applied);
             scatter = None;
@@ -52,7 +64,8 @@ impl Search<'_> {
 
     /// The next effect that does not stand, the cheapest question first.
     fn fallen(&self, fit: &Fit, chosen: &[SelectedEffect]) -> Result<Option<(Applied, Refusal)>> {
-        if let Some(fallen) = self.fallen_by_value(fit, chosen) {
+        let price = prominence(fit, &self.problem.violations(&fit.model, &fit.noise())?);
+        if let Some(fallen) = self.fallen_by_value(fit, chosen, price) {
             return Ok(Some(fallen));
         }
         if let Some(applied) = self.leaning(fit, chosen)? {
@@ -65,13 +78,16 @@ impl Search<'_> {
     }
 
     /// What falls by the values, deviations and evidence that are known: of several the one that is worth least.
-    fn fallen_by_value(&self, fit: &Fit, chosen: &[SelectedEffect]) -> Option<(Applied, Refusal)> {
+    ///
+    /// Beside a large rest the bar is as many times as high: what is left there has no name, and a small effect may be a part
+    /// of it.
+    fn fallen_by_value(&self, fit: &Fit, chosen: &[SelectedEffect], price: f64) -> Option<(Applied, Refusal)> {
         let worst = |of: &dyn Fn(&SelectedEffect) -> bool| {
             let all = chosen.iter().filter(|c| of(c));
             all.min_by(|a, b| a.delta_bic.total_cmp(&b.delta_bic)).map(|c| c.applied.clone())
         };
         let is_open = |c: &SelectedEffect| c.std.iter().any(Option::is_none);
-        let is_cheap = |c: &SelectedEffect| c.delta_bic <= self.margin() || self.is_faint(fit, c);
+        let is_cheap = |c: &SelectedEffect| c.delta_bic <= price * self.margin() || self.is_faint(fit, c);
         worst(&|c| !is_possible(&c.applied))
             .map(|a| (a, Refusal::Impossible))
             .or_else(|| worst(&is_open).map(|a| (a, Refusal::NoDeviation)))
@@ -113,11 +129,6 @@ impl Search<'_> {
         let most = moved.filter(|(by, _)| *by > LEANS).max_by(|a, b| a.0.total_cmp(&b.0));
         Ok(most.map(|(_, a)| a.clone()))
     }
-}
-
-/// Where the values of an effect begin among the free ones.
-fn first_of(fit: &Fit, effect: &Applied) -> usize {
-    fit.model.free_effects().take_while(|e| !e.same_as(effect)).map(|e| e.values.len()).sum()
 }
 
 /// By what share of themselves the values of an effect move from one fit to another.

@@ -155,6 +155,7 @@ pub fn report() -> Report {
         refuted: vec![],
         remains: None,
         covariance: None,
+        odd_runs: vec![],
         unnamed: vec![],
         disagreement: vec![disagreement("eight-fast.csv", 0.61), disagreement("eight-slow.csv", 0.24)],
         remaining: Some(remaining()),

@@ -50,14 +50,6 @@ pub(crate) fn disagrees(fit: &Fit, after: &[ConstraintResiduals]) -> bool {
     visible(fit, after).any(|c| !is_white(after, c))
 }
 
-/// How many times as large as what would just be seen is the largest part of what a fit leaves and is not random; 1 where
-/// none is.
-pub(crate) fn prominence(fit: &Fit, after: &[ConstraintResiduals]) -> f64 {
-    let seen = visible(fit, after).filter(|c| !is_white(after, *c));
-    let of = |c: usize| ConstraintResiduals::rms(after, c).map_or(1.0, |(rms, noise)| rms / (VISIBLE * noise));
-    seen.map(of).filter(|r| r.is_finite()).fold(1.0, f64::max)
-}
-
 /// Whether what a fit leaves stands out of the noise, and all of it is random.
 pub(crate) fn is_random(fit: &Fit, after: &[ConstraintResiduals]) -> bool {
     visible(fit, after).next().is_some() && !disagrees(fit, after)
@@ -67,18 +59,6 @@ pub(crate) fn is_random(fit: &Fit, after: &[ConstraintResiduals]) -> bool {
 mod tests {
     use super::*;
     use crate::discrepancy::fixtures::{fit_of, unicycle};
-
-    #[test]
-    fn a_rest_is_as_prominent_as_it_stands_out() {
-        let of = |unexplained: f64, noise: f64| {
-            let mut missed = ConstraintResiduals::across("a.csv", &[0.2; 12]);
-            missed.noise = vec![0.0, noise, 0.0];
-            let fit = Fit { unexplained: vec![0.0, unexplained, 0.0], ..fit_of(unicycle(&[])) };
-            prominence(&fit, std::slice::from_ref(&missed))
-        };
-        assert!((of(90.0, 0.02) - 5.0).abs() < 1e-12, "{}", of(90.0, 0.02));
-        assert_eq!((of(0.0, 0.02), of(90.0, 0.15)), (1.0, 1.0));
-    }
 
     /// What noise that wanders makes of a rate is taken off what remains; of white noise nothing is.
     #[test]

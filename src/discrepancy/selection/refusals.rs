@@ -6,7 +6,6 @@ use crate::discrepancy::estimation::bounds::is_possible;
 use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::evidence::jackknife::Jackknife;
 use crate::discrepancy::evidence::wald_test::neutral_at_zero;
-use crate::discrepancy::localisation::unexplained_motion::prominence;
 use crate::discrepancy::selection::choice::{Refusal, Refused, SelectedEffect};
 use crate::effects::Applied;
 use crate::error::{Error, Result};
@@ -64,8 +63,7 @@ impl Search<'_> {
 
     /// The next effect that does not stand, the cheapest question first.
     fn fallen(&self, fit: &Fit, chosen: &[SelectedEffect]) -> Result<Option<(Applied, Refusal)>> {
-        let price = prominence(fit, &self.problem.violations(&fit.model, &fit.noise())?);
-        if let Some(fallen) = self.fallen_by_value(fit, chosen, price) {
+        if let Some(fallen) = self.fallen_by_value(fit, chosen) {
             return Ok(Some(fallen));
         }
         if let Some(applied) = self.leaning(fit, chosen)? {
@@ -78,16 +76,13 @@ impl Search<'_> {
     }
 
     /// What falls by the values, deviations and evidence that are known: of several the one that is worth least.
-    ///
-    /// Beside a large rest the bar is as many times as high: what is left there has no name, and a small effect may be a part
-    /// of it.
-    fn fallen_by_value(&self, fit: &Fit, chosen: &[SelectedEffect], price: f64) -> Option<(Applied, Refusal)> {
+    fn fallen_by_value(&self, fit: &Fit, chosen: &[SelectedEffect]) -> Option<(Applied, Refusal)> {
         let worst = |of: &dyn Fn(&SelectedEffect) -> bool| {
             let all = chosen.iter().filter(|c| of(c));
             all.min_by(|a, b| a.delta_bic.total_cmp(&b.delta_bic)).map(|c| c.applied.clone())
         };
         let is_open = |c: &SelectedEffect| c.std.iter().any(Option::is_none);
-        let is_cheap = |c: &SelectedEffect| c.delta_bic <= price * self.margin() || self.is_faint(fit, c);
+        let is_cheap = |c: &SelectedEffect| c.delta_bic <= self.margin() || self.is_faint(fit, c);
         worst(&|c| !is_possible(&c.applied))
             .map(|a| (a, Refusal::Impossible))
             .or_else(|| worst(&is_open).map(|a| (a, Refusal::NoDeviation)))

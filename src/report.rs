@@ -12,5 +12,6 @@
 pub use crate::discrepancy::identifiability::{Health, Pair, Parameter, Prospect, RunHealth, Seen, Standing};
 pub use crate::discrepancy::report::{
     BeforeAfter, Covariance, DataSummary, Disagreement, Estimate, Evidence, Finding, Floor, Gap, Named, NextExperiment,
-    Provenance, Refuted, Remaining, RemainingConstraint, Remains, Rival, RunClock, Step, Unnamed,
+    OddRun, PerRun, Provenance, Refuted, Remaining, RemainingConstraint, Remains, Rival, RunClock, RunEstimate, Step,
+    Unnamed,
 };

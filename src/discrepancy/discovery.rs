@@ -1,7 +1,8 @@
 //! The outcome of a discovery: its report, put together once, its pictures and the patched model.
 
 use super::rendering::{
-    experiment_text, finding_text, reason_text, refusal_text, regime_text, rest_text, summary, warning_text,
+    experiment_text, finding_text, odd_run_text, reason_text, refusal_text, regime_text, rest_text, summary,
+    warning_text,
 };
 use super::report::*;
 use crate::discrepancy::diagnosis::reason::Reason;
@@ -12,6 +13,7 @@ use crate::discrepancy::localisation::driving_regimes::Stretch;
 use crate::discrepancy::preprocessing::dataset::Data;
 use crate::discrepancy::request::Request;
 use crate::discrepancy::selection::choice::Refused;
+use crate::discrepancy::selection::odd_run::OddRun;
 use crate::files::{EffectEntry, ModelFile};
 use std::collections::BTreeMap;
 
@@ -48,6 +50,7 @@ pub(crate) struct Findings {
     pub unnamed: Vec<Unnamed>,
     pub disagreement: Vec<Stretch>,
     pub refused: Vec<Refused>,
+    pub odd: Vec<OddRun>,
     pub rest: Option<Rest>,
     pub covariance: Option<Covariance>,
     pub remaining: Option<Remaining>,
@@ -66,16 +69,18 @@ pub(crate) fn report(request: &Request, data: &Data, verdict: Verdict, found: Fi
     let composed = || summary::composed_sentence(verdict, &found.effects, &found.unnamed);
     let sentence = found.reason.as_ref().map_or_else(composed, reason_text::sentence);
     let roles = request.runs.first().map_or(&[][..], |r| &r.roles);
+    let admitted = rest_text::admitted(&sentence, verdict, found.rest.as_ref());
     Report {
         schema: 2,
-        verdict,
-        summary: rest_text::admitted(&sentence, verdict, found.rest.as_ref()),
+        verdict: odd_run_text::verdict(verdict, &found.odd),
+        summary: odd_run_text::before(&found.odd, &admitted),
         effects: found.effects,
         unnamed: found.unnamed,
         disagreement: found.disagreement.iter().map(regime_text::disagreement).collect(),
         refuted: found.refused.iter().map(|r| refusal_text::refuted(r, roles)).collect(),
         remains: found.rest.as_ref().map(rest_text::remains),
         covariance: found.covariance,
+        odd_runs: found.odd.iter().map(odd_run_text::odd_run).collect(),
         remaining: found.remaining,
         gap: found.gap,
         next_experiment: found.next.as_ref().map(experiment_text::next_experiment),

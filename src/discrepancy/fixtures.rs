@@ -53,6 +53,7 @@ pub fn fit_of(model: Model) -> Fit {
         p,
         covariance: None,
         between_runs: None,
+        of_runs: vec![],
         runs: 1,
         variances: noise_of(0, [1e-6; 2], &[1e-6; 3]),
         deviance: 0.0,

@@ -3,7 +3,7 @@
 use super::diagnosis::advice::Advice;
 use super::diagnosis::before_after::{ModelComparison, grown, too_long};
 use super::diagnosis::equivalents::{EquivalentEffect, measured, relatives};
-use super::diagnosis::findings::{covariance, named, without_name};
+use super::diagnosis::findings::{covariance, named, per_run, without_name};
 use super::diagnosis::held_out::{Judge, refuted};
 use super::diagnosis::reason::Reason;
 use super::diagnosis::rest::rest;
@@ -13,8 +13,10 @@ use super::diagnosis::{contradictions, plausibility};
 use super::discovery::{Clocks, Discovery, Findings, report};
 use super::estimation::problem::Problem;
 use super::estimation::unexplained;
+use super::evidence::heterogeneity::spreads;
 use super::experiment::design;
 use super::experiment::next_step::NextStep;
+use super::localisation::constraint_residuals::ConstraintResiduals;
 use super::localisation::driving_regimes;
 use super::localisation::unexplained_motion::remaining;
 use super::preprocessing::dataset::{Data, FITTED_SHARE};
@@ -22,12 +24,16 @@ use super::preprocessing::input_effects::on_inputs;
 use super::preprocessing::prepared_run::PreparedRun;
 use super::preprocessing::quantisation::{CoarseInput, coarse_inputs};
 use super::preprocessing::{slips, unit_errors};
+use super::record::run_record::Record;
 use super::rendering::figure_data;
 use super::report::{Named, PathPicture, Pictures, Unnamed, Verdict};
 use super::request::{Request, common_roles, horizons};
 use super::selection::choice::{Selected, SelectedEffect};
+use super::selection::odd_run::{is_sought, odd_runs};
 use super::selection::refute::refute;
+use super::selection::search::first_of;
 use super::selection::select::choose;
+use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
 use crate::model::effect_equation;
@@ -64,15 +70,30 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
     }
     let library = on_inputs(request.library, &model, request.runs);
     let request = &Request { library: &library, ..*request };
-    let data = Data::of(request, &model)?;
-    let problem = Problem::new(data.fitted.clone(), request.file.noise.position, request.file.noise.heading)
-        .knowing_its_inputs(&model)?;
+    let mut data = Data::of(request, &model)?;
+    let posed = |data: &Data| {
+        Problem::new(data.fitted.clone(), request.file.noise.position, request.file.noise.heading)
+            .knowing_its_inputs(&model)
+    };
+    let mut problem = posed(&data)?;
     if let Some(outcome) = verdict::before_fitting(&problem, &model)? {
         let given = |r| figure_data::path_as_given(r, &model);
         let paths = data.fitted.iter().map(given).collect::<Result<_>>()?;
         return Ok(early(request, &data, clocks, paths, outcome));
     }
-    let Some(selected) = choose(&problem, &model, request.library, progress)? else {
+    let mut choice = choose(&problem, &model, request.library, progress)?;
+    let mut odd = vec![];
+    if let Some(all) = choice.as_ref().filter(|c| is_sought(c)) {
+        odd = odd_runs(&problem, &all.after.model, request.library, progress)?;
+        if !odd.is_empty() {
+            // What the others have is chosen without the runs that differ.
+            let names: Vec<&str> = odd.iter().map(|o| o.run.as_str()).collect();
+            data = data.without(&names, request.held_out.is_empty());
+            problem = posed(&data)?;
+            choice = choose(&problem, &model, request.library, progress)?;
+        }
+    }
+    let Some(selected) = choice else {
         let paths = data.fitted.iter().map(|r| figure_data::measured_path(r, false)).collect();
         return Ok(early(request, &data, clocks, paths, verdict::undefined_motion()));
     };
@@ -87,10 +108,16 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
     let remains = unexplained::remains(&selected.after);
     // What is explained to its noise needs no other clock.
     let drifts = if remains { problem.drifts(&selected.after)? } else { vec![] };
+    let unseen: Vec<_> = data
+        .held_out
+        .iter()
+        .map(|r| ConstraintResiduals::of(&selected.after.model, r, &noise))
+        .collect::<Result<_>>()?;
     let outcome = verdict::after_fitting(&problem, &selected, &after, &drifts)?;
     let relatives = relatives(&selected, request.library, measured(&data.fitted[0]));
     let usable = outcome.verdict != Verdict::UnusableData;
-    let (effects, unnamed) = if usable { chosen(&selected, &relatives, &data, &model)? } else { (vec![], vec![]) };
+    let (effects, unnamed) =
+        if usable { chosen(&selected, &relatives, &data, &problem.records, &model)? } else { (vec![], vec![]) };
     let comparison = ModelComparison::of(&data, &model, &selected, request.seed)?;
     let gap = comparison.gaps(&horizons);
     let mut warnings = vec![];
@@ -117,8 +144,9 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
         effects,
         unnamed,
         disagreement: driving_regimes::disagreements(&before),
-        rest: rest(&selected.after, &after, &gap).filter(|_| usable && !is_noise),
+        rest: rest(&selected.after, &after, &unseen, &gap).filter(|_| usable && !is_noise),
         covariance: covariance(&selected.after).filter(|_| usable),
+        odd,
         refused: selected.refused.iter().filter(|_| usable).cloned().collect(),
         remaining: Some(remaining(&selected.after, data.fitted[0].measures_heading(), &after)),
         steps: comparison.steps(&selected, &gap)?,
@@ -136,11 +164,18 @@ fn chosen(
     selected: &Selected,
     relatives: &[Vec<EquivalentEffect>],
     data: &Data,
+    records: &[Record],
     model: &Model,
 ) -> Result<(Vec<Named>, Vec<Unnamed>)> {
     let each = selected.chosen.iter().zip(relatives);
     let (terms, effects): (Vec<_>, Vec<_>) = each.partition(|(c, _)| effect_equation::is_term(&c.applied));
-    let effects = effects.into_iter().map(|(c, relatives)| named(c, relatives, model)).collect();
+    let spreads = spreads(&selected.after);
+    let run_by_run = |a: &Applied| per_run(a, &spreads, first_of(&selected.after, a), records);
+    let with_runs = |(c, relatives): (&SelectedEffect, &Vec<EquivalentEffect>)| Named {
+        per_run: run_by_run(&c.applied),
+        ..named(c, relatives, model)
+    };
+    let effects = effects.into_iter().map(with_runs).collect();
     let terms: Vec<&SelectedEffect> = terms.into_iter().map(|(c, _)| c).collect();
     Ok((effects, without_name(&terms, data, &selected.after, model)?))
 }

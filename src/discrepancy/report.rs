@@ -38,6 +38,9 @@ pub struct Report {
     /// Covariance of all fitted values.
     #[serde(default)]
     pub covariance: Option<Covariance>,
+    /// Runs that differ from the others; what was found is of the others.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub odd_runs: Vec<OddRun>,
     /// What the last model leaves of each constraint.
     #[serde(default)]
     pub remaining: Option<Remaining>,
@@ -142,6 +145,68 @@ pub struct Named {
     pub indistinguishable_from: Vec<Rival>,
     /// What the effect says, as a formula.
     pub equation: String,
+    /// Parameters run by run, where there are several runs.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub per_run: BTreeMap<String, PerRun>,
+}
+
+/// A parameter run by run, and how far it differs between them.
+///
+/// ```
+/// use creepage::report::PerRun;
+/// let text = r#"{"runs": [{"run": "a.csv", "value": 0.05, "std": 0.01}], "tau": 0.0, "q": 0.0, "p_value": 1.0}"#;
+/// let slip: PerRun = serde_json::from_str(text).unwrap();
+/// assert!(slip.tau <= slip.runs[0].std);
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PerRun {
+    /// What each run says alone, as far as it tells.
+    pub runs: Vec<RunEstimate>,
+    /// Standard deviation between runs, beyond their own.
+    pub tau: f64,
+    /// Cochran's Q.
+    pub q: f64,
+    /// Probability of so large a Q where all runs have one value.
+    pub p_value: f64,
+}
+
+/// What a run says alone.
+///
+/// ```
+/// use creepage::report::RunEstimate;
+/// let one = RunEstimate { run: "a.csv".into(), value: 0.05, std: 0.01 };
+/// assert!(one.value > 3.0 * one.std);
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RunEstimate {
+    /// File name of the run.
+    pub run: String,
+    /// Its value.
+    pub value: f64,
+    /// Its standard deviation.
+    pub std: f64,
+}
+
+/// A run that differs from all others.
+///
+/// ```
+/// use creepage::report::OddRun;
+/// let text = r#"{"run": "c.csv", "id": "track-width", "parameters": {}, "others": {}, "says": "c.csv differs"}"#;
+/// let odd: OddRun = serde_json::from_str(text).unwrap();
+/// assert_eq!((odd.run.as_str(), odd.id.as_str()), ("c.csv", "track-width"));
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OddRun {
+    /// File name of the run.
+    pub run: String,
+    /// The effect it has, by its id in the library.
+    pub id: String,
+    /// Its values there.
+    pub parameters: BTreeMap<String, Estimate>,
+    /// Its values in the others.
+    pub others: BTreeMap<String, Estimate>,
+    /// All this in words.
+    pub says: String,
 }
 
 impl Named {
@@ -327,7 +392,7 @@ pub struct Refuted {
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Remains {
-    /// The error over the noise floor, where that is largest.
+    /// The error over the noise floor: of the position at the horizon of the first page, or as `says` has it.
     pub ratio: f64,
     /// The constraint that is violated most.
     #[serde(rename = "where")]

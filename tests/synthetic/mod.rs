@@ -155,6 +155,7 @@ pub fn report() -> Report {
         refuted: vec![],
         remains: None,
         covariance: None,
+        odd_runs: vec![],
         unnamed: vec![],
         disagreement: vec![disagreement("eight-fast.csv", 0.61), disagreement("eight-slow.csv", 0.24)],
         remaining: Some(remaining()),
@@ -175,15 +176,18 @@ pub fn report() -> Report {
 }
 
 fn cornering_creep() -> Named {
-    let estimate = Estimate { value: 0.10938, std: Some(0.00213), unit: "s".into() };
+    let estimate = Estimate { value: 0.10938, std: Some(0.00213), unit: "s".into(), course: None };
     Named {
         id: "cornering-creep".into(),
         says: "a viscous contact holds the vehicle sideways, so it slides outwards in turns".into(),
         place: "traverse constraint".into(),
+        on: None,
+        scope: None,
         parameters: BTreeMap::from([("mass_over_bT".to_string(), estimate)]),
         evidence: Evidence { delta_bic: 8120.0, p_value: 1e-12 },
         indistinguishable_from: vec![Rival { id: "load-dependent-creep".into(), why: "data".into() }],
         equation: "mass_over_bT*(v_t' + phi'*v_l) + v_t = 0".into(),
+        per_run: BTreeMap::new(),
     }
 }
 

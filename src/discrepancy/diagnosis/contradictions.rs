@@ -36,6 +36,7 @@ mod tests {
                 inconsistent,
                 sampling_sensitive,
                 refused: vec![],
+                missed: vec![],
             };
             (is_contested(&choice), warnings(&choice).len())
         };

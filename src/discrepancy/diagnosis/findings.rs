@@ -2,10 +2,12 @@
 
 use super::equivalents::EquivalentEffect;
 use crate::discrepancy::estimation::fit::Fit;
+use crate::discrepancy::evidence::heterogeneity::{RunValue, Spread};
 use crate::discrepancy::localisation::constraint_residuals::{ConstraintResiduals, reduction};
 use crate::discrepancy::preprocessing::dataset::Data;
+use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::report::{
-    AboveSpeed, CourseFound, Covariance, Estimate, Evidence, Named, Rival, ScopeFound, Unnamed,
+    AboveSpeed, CourseFound, Covariance, Estimate, Evidence, Named, PerRun, Rival, RunEstimate, ScopeFound, Unnamed,
 };
 use crate::discrepancy::selection::choice::SelectedEffect;
 use crate::effects::{Applied, Scope};
@@ -68,7 +70,25 @@ pub(crate) fn named(chosen: &SelectedEffect, relatives: &[EquivalentEffect], mod
         evidence: Evidence { delta_bic: chosen.delta_bic, p_value: chosen.p_value },
         indistinguishable_from: relatives.iter().map(rival).collect(),
         equation: equation(a, model),
+        per_run: BTreeMap::new(),
     }
+}
+
+/// The values of an effect run by run, where there are several; `spreads` are those of all values, `first` where its own
+/// begin.
+pub(crate) fn per_run(
+    a: &Applied,
+    spreads: &[Option<Spread>],
+    first: usize,
+    runs: &[Record],
+) -> BTreeMap<String, PerRun> {
+    let told = |v: &RunValue| RunEstimate { run: runs[v.run].name.clone(), value: v.value, std: v.variance.sqrt() };
+    let of = |(k, name): (usize, &String)| {
+        let s = spreads.get(first + k)?.as_ref()?;
+        let runs = s.values.iter().map(told).collect();
+        Some((name.clone(), PerRun { runs, tau: s.tau, q: s.q, p_value: s.p_value }))
+    };
+    a.effect.parameters.keys().enumerate().filter_map(of).collect()
 }
 
 /// The covariance of all fitted values, as far as rows and windows are independent.

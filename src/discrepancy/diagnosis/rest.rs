@@ -5,7 +5,7 @@ use crate::discrepancy::estimation::unexplained;
 use crate::discrepancy::localisation::constraint_residuals::ConstraintResiduals;
 use crate::discrepancy::localisation::driving_regimes::{DrivingRegime, Stretch, disagreements};
 use crate::discrepancy::localisation::unexplained_motion::disagrees;
-use crate::discrepancy::report::{Gap, judged, judged_alike};
+use crate::discrepancy::report::{Gap, judged, judged_alike, middle};
 use crate::model::state::JUMPS;
 
 /// A gap beyond so many floors is not the noise.
@@ -14,31 +14,57 @@ const ABOVE: f64 = 1.5;
 /// What a model leaves above the noise floor.
 #[derive(Clone, Debug)]
 pub struct Rest {
-    /// The gap over its floor, at the horizon and in the quantity where that is largest.
-    pub ratio: f64,
+    /// The gap over its floor.
+    pub excess: Excess,
     /// Whether the gap is that of held-out runs.
     pub is_held_out: bool,
-    /// The stretch with the largest share of what remains on the fitted runs.
+    /// The stretch with the largest share of what remains, on the runs of the gap.
     pub most: Stretch,
+}
+
+/// How many floors a gap is, and which gap.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Excess {
+    /// The gap over its floor.
+    pub ratio: f64,
+    /// After so many seconds.
+    pub horizon_s: f64,
+    /// Whether it is the heading's, and not the position's.
+    pub of_heading: bool,
+}
+
+impl Excess {
+    /// Whether it is more than the floor.
+    fn is_real(&self) -> bool {
+        self.ratio > ABOVE
+    }
 }
 
 impl Rest {
     /// Whether the gap is beyond its floor; else windows alone stand out of the noise.
     pub fn exceeds_floor(&self) -> bool {
-        self.ratio > ABOVE
+        self.excess.is_real()
     }
 }
 
-/// What a model leaves; `None` at the floor.
-pub(crate) fn rest(fit: &Fit, after: &[ConstraintResiduals], gaps: &[Gap]) -> Option<Rest> {
-    let ratio = largest_ratio(gaps)?;
-    let exceeds = ratio > ABOVE && unexplained::remains(fit);
+/// What a model leaves of the fitted and of the held-out runs; `None` at the floor.
+///
+/// Where the gap is beyond its floor, its number and its place are of the same runs.
+pub(crate) fn rest(
+    fit: &Fit,
+    after: &[ConstraintResiduals],
+    held_out: &[ConstraintResiduals],
+    gaps: &[Gap],
+) -> Option<Rest> {
+    let excess = excess(gaps)?;
+    let exceeds = excess.is_real() && unexplained::remains(fit);
     if !exceeds && !disagrees(fit, after) {
         return None;
     }
     let is_held_out = gaps.iter().any(|g| g.held_out.is_some());
-    let most = disagreements(after).into_iter().next().or_else(|| everywhere(fit, after))?;
-    Some(Rest { ratio, is_held_out, most })
+    let judged = if is_held_out && excess.is_real() { held_out } else { after };
+    let most = disagreements(judged).into_iter().next().or_else(|| everywhere(fit, judged))?;
+    Some(Rest { excess, is_held_out, most })
 }
 
 /// The whole of a run and the constraint that needs the jumps most: what stands out of no window by itself.
@@ -49,15 +75,22 @@ fn everywhere(fit: &Fit, after: &[ConstraintResiduals]) -> Option<Stretch> {
     Some(Stretch { run: run.run.clone(), place, span: run.span()?, regime, share: 1.0 })
 }
 
-/// The largest number of floors that a gap is.
-fn largest_ratio(gaps: &[Gap]) -> Option<f64> {
-    let of = |g: &&Gap| {
-        let (_, v) = judged(g)?;
-        let position = v.position_rms_after / g.noise_floor.position_rms;
-        let heading = v.heading_rms_after.zip(g.noise_floor.heading_rms).map_or(0.0, |(a, f)| a / f);
-        Some(position.max(heading)).filter(|ratio| ratio.is_finite())
+/// How far the gaps are beyond their floors: the position's at the middle horizon, as the page shows it first; where that is
+/// at its floor the heading's there, and else the largest.
+fn excess(gaps: &[Gap]) -> Option<Excess> {
+    let of = |g: &Gap| -> Vec<Excess> {
+        let Some((_, v)) = judged(g) else { return vec![] };
+        let position = Some(v.position_rms_after / g.noise_floor.position_rms);
+        let heading = v.heading_rms_after.zip(g.noise_floor.heading_rms).map(|(after, floor)| after / floor);
+        let both = [(position, false), (heading, true)].into_iter();
+        let each =
+            both.filter_map(|(ratio, of_heading)| Some(Excess { ratio: ratio?, horizon_s: g.horizon_s, of_heading }));
+        each.filter(|e| e.ratio.is_finite()).collect()
     };
-    judged_alike(gaps).iter().filter_map(of).max_by(f64::total_cmp)
+    let shown = middle(gaps).map_or_else(Vec::new, of);
+    let all = judged_alike(gaps).into_iter().flat_map(of);
+    let largest = all.max_by(|a, b| a.ratio.total_cmp(&b.ratio));
+    shown.into_iter().find(Excess::is_real).or(largest)
 }
 
 #[cfg(test)]
@@ -77,14 +110,32 @@ mod tests {
         Gap { horizon_s, fit, held_out: held, noise_floor: Floor { position_rms: 0.1, heading_rms: Some(0.01) } }
     }
 
-    /// The largest ratio of position and heading over the horizons that are judged alike.
+    /// The number of the page, of its horizon; another where that is at its floor.
     #[test]
-    fn a_rest_is_as_large_as_its_largest_ratio() {
-        let ratio = |gaps: &[Gap]| largest_ratio(gaps).unwrap();
-        assert!((ratio(&[gap(1.0, [0.2, 0.01], true), gap(5.0, [0.1, 0.05], true)]) - 5.0).abs() < 1e-12);
+    fn a_rest_is_as_large_as_the_page_shows_it() {
+        let found =
+            |gaps: &[Gap]| excess(gaps).map(|e| ((1000.0 * e.ratio).round() / 1000.0, e.horizon_s, e.of_heading));
+        let [first, last] = [gap(1.0, [0.2, 0.01], true), gap(30.0, [2.6, 0.5], true)];
+        assert_eq!(found(&[first.clone(), gap(5.0, [0.5, 0.08], true), last.clone()]), Some((5.0, 5.0, false)));
+        assert_eq!(found(&[first.clone(), gap(5.0, [0.1, 0.08], true), last.clone()]), Some((8.0, 5.0, true)));
+        assert_eq!(found(&[first.clone(), gap(5.0, [0.1, 0.01], true), last]), Some((50.0, 30.0, true)));
         // The fitted runs are not asked where others were held out.
-        assert!((ratio(&[gap(1.0, [0.2, 0.01], true), gap(30.0, [9.0, 0.9], false)]) - 2.0).abs() < 1e-12);
-        assert_eq!(largest_ratio(&[]), None);
+        assert_eq!(found(&[first, gap(30.0, [9.0, 0.9], false)]), Some((2.0, 1.0, false)));
+        assert_eq!(found(&[]), None);
+    }
+
+    /// A number of held-out runs has its place in them; what stands out of windows alone has it in the fitted ones.
+    #[test]
+    fn a_rest_has_its_number_and_its_place_of_the_same_runs() {
+        let missed = |run: &str| vec![ConstraintResiduals::across(run, &[0.2, -0.2, 0.2, 0.2, 0.2, -0.2])];
+        let fit = Fit { unexplained: vec![0.0, 90.0, 0.0, 0.0], ..fit_of(unicycle(&[])) };
+        let run = |after: f64, is_held_out: bool| {
+            let found = rest(&fit, &missed("fitted.csv"), &missed("held.csv"), &[gap(5.0, [after, 0.01], is_held_out)]);
+            found.map(|r| r.most.run)
+        };
+        assert_eq!(run(0.5, true).as_deref(), Some("held.csv"));
+        assert_eq!(run(0.5, false).as_deref(), Some("fitted.csv"));
+        assert!(run(0.1, true).is_none_or(|run| run == "fitted.csv"));
     }
 
     #[test]
@@ -92,7 +143,8 @@ mod tests {
         let missed = ConstraintResiduals::across("a.csv", &[0.2, -0.2, 0.2, 0.2, 0.2, -0.2]);
         let found = |unexplained: f64, after: f64| {
             let fit = Fit { unexplained: vec![0.0, unexplained, 0.0, 0.0], ..fit_of(unicycle(&[])) };
-            rest(&fit, std::slice::from_ref(&missed), &[gap(5.0, [after, 0.01], true)])
+            let missed = std::slice::from_ref(&missed);
+            rest(&fit, missed, missed, &[gap(5.0, [after, 0.01], true)])
         };
         let place = |unexplained| found(unexplained, 0.5).map(|r| r.most.place);
         assert_eq!((place(0.0), place(90.0)), (None, Some("traverse constraint")));

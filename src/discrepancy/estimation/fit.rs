@@ -31,6 +31,8 @@ pub struct Fit {
     pub between_runs: Option<DMatrix<f64>>,
     /// How many runs were fitted.
     pub runs: usize,
+    /// Each run's part of the quadratic form in (δp, 1), δp from the fitted values.
+    pub of_runs: Vec<DMatrix<f64>>,
     /// Information matrix of the parameters.
     pub information: DMatrix<f64>,
     /// Noise and unexplained motion.
@@ -145,6 +147,14 @@ impl Problem {
         Some(&bread * meat * &bread)
     }
 
+    /// The parts of a form, run by run.
+    fn by_run(&self, e: &ReducedForm) -> Vec<DMatrix<f64>> {
+        let size = e.form.nrows();
+        let mut runs = vec![DMatrix::zeros(size, size); self.records.len()];
+        self.plan.iter().zip(&e.parts).for_each(|(segment, part)| runs[segment.record] += part);
+        runs
+    }
+
     fn finished(&self, model: &Model, point: Point, variances: NoiseModel) -> Fit {
         let (information, _) = point.eliminated.normal();
         let mut model = model.clone();
@@ -157,6 +167,7 @@ impl Problem {
             deviance: variance_components::deviance(&point.linear, &variances, &point.eliminated),
             between_runs: self.between_runs(&point.eliminated),
             runs: self.records.len(),
+            of_runs: self.by_run(&point.eliminated),
             covariance: inverse(&information),
             sample_size: sample_size(&point.linear, &point.eliminated),
             p: point.p.as_slice().to_vec(),

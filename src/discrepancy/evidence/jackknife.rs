@@ -26,6 +26,8 @@ const BY_CHANCE: f64 = 0.05;
 pub(crate) struct Jackknife {
     /// Standard deviations of the values.
     pub std: Vec<f64>,
+    /// Whether all parts have a value in one direction, by the pseudo-values g·θ − (g − 1)·θ₍ᵢ₎ of Tukey.
+    pub one_way: Vec<bool>,
     /// How many parts there are.
     pub(crate) parts: usize,
 }
@@ -48,17 +50,31 @@ impl Jackknife {
             let mean = all.iter().map(|p| p[i]).sum::<f64>() / g;
             ((g - 1.0) / g * all.iter().map(|p| (p[i] - mean).powi(2)).sum::<f64>()).sqrt()
         };
-        Ok(Some(Self { std: (0..fit.p.len()).map(of_value).collect(), parts: all.len() }))
+        let is_one_way = |i: usize| {
+            let pseudo = all.iter().map(|p| g * fit.p[i] - (g - 1.0) * p[i]);
+            pseudo.map(|value| value * fit.p[i]).all(|along| along > 0.0)
+        };
+        let each = 0..fit.p.len();
+        Ok(Some(Self {
+            std: each.clone().map(of_value).collect(),
+            one_way: each.map(is_one_way).collect(),
+            parts: all.len(),
+        }))
     }
 
     /// How far an effect stands out from its scatter, in units of what chance would make of it: its values are the same
-    /// in all parts where this is one or more.
+    /// in all parts where this is one or more. Of a value that all parts have in one direction the other direction is not
+    /// asked about.
     pub(crate) fn shows(&self, fit: &Fit, effect: &Applied) -> f64 {
         let own = neutral_at_zero(fit, effect);
-        let far = own.iter().map(|(i, v)| v.abs() / self.std[*i]).fold(0.0, f64::max);
         // One value of several may do: each has its share of the chance.
-        let tail = 0.5 * BY_CHANCE / own.len().max(1) as f64;
-        StudentsT::new(0.0, 1.0, self.parts as f64 - 1.0).map_or(0.0, |t| far / t.inverse_cdf(1.0 - tail))
+        let share = BY_CHANCE / own.len().max(1) as f64;
+        let Ok(student) = StudentsT::new(0.0, 1.0, self.parts as f64 - 1.0) else { return 0.0 };
+        let far = |(i, v): &(usize, f64)| {
+            let tail = if self.one_way[*i] { share } else { 0.5 * share };
+            v.abs() / self.std[*i] / student.inverse_cdf(1.0 - tail)
+        };
+        own.iter().map(far).fold(0.0, f64::max)
     }
 }
 
@@ -95,13 +111,16 @@ mod tests {
         let fit = fit_of(unicycle(&KNOWN));
         let [_, relaxing, creep] = &fit.model.effects[..] else { panic!() };
         for (parts, one) in [(3, 4.302_653), (5, 2.776_445)] {
-            let scatter = Jackknife { std: vec![1.0, 0.02, 0.1, 0.01], parts };
+            let scatter = Jackknife { std: vec![1.0, 0.02, 0.1, 0.01], one_way: vec![false; 4], parts };
             let shows = scatter.shows(&fit, creep);
             assert!((shows - 5.0 / one).abs() < 1e-4, "{parts}: {shows}");
             // A length is not neutral at zero; the creep that it builds up is.
             let shows = scatter.shows(&fit, relaxing);
             assert!((shows - 5.0 / one).abs() < 1e-4, "{parts}: {shows}");
         }
+        // In one direction: 2.9200 of two degrees of freedom.
+        let scatter = Jackknife { std: vec![1.0, 0.02, 0.1, 0.01], one_way: vec![true; 4], parts: 3 };
+        assert!((scatter.shows(&fit, creep) - 5.0 / 2.919_986).abs() < 1e-4);
     }
 
     /// Of fewer than three runs the thirds, of more the runs, of many every fifth.

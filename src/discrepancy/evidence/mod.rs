@@ -1,6 +1,7 @@
 //! Whether an effect is real: information criterion, score test, Wald test, cross-validation, bootstrap, jackknife.
 
 pub mod cross_validation;
+pub(crate) mod heterogeneity;
 pub mod information_criterion;
 pub mod jackknife;
 pub mod parametric_bootstrap;

@@ -26,6 +26,8 @@ const FEWEST: usize = 8;
 const BEYOND_CHANCE: f64 = 20.0;
 /// A difference of so large a share of the value is that of no constant.
 const LARGE: f64 = 0.5;
+/// Values of one sign that are no further apart than by this factor are those of one effect whose law is not quite right.
+const FACTOR: f64 = 2.0;
 
 /// A regime of driving, told by the inputs' means over windows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,16 +48,21 @@ pub(crate) struct Difference {
     pub regime: Regime,
     /// Of the difference.
     pub chi_squared: f64,
-    /// The largest share of a value that its difference is.
+    /// Of the value of which the difference stands out most: its share of the value.
     pub share: f64,
-    /// The first value outside and inside.
+    /// That value outside and inside.
     pub values: [f64; 2],
+    /// Whether a law without a name stands beside the effect, which is then known not to be all there is.
+    pub beside_law: bool,
 }
 
 impl Difference {
     /// Whether the effect has two values.
     pub fn is_real(&self) -> bool {
-        self.chi_squared > BEYOND_CHANCE && self.share > LARGE
+        let [outside, inside] = self.values;
+        let is_one =
+            outside * inside > 0.0 && outside.abs().max(inside.abs()) <= FACTOR * outside.abs().min(inside.abs());
+        self.chi_squared > BEYOND_CHANCE && self.share > LARGE && (self.beside_law || !is_one)
     }
 }
 
@@ -149,10 +156,13 @@ fn difference(fit: &Fit, linear: &Along, regime: Regime, inside: &Inside, own: R
     let step = -(&covariance * gradient);
     let d = DVector::from_fn(k, |i, _| step[p + i]);
     let spread = DMatrix::from_fn(k, k, |i, j| covariance[(p + i, p + j)]) * fit.variance_inflation();
+    let far = |i: usize| d[i] * d[i] / spread[(i, i)];
+    let most = (0..k).max_by(|a, b| far(*a).total_cmp(&far(*b)))?;
+    let outside = fit.p[own.start + most] + step[own.start + most];
     let chi_squared = d.dot(&spread.cholesky()?.solve(&d));
-    let share = own.clone().zip(d.iter()).map(|(i, d)| (d / fit.p[i]).abs()).fold(0.0, f64::max);
-    let outside = fit.p[own.start] + step[own.start];
-    Some(Difference { regime, chi_squared, share, values: [outside, outside + d[0]] })
+    let share = (d[most] / fit.p[own.start + most]).abs();
+    let beside_law = fit.model.free_effects().any(is_term);
+    Some(Difference { regime, chi_squared, share, values: [outside, outside + d[most]], beside_law })
 }
 
 /// A window with columns of their own for some of p values: copies where it is inside of a regime, zero elsewhere.
@@ -217,5 +227,20 @@ mod tests {
         assert!(!worst(0.0).is_real(), "{:?}", worst(0.0));
         let told = worst(1.0);
         assert!(told.is_real() && told.regime == Regime::Large(0), "{told:?}");
+    }
+
+    /// Values of one sign within a factor of two are one effect by a law that is not quite right.
+    #[test]
+    fn two_values_are_two_where_they_differ_in_sign_or_by_more_than_twice() {
+        let beside = |chi_squared: f64, values: [f64; 2], beside_law: bool| {
+            let share = 2.0 * (values[0] - values[1]).abs() / (values[0].abs() + values[1].abs());
+            Difference { regime: Regime::Late, chi_squared, share, values, beside_law }.is_real()
+        };
+        let is_real = |chi_squared, values| beside(chi_squared, values, false);
+        assert!(!is_real(400.0, [-0.00032, -0.00059]) && !is_real(400.0, [0.2, 0.1]));
+        assert!(is_real(400.0, [0.1, 0.21]) && is_real(400.0, [0.1, -0.1]) && is_real(400.0, [0.0, 0.1]));
+        // Beside a law without a name it is not the effect's law alone that is not right.
+        assert!(beside(400.0, [0.099, 0.18], true) && !beside(400.0, [0.1, 0.13], true));
+        assert!(!is_real(19.0, [0.1, -0.1]));
     }
 }

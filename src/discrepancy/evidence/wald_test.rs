@@ -1,5 +1,6 @@
 //! What a fit says of its effects: how far from neutral, how alike in all runs, how likely by chance.
 
+use super::heterogeneity::{RunValue, spreads};
 use crate::discrepancy::estimation::fit::Fit;
 use crate::effects::Applied;
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
@@ -46,8 +47,13 @@ pub(crate) fn wald(fit: &Fit, effect: &Applied) -> f64 {
 
 /// Largest probability that runs which scatter as these do show such an effect by chance.
 const BY_CHANCE: f64 = 1e-3;
+/// The same where every run shows the effect in one direction: whether it predicts the runs left out is asked beside it.
+const BY_CHANCE_ALIKE: f64 = 0.05;
 
 /// Whether an effect shows in the runs alike, and not in a few of them or in different directions.
+///
+/// Runs differ, and few of them tell by how much: where all have the effect in one direction their spread is that of its
+/// value, and no doubt of it.
 pub(crate) fn repeats(fit: &Fit, effect: &Applied) -> bool {
     let Some(between) = &fit.between_runs else { return true };
     let k = neutral_at_zero(fit, effect).len() as f64;
@@ -56,7 +62,18 @@ pub(crate) fn repeats(fit: &Fit, effect: &Applied) -> bool {
         return true;
     }
     let f = distance(fit, Some(between), effect) / k * free / (fit.runs as f64 - 1.0);
-    FisherSnedecor::new(k, free).is_ok_and(|d| d.sf(f) < BY_CHANCE)
+    let by_chance = FisherSnedecor::new(k, free).map_or(1.0, |d| d.sf(f));
+    by_chance < BY_CHANCE || by_chance < BY_CHANCE_ALIKE && is_one_way(fit, effect)
+}
+
+/// Whether every run that tells an effect's largest value beyond its own deviation tells it in the direction of all.
+pub(crate) fn is_one_way(fit: &Fit, effect: &Applied) -> bool {
+    let Some(c) = &fit.covariance else { return false };
+    let far = |(i, v): &(usize, f64)| v * v / c[(*i, *i)];
+    let most = neutral_at_zero(fit, effect).into_iter().max_by(|a, b| far(a).total_cmp(&far(b)));
+    let Some((i, value)) = most else { return false };
+    let is_along = |v: &RunValue| v.value * value > 0.0 || v.value.abs() < v.variance.sqrt();
+    spreads(fit)[i].as_ref().is_some_and(|s| s.values.len() == fit.runs && s.values.iter().all(is_along))
 }
 
 /// Probability that χ² with k degrees of freedom exceeds x.
@@ -92,5 +109,25 @@ mod tests {
         assert_eq!([8.5, 8.7].map(|ratio| repeats(5, ratio)), [false, true]);
         assert_eq!([630.0, 640.0].map(|ratio| repeats(2, ratio)), [false, true]);
         assert!(repeats(1, 0.1) && super::repeats(&fit_of(unicycle(&KNOWN)), &effect));
+    }
+    /// Five deviations of four runs are met by one in sixty; runs that all show it in one direction need no more.
+    #[test]
+    fn what_all_runs_show_in_one_direction_may_scatter_more() {
+        let effect = applied("traverse-creep");
+        let repeats = |steps: [f64; 4]| {
+            let mut between = DMatrix::identity(4, 4);
+            between[(3, 3)] = 0.01_f64.powi(2);
+            let of_run = |step: f64| {
+                let mut form = DMatrix::identity(5, 5) * 1e6;
+                (form[(3, 4)], form[(4, 3)]) = (-1e6 * step, -1e6 * step);
+                form
+            };
+            let of_runs = steps.map(of_run).to_vec();
+            let covariance = Some(DMatrix::identity(4, 4) * 1e-6);
+            let fit = fit_of(unicycle(&KNOWN));
+            super::repeats(&Fit { runs: 4, between_runs: Some(between), of_runs, covariance, ..fit }, &effect)
+        };
+        assert!(repeats([-0.02, 0.02, 0.03, -0.03]));
+        assert!(!repeats([-0.06, 0.0, 0.0, 0.06]));
     }
 }

@@ -14,6 +14,7 @@ use crate::discrepancy::diagnosis::verdict;
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::estimation::problem::Problem;
+use crate::discrepancy::estimation::unexplained;
 use crate::discrepancy::experiment::next_step::NextStep;
 use crate::discrepancy::preprocessing::clock_jumps::ClockJump;
 use crate::discrepancy::preprocessing::outliers::without_gross_errors;
@@ -25,6 +26,7 @@ use crate::discrepancy::preprocessing::unit_errors::too_sparse;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::report::Verdict;
 use crate::discrepancy::request::common_roles;
+use crate::discrepancy::selection::odd_run::odd_runs;
 use crate::effects::Effect;
 use crate::error::Result;
 use crate::files::{ModelFile, Run};
@@ -112,6 +114,10 @@ pub(crate) fn assess(of: &Checked, progress: &OnProgress) -> Result<Assessment> 
     let Some(fit) = fit else { return Ok(without_fit(data, findings, verdict::undefined_motion())) };
     let data = data.with_fit(problem.variances.measurement(), &fit, problem.records[0].measures_heading());
     findings.extend(of_fit(&fit));
+    if unexplained::remains(&fit) {
+        let odd = odd_runs(&problem, &model, of.library, progress)?;
+        findings.extend(odd.into_iter().map(Box::new).map(DataFinding::OddRun));
+    }
     let all = candidates(&model, of.library);
     let counter = Counter::begin(progress, Stage::Detection, all.len())?;
     let calm = (0..fit.variances.process().len()).fold(fit.variances.clone(), NoiseModel::without_jump);

@@ -6,6 +6,7 @@ use crate::discrepancy::preprocessing::quantisation::CoarseInput;
 use crate::discrepancy::preprocessing::reference_jumps::Jumps;
 use crate::discrepancy::preprocessing::row_defects::RowDefect;
 use crate::discrepancy::preprocessing::unit_errors::{Slip, TurningCause, WayCause};
+use crate::discrepancy::selection::odd_run::OddRun;
 use std::collections::BTreeMap;
 
 /// Something to know of the data.
@@ -92,6 +93,8 @@ pub enum DataFinding {
     Slip(Slip),
     /// The reference jumps in a stretch, which is left out.
     Jumps(Jumps),
+    /// A run differs from the others.
+    OddRun(Box<OddRun>),
     /// What a run's clocks leave to know.
     Clock(Box<Warning>),
 }
@@ -135,6 +138,7 @@ impl DataFinding {
             Self::Defect(defect) => defect.id(),
             Self::ClockJump(_) => "clock-jump",
             Self::Jumps(_) => "reference-jumps",
+            Self::OddRun(_) => "odd-run",
             Self::Clock(_) => "clock-offset",
         }
     }

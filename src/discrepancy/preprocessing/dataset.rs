@@ -64,6 +64,14 @@ impl Data {
         Ok(Self { fitted, held_out, left_out, jumps, clocks, defects, interrupted })
     }
 
+    /// The data without some runs; what is held out of them goes where it is a part of them.
+    pub fn without(self, runs: &[&str], is_held_out_of_them: bool) -> Self {
+        let kept = |all: Vec<Record>, goes: bool| {
+            all.into_iter().filter(|r| !goes || !runs.contains(&r.name.as_str())).collect()
+        };
+        Self { fitted: kept(self.fitted, true), held_out: kept(self.held_out, is_held_out_of_them), ..self }
+    }
+
     /// Logs that were interrupted, and such as are too short to be fitted beside others.
     pub fn notes(&self) -> Vec<DatasetNote> {
         // Where rows were left out is said with the reason.

@@ -1,6 +1,6 @@
 //! Findings of the state of the data in words.
 
-use super::{defect_text, slip_text, warning_text};
+use super::{defect_text, odd_run_text, slip_text, warning_text};
 use crate::discrepancy::identifiability::data_finding::{DataFinding, Side};
 use crate::discrepancy::preprocessing::unit_errors::Slip;
 use crate::discrepancy::report::Finding;
@@ -68,6 +68,7 @@ fn says(of: &DataFinding) -> String {
         DataFinding::Defect(defect) => defect_text::sentence(defect),
         DataFinding::ClockJump(jump) => warning_text::clock_jumped(jump),
         DataFinding::Jumps(jumps) => warning_text::jumped(jumps),
+        DataFinding::OddRun(odd) => odd_run_text::says(odd),
         DataFinding::Slip(slip) => slip_text::sentence(slip),
         DataFinding::Clock(warning) => warning_text::line(warning),
     }

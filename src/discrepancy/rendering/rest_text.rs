@@ -1,16 +1,16 @@
 //! What remains above the noise floor, in words.
 
 use super::regime_text;
-use crate::discrepancy::diagnosis::rest::Rest;
+use crate::discrepancy::diagnosis::rest::{Excess, Rest};
 use crate::discrepancy::localisation::driving_regimes::DrivingRegime;
 use crate::discrepancy::report::{Remains, Verdict};
-use crate::number_format::significant;
+use crate::number_format::{plain, significant};
 
 /// A rest as the report has it.
 pub(crate) fn remains(rest: &Rest) -> Remains {
     let most = regime_text::disagreement(&rest.most);
     let says = says(rest);
-    Remains { ratio: rest.ratio, place: most.place, from: most.from, to: most.to, regime: most.regime, says }
+    Remains { ratio: rest.excess.ratio, place: most.place, from: most.from, to: most.to, regime: most.regime, says }
 }
 
 /// A verdict's sentence with what remains as its second half.
@@ -29,10 +29,12 @@ pub(crate) fn admitted(sentence: &str, verdict: Verdict, rest: Option<&Rest>) ->
 
 fn says(rest: &Rest) -> String {
     let most = &rest.most;
-    let error = match (rest.exceeds_floor(), rest.is_held_out) {
-        (false, _) => "the model disagrees by more than the noise".into(),
-        (true, true) => format!("held-out error is {} times the noise", significant(rest.ratio, 2)),
-        (true, false) => format!("fitted error is {} times the noise", significant(rest.ratio, 2)),
+    let Excess { ratio, horizon_s, of_heading } = rest.excess;
+    let runs = if rest.is_held_out { "held-out" } else { "fitted" };
+    let of = if of_heading { "heading" } else { "position" };
+    let error = match rest.exceeds_floor() {
+        false => "the model disagrees by more than the noise".into(),
+        true => format!("{runs} {of} error after {} s is {} times the noise", plain(horizon_s), significant(ratio, 2)),
     };
     let most_of = if most.share > 0.5 { "most of it" } else { "the largest part of it" };
     let along = match most.place {
@@ -57,15 +59,15 @@ mod tests {
     #[test]
     fn what_remains_is_the_second_half_of_the_sentence() {
         let rest = |regime| Rest {
-            ratio: 5.02,
+            excess: Excess { ratio: 5.02, horizon_s: 5.0, of_heading: false },
             is_held_out: true,
             most: Stretch { run: "a.csv".into(), place: "yaw rate", span: [27.0, 58.04], regime, share: 0.8 },
         };
         let said = |verdict, regime| admitted("The model misses track-width.", verdict, Some(&rest(regime)));
         assert_eq!(
             said(Verdict::MissingEffect, DrivingRegime::Whole),
-            "The model misses track-width, and something remains: held-out error is 5.0 times the noise, most of it in yaw, \
-             from 27.0 s to 58.0 s of a.csv."
+            "The model misses track-width, and something remains: held-out position error after 5 s is 5.0 times the noise, \
+             most of it in yaw, from 27.0 s to 58.0 s of a.csv."
         );
         let unexplained = said(Verdict::Unexplained, DrivingRegime::LeftTurns);
         assert!(unexplained.starts_with("The model misses track-width: held-out"), "{unexplained}");
@@ -75,7 +77,8 @@ mod tests {
         // What remains is more than a trace of it, and no ratio is given where the gap is at its floor.
         let none = said(Verdict::NoMissingEffect, DrivingRegime::Whole);
         assert!(none.starts_with("No effect is missing that can be named, but something remains: held-out"), "{none}");
-        let windows = says(&Rest { ratio: 0.9, ..rest(DrivingRegime::Whole) });
+        let whole = rest(DrivingRegime::Whole);
+        let windows = says(&Rest { excess: Excess { ratio: 0.9, ..whole.excess }, ..whole });
         assert!(windows.starts_with("the model disagrees by more than the noise, most of it in yaw"), "{windows}");
         assert_eq!(remains(&rest(DrivingRegime::Fast)).regime, "fast driving");
     }

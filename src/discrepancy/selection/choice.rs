@@ -129,4 +129,6 @@ pub struct Selected {
     pub sampling_sensitive: Vec<Applied>,
     /// What was found and refused again, and why.
     pub refused: Vec<Refused>,
+    /// What the interpolation of the inputs may make up of each fitted value; nothing where that could not be asked.
+    pub missed: Vec<f64>,
 }

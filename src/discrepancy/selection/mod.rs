@@ -5,6 +5,8 @@ pub(crate) mod candidates;
 pub mod choice;
 pub(crate) mod input_noise;
 pub(crate) mod input_sampling;
+pub(crate) mod limits;
+pub mod odd_run;
 pub(crate) mod refusals;
 pub(crate) mod refute;
 pub(crate) mod scope_proposals;

@@ -1,14 +1,14 @@
 //! Names that were found and do not stand: what a fit asks for is no finding by that alone.
 
 use super::input_noise;
-use super::search::{Search, SearchState, find, forget};
+use super::search::{Search, SearchState, find, first_of, forget};
 use crate::discrepancy::estimation::bounds::is_possible;
 use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::evidence::jackknife::Jackknife;
 use crate::discrepancy::evidence::wald_test::neutral_at_zero;
 use crate::discrepancy::selection::choice::{Refusal, Refused, SelectedEffect};
 use crate::effects::Applied;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::model::effect_equation::is_term;
 use crate::progress::OnProgress;
 
@@ -21,6 +21,8 @@ const LEANS: f64 = 0.5;
 pub(crate) struct Standing {
     pub chosen: Vec<SelectedEffect>,
     pub refused: Vec<Refused>,
+    /// What the interpolation of the inputs may make up of each value that stands.
+    pub missed: Vec<f64>,
 }
 
 impl Search<'_> {
@@ -36,12 +38,21 @@ impl Search<'_> {
     ) -> Result<Standing> {
         let mut refused: Vec<Refused> = vec![];
         loop {
-            let chosen = self.examined(&grown.fit, scatter, &missed, progress)?;
-            let Some((applied, why)) = self.fallen(&grown.fit, &chosen)? else {
-                return Ok(Standing { chosen, refused });
+            let weighed = self.weighed(&grown.fit, scatter, &missed, progress)?;
+            let chosen: Vec<SelectedEffect> = weighed.iter().map(|w| w.effect.clone()).collect();
+            if let Some((whole, smaller)) = self.at_limit(&grown.fit, &chosen)? {
+                forget(&mut missed, &grown.fit, &whole);
+                scatter = None;
+                grown.go_back_to(smaller);
+                continue;
+            }
+            let fallen = self.fallen(&grown.fit, &chosen)?;
+            let without = |(applied, why): (Applied, Refusal)| {
+                let smaller = self.without(&grown.fit, &applied)?;
+                Ok::<_, Error>(smaller.map(|smaller| (applied, why, smaller)))
             };
-            let Some(smaller) = self.without(&grown.fit, &applied)? else {
-                return Ok(Standing { chosen, refused });
+            let Some((applied, why, smaller)) = fallen.map(without).transpose()?.flatten() else {
+                return Ok(Standing { chosen: self.examined(&grown.fit, weighed)?, refused, missed });
             };
             forget(&mut missed, &grown.fit, &applied);
             scatter = None;
@@ -113,11 +124,6 @@ impl Search<'_> {
         let most = moved.filter(|(by, _)| *by > LEANS).max_by(|a, b| a.0.total_cmp(&b.0));
         Ok(most.map(|(_, a)| a.clone()))
     }
-}
-
-/// Where the values of an effect begin among the free ones.
-fn first_of(fit: &Fit, effect: &Applied) -> usize {
-    fit.model.free_effects().take_while(|e| !e.same_as(effect)).map(|e| e.values.len()).sum()
 }
 
 /// By what share of themselves the values of an effect move from one fit to another.

@@ -1,6 +1,6 @@
 //! What held-out runs refute: taken out of a choice after the last of it was made.
 
-use super::search::{MOST, Search, SearchState};
+use super::search::{MOST, Search, SearchState, forget};
 use super::transients;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
@@ -31,22 +31,32 @@ pub(crate) fn refute(
     if !held_out.can_judge() {
         return Ok(choice);
     }
-    let Selected { before, after, mut chosen, steps, candidates, inconsistent, sampling_sensitive, mut refused } =
-        choice;
+    let Selected {
+        before,
+        after,
+        mut chosen,
+        steps,
+        candidates,
+        inconsistent,
+        sampling_sensitive,
+        mut refused,
+        mut missed,
+    } = choice;
     let quick = transients::without_transients(library);
     let size = before.model.applicable(&quick).len().max(1) as f64;
     let search = Search { problem, before: &before, library: &quick, size, most: MOST, exchanges: true, drops: true };
     let mut grown = SearchState { fit: after, steps, candidates, refused: vec![] };
     while let Some((applied, why, smaller)) = next(&search, &grown.fit, &chosen, held_out)? {
+        forget(&mut missed, &grown.fit, &applied);
         grown.go_back_to(smaller);
         refused.push(Refused::of(&chosen, applied, why));
         // What is left of the others stands or falls anew.
-        let standing = search.keep_standing(&mut grown, None, vec![], progress)?;
-        chosen = standing.chosen;
+        let standing = search.keep_standing(&mut grown, None, missed, progress)?;
+        (chosen, missed) = (standing.chosen, standing.missed);
         refused.extend(standing.refused);
     }
     let SearchState { fit: after, steps, candidates, .. } = grown;
-    Ok(Selected { before, after, chosen, steps, candidates, inconsistent, sampling_sensitive, refused })
+    Ok(Selected { before, after, chosen, steps, candidates, inconsistent, sampling_sensitive, refused, missed })
 }
 
 /// The next effect to be taken out, why, and the fit without it.

@@ -99,6 +99,11 @@ pub(crate) fn still_open<'e>(library: impl IntoIterator<Item = &'e Effect>, give
     library.into_iter().filter(is_open).cloned().collect()
 }
 
+/// Where the values of an effect begin among the free ones.
+pub(crate) fn first_of(fit: &Fit, effect: &Applied) -> usize {
+    fit.model.free_effects().take_while(|e| !e.same_as(effect)).map(|e| e.values.len()).sum()
+}
+
 /// Numbers that stand for the free values of a fit, without those of an effect.
 pub(crate) fn forget(numbers: &mut Vec<f64>, fit: &Fit, effect: &Applied) {
     let mut at = 0;

@@ -12,6 +12,7 @@ use super::unnamed_terms;
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
+use crate::discrepancy::evidence::heterogeneity::spreads;
 use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
 use crate::discrepancy::evidence::jackknife::Jackknife;
 use crate::discrepancy::evidence::parametric_bootstrap;
@@ -58,24 +59,32 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &O
     let InputSampling { dropped: sampling_sensitive, missed } = keep_sampled(&selection, &mut grown, progress)?;
     // Where something went, the values no longer stand where they stood.
     let scatter = scatter.filter(|_| sampling_sensitive.is_empty());
-    let Standing { chosen, refused } = selection.keep_standing(&mut grown, scatter.as_ref(), missed, progress)?;
+    let Standing { chosen, refused, missed } =
+        selection.keep_standing(&mut grown, scatter.as_ref(), missed, progress)?;
     let SearchState { fit: after, steps, candidates, .. } = grown;
-    Ok(Some(Selected { before, after, chosen, steps, candidates, inconsistent, sampling_sensitive, refused }))
+    Ok(Some(Selected { before, after, chosen, steps, candidates, inconsistent, sampling_sensitive, refused, missed }))
+}
+
+/// A chosen effect, and the fit without it.
+pub(crate) struct Weighed {
+    pub effect: SelectedEffect,
+    without: Fit,
 }
 
 impl Search<'_> {
-    /// Evidence, deviations and rivals of every chosen effect.
+    /// Deviations of every chosen effect, and what it is worth; its probability and its rivals are not asked for.
     ///
     /// `missed` is what the interpolation of the inputs may make up of each value; an offset no rows average out.
-    pub(crate) fn examined(
+    pub(crate) fn weighed(
         &self,
         fit: &Fit,
         scatter: Option<&Jackknife>,
         missed: &[f64],
         progress: &OnProgress,
-    ) -> Result<Vec<SelectedEffect>> {
+    ) -> Result<Vec<Weighed>> {
         let mut at = 0;
         let mut found = Vec::new();
+        let apart = spreads(fit);
         let chosen: Vec<Applied> = fit.model.free_effects().cloned().collect();
         let of = chosen.len();
         for (done, applied) in chosen.into_iter().enumerate() {
@@ -83,7 +92,8 @@ impl Search<'_> {
             let k = applied.values.len();
             // What runs scatter by counts where it is more than their noise, and what hangs together in it, explains.
             let runs = |i: usize| fit.between_runs.as_ref().map_or(0.0, |c| c[(i, i)].sqrt());
-            let between = |i: usize| scatter.map_or(0.0, |s| s.std[i]).max(runs(i));
+            let random = |i: usize| apart[i].as_ref().filter(|s| s.is_real()).map_or(0.0, |s| s.std);
+            let between = |i: usize| scatter.map_or(0.0, |s| s.std[i]).max(runs(i)).max(random(i));
             let chance = |i: usize| {
                 fit.covariance.as_ref().map(|c| (c[(i, i)] * fit.variance_inflation()).sqrt().max(between(i)))
             };
@@ -92,13 +102,22 @@ impl Search<'_> {
             at += k;
             let Some(smaller) = self.without(fit, &applied)? else { continue };
             let n = fit.sample_size.max(smaller.sample_size);
-            let gain = (smaller.deviance - fit.deviance).max(0.0);
-            let rivals = self.rivals(fit, &applied)?;
             let delta_bic = delta_bic(fit, &smaller, n);
-            let p_value = self.p_value(&smaller, &applied, gain / fit.variance_inflation())?;
-            found.push(SelectedEffect { applied, std, delta_bic, p_value, rivals });
+            let effect = SelectedEffect { applied, std, delta_bic, p_value: f64::NAN, rivals: vec![] };
+            found.push(Weighed { effect, without: smaller });
         }
         Ok(found)
+    }
+
+    /// The same with the probability and the rivals of each: asked once, of what stands.
+    pub(crate) fn examined(&self, fit: &Fit, weighed: Vec<Weighed>) -> Result<Vec<SelectedEffect>> {
+        let one = |Weighed { effect, without }: Weighed| {
+            let gain = (without.deviance - fit.deviance).max(0.0) / fit.variance_inflation();
+            let p_value = self.p_value(&without, &effect.applied, gain)?;
+            let rivals = self.rivals(fit, &effect.applied)?;
+            Ok(SelectedEffect { p_value, rivals, ..effect })
+        };
+        weighed.into_iter().map(one).collect()
     }
 
     /// Probability of such a gain by chance; where χ² does not hold, from data drawn without the effect.

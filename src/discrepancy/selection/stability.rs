@@ -103,8 +103,10 @@ mod tests {
     #[test]
     fn what_is_least_shared_goes_first() {
         let fit = fit_of(unicycle(&[("traction-creep", &[0.3]), ("traverse-creep", &[-0.05])]));
-        let gone =
-            |std: [f64; 2]| least_shared(&fit, &Jackknife { std: std.to_vec(), parts: 3 }).map(|e| e.effect.id.clone());
+        let gone = |std: [f64; 2]| {
+            least_shared(&fit, &Jackknife { std: std.to_vec(), one_way: vec![false; 2], parts: 3 })
+                .map(|e| e.effect.id.clone())
+        };
         assert_eq!(gone([0.3 / 4.31, 0.05 / 4.31]), None);
         assert_eq!(gone([0.3 / 4.29, 0.05 / 4.31]).as_deref(), Some("traction-creep"));
         assert_eq!(gone([0.3 / 4.31, 0.05 / 4.29]).as_deref(), Some("traverse-creep"));

@@ -9,6 +9,7 @@ mod head;
 mod part;
 mod paths;
 mod residuals;
+mod runs;
 mod story;
 mod style;
 mod tables;

@@ -2,6 +2,7 @@
 
 use super::head::{counted, parameter, shrinkage};
 use super::part::{Cell, holding, section, table};
+use super::runs;
 use crate::discrepancy::rendering::summary::{seconds, why};
 use crate::discrepancy::report;
 use crate::discrepancy::report::{BeforeAfter, Gap, Pictures, Report};
@@ -18,6 +19,7 @@ pub fn all(report: &Report, pictures: &Pictures) -> Vec<Element> {
                 .flatten()
                 .collect(),
         ),
+        section("Run by run", runs::tables(report)),
         section("Gap", gaps(report)),
         section(
             "Where model and measurement disagree",

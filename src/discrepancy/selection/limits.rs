@@ -1,0 +1,65 @@
+//! Effects that are no more than their limits: where what builds up does so at once, the rest of the effect has a name of its own.
+
+use super::search::{Search, without_effect};
+use crate::discrepancy::estimation::fit::{Effort, Fit};
+use crate::discrepancy::selection::choice::SelectedEffect;
+use crate::effects::{Applied, Effect};
+use crate::error::Result;
+
+/// A length or time of fewer deviations than these is none.
+const DEVIATIONS: f64 = 2.0;
+
+impl Search<'_> {
+    /// The first effect whose length or time is zero within its deviation, and the fit with its limit in its place.
+    pub(crate) fn at_limit(&self, fit: &Fit, chosen: &[SelectedEffect]) -> Result<Option<(Applied, Fit)>> {
+        for c in chosen.iter().filter(|c| is_at_once(c)) {
+            let Some(limit) = limit(&c.applied, self.library) else { continue };
+            let model = without_effect(&fit.model, &c.applied, &self.before.model).with_effect(limit.freed());
+            let there = self.problem.fit(&model, &fit.window_states, &self.before.variances, Effort::FULL)?;
+            if let Some(there) = there {
+                return Ok(Some((c.applied.clone(), there)));
+            }
+        }
+        Ok(None)
+    }
+}
+
+/// Whether every value of an effect that is never negative is zero within its deviation.
+fn is_at_once(c: &SelectedEffect) -> bool {
+    let parameters = c.applied.effect.parameters.values().zip(c.applied.values.iter().zip(&c.std));
+    let mut lengths = parameters.filter(|(p, _)| p.positive).map(|(_, of)| of).peekable();
+    lengths.peek().is_some() && lengths.all(|(value, std)| std.is_some_and(|std| *value < DEVIATIONS * std))
+}
+
+/// The effect at the same place that has all other values of an effect, and no others.
+fn limit(whole: &Applied, library: &[Effect]) -> Option<Applied> {
+    let parameters = || whole.effect.parameters.iter().zip(&whole.values).filter(|((_, p), _)| !p.positive);
+    let names: Vec<&String> = parameters().map(|((name, _), _)| name).collect();
+    let is_limit = |e: &&Effect| {
+        !names.is_empty() && e.place == whole.effect.place && e.parameters.keys().collect::<Vec<_>>() == names
+    };
+    let effect = library.iter().find(is_limit)?;
+    Some(Applied::new(effect, whole.trailer, parameters().map(|(_, value)| *value).collect()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::fixtures::applied;
+    use crate::effects::all;
+
+    #[test]
+    fn a_creep_that_builds_up_over_no_length_is_a_creep() {
+        let whole = Applied { values: vec![0.05, 0.02], ..applied("relaxation-length") };
+        let names: Vec<&String> = whole.effect.parameters.keys().collect();
+        let creep = whole.values[names.iter().position(|n| *n == "e_tc").unwrap()];
+        let limit = limit(&whole, all()).unwrap();
+        assert_eq!((limit.effect.id.as_str(), &limit.values[..]), ("traverse-creep", &[creep][..]));
+        assert!(super::limit(&applied("traverse-creep"), all()).is_none_or(|a| a.effect.id == "traverse-creep"));
+        let of = |std: f64, applied: Applied| {
+            let std = vec![Some(std); applied.values.len()];
+            is_at_once(&SelectedEffect { applied, std, delta_bic: 9.0, p_value: 0.0, rivals: vec![] })
+        };
+        assert!(of(0.117, whole.clone()) && !of(0.001, whole) && !of(9.0, applied("traverse-creep")));
+    }
+}

@@ -18,6 +18,7 @@ mod next_experiment;
 mod places_alone;
 #[path = "../support/read_back.rs"]
 mod read_back;
+mod scopes;
 mod short_runs;
 #[path = "../simulator/mod.rs"]
 mod simulator;

@@ -1,0 +1,120 @@
+//! What holds in part, moves with time or acts on one input is found with its scope; nothing is where nothing does.
+
+use creepage::report::Report;
+use creepage::{Model, Pose, Run};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+const UNICYCLE: &str = "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 0.1\n";
+const CAR: &str = "vehicle = \"car\"\n[parameters]\nwheel_radius = 0.3\nwheelbase = 2.5\n";
+
+/// The inputs of a drive of 80 s at 20 Hz that goes forward and backward, speeds up and slows down, and turns both ways.
+fn inputs(turning: &'static str, by: f64, wheel: f64) -> (Vec<f64>, [(&'static str, Vec<f64>); 2]) {
+    let time: Vec<f64> = (0..1600).map(|i| 0.05 * f64::from(i)).collect();
+    let of = |f: &dyn Fn(f64) -> f64| time.iter().map(|t| f(*t)).collect::<Vec<f64>>();
+    let rate = of(&|t| wheel * (0.4 + (0.21 * t).sin() + 0.3 * (0.57 * t).cos()));
+    let turn = of(&|t| by * ((0.37 * t).sin() + 0.4 * (0.83 * t + 1.0).sin()));
+    (time, [("wheel_rate", rate), (turning, turn)])
+}
+
+/// A run of a model that includes what is hidden, with noise.
+fn driven(head: &str, hidden: &str, noise: f64, seed: u64) -> Run {
+    let car = head == CAR;
+    let (time, inputs) = if car { inputs("steering_angle", 0.25, 4.0) } else { inputs("yaw_rate", 0.5, 8.0) };
+    let zero = Pose { x: vec![0.0; 1600], y: vec![0.0; 1600], heading: Some(vec![0.0; 1600]), ..Pose::default() };
+    let still = Run::new(time.clone(), zero, inputs.clone()).unwrap();
+    let truth = Model::parse(&format!("{head}{hidden}")).unwrap();
+    let table = creepage::simulate(&truth, &still).unwrap();
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut of = |name: &str| {
+        let spread = |v: &f64| v + noise * (0..12).map(|_| random.random_range(-0.5..0.5)).sum::<f64>();
+        table.column(name).unwrap().iter().map(spread).collect::<Vec<f64>>()
+    };
+    let pose = Pose { x: of("x"), y: of("y"), heading: Some(of("heading")), ..Pose::default() };
+    Run::new(time, pose, inputs).unwrap()
+}
+
+fn answer(head: &str, hidden: &str, seed: u64) -> (Report, String) {
+    let run = driven(head, hidden, 2e-3, seed);
+    let found = creepage::discover(&Model::parse(head).unwrap(), &[run]).unwrap();
+    (found.report, found.model.text().to_string())
+}
+
+fn effect(id: &str, rest: &str) -> String {
+    format!("[[effects]]\nid = \"{id}\"\n{rest}\n")
+}
+
+#[test]
+fn what_begins_at_a_time_is_named_with_its_beginning() {
+    let (report, patched) = answer(UNICYCLE, &effect("rotation-creep", "e_rc = 0.05\nscope = { from = 31.4 }"), 3);
+    let [one] = &report.effects[..] else { panic!("{}", report.summary) };
+    let from = one.scope.as_ref().and_then(|s| s.from).unwrap();
+    assert!(one.id == "rotation-creep" && (from - 31.4).abs() < 0.3, "{}", report.summary);
+    assert!((one.parameters["e_rc"].value - 0.05).abs() < 0.001, "{:?}", one.parameters);
+    assert!(patched.contains("scope = { from = "), "{patched}");
+    // The patched model is a model again, and explains the run.
+    let run = driven(UNICYCLE, &effect("rotation-creep", "e_rc = 0.05\nscope = { from = 31.4 }"), 0.0, 3);
+    let table = creepage::simulate(&Model::parse(&patched).unwrap(), &run).unwrap();
+    let off = table.column("x").unwrap().iter().zip(&run.x).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(off < 0.02, "{off}");
+}
+
+#[test]
+fn what_holds_in_reverse_alone_is_named_so() {
+    let (report, _) = answer(CAR, &effect("steering-offset", "offset = 0.03\nscope = { regime = \"reverse\" }"), 4);
+    let [one] = &report.effects[..] else { panic!("{}", report.summary) };
+    let regime = one.scope.as_ref().and_then(|s| s.regime.clone());
+    assert_eq!((one.id.as_str(), regime.as_deref()), ("steering-offset", Some("reverse")), "{}", report.summary);
+}
+
+#[test]
+fn what_moves_with_time_is_named_with_its_course() {
+    let bias = "bias = 0.002\ncourse = { kind = \"linear\", per_s = 0.0005 }";
+    let (report, _) = answer(UNICYCLE, &effect("yaw-rate-bias", bias), 5);
+    let [one] = &report.effects[..] else { panic!("{}", report.summary) };
+    let course = one.parameters["bias"].course.clone().unwrap();
+    assert!(one.id == "yaw-rate-bias" && (course.per_s - 5e-4).abs() < 3e-5, "{}: {course:?}", report.summary);
+}
+
+#[test]
+fn one_input_that_is_late_limited_or_slack_is_named_with_its_input() {
+    for (head, id, rest, input) in [
+        (UNICYCLE, "input-delay", "delay = -0.3", "yaw_rate"),
+        (UNICYCLE, "input-lag", "time_constant = 0.4", "yaw_rate"),
+        (CAR, "input-saturation", "limit = 0.2", "steering_angle"),
+        (CAR, "input-dead-band", "width = 0.03", "steering_angle"),
+        (CAR, "input-backlash", "width = 0.03", "steering_angle"),
+    ] {
+        let (report, _) = answer(head, &effect(id, &format!("input = \"{input}\"\n{rest}")), 6);
+        let [one] = &report.effects[..] else { panic!("{id}: {}", report.summary) };
+        assert_eq!((one.id.as_str(), one.on.as_deref()), (id, Some(input)), "{}", report.summary);
+        let (name, value) = rest.split_once(" = ").unwrap();
+        let value: f64 = value.parse().unwrap();
+        assert!((one.parameters[name].value - value).abs() < 0.05 * value.abs(), "{id}: {:?}", one.parameters);
+    }
+}
+
+/// What always holds has no scope, and nothing has none.
+#[test]
+fn what_always_holds_has_no_scope() {
+    for seed in 0..6 {
+        let (nothing, _) = answer(if seed % 2 == 0 { UNICYCLE } else { CAR }, "", 100 + seed);
+        assert!(nothing.effects.is_empty(), "{}", nothing.summary);
+        let (creep, _) = answer(UNICYCLE, &effect("rotation-creep", "e_rc = 0.05"), 200 + seed);
+        let [one] = &creep.effects[..] else { panic!("{}", creep.summary) };
+        assert!(one.scope.is_none() && one.on.is_none(), "{}", creep.summary);
+    }
+}
+
+/// A bias from 3.3 s on turns the vehicle by b·(t − 3.3), to the accuracy of the integration.
+#[test]
+fn a_gate_opens_at_its_time() {
+    let hidden = effect("yaw-rate-bias", "bias = 0.02\nscope = { intervals = [[3.3, 7.77], [20.0, 21.0]] }");
+    let with = driven(UNICYCLE, &hidden, 0.0, 1);
+    let without = driven(UNICYCLE, "", 0.0, 1);
+    let headings = with.heading.unwrap().into_iter().zip(without.heading.unwrap());
+    for (t, (a, b)) in with.time.iter().zip(headings) {
+        let open = (t.min(7.77) - 3.3).max(0.0) + (t.min(21.0) - 20.0).max(0.0);
+        assert!((a - b - 0.02 * open).abs() < 1e-9, "{t}: {}", a - b);
+    }
+}

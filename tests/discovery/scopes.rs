@@ -1,7 +1,6 @@
 //! What holds in part, moves with time or acts on one input is found with its scope; nothing is where nothing does.
 
-use creepage::report::Report;
-use creepage::{Model, Pose, Run};
+use creepage::{Model, Pose, Report, Run};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

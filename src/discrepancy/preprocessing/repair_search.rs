@@ -341,7 +341,8 @@ mod tests {
         }
         let counts = |factor: f64| move |u: &mut f64| *u = (factor * *u).round();
         let all = |run: &mut Run, of: &dyn Fn(&mut f64)| run.inputs.iter_mut().flatten().for_each(of);
-        let cases: [(&str, &dyn Fn(&mut Run), [&str; 2]); 6] = [
+        type Case<'c> = (&'c str, &'c dyn Fn(&mut Run), [&'c str; 2]);
+        let cases: [Case; 6] = [
             (
                 "unicycle",
                 &|run| summed(&mut run.inputs[1], 1.0),

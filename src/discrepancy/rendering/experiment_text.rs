@@ -121,7 +121,7 @@ mod tests {
         let motives = || [Motive::Motion, Motive::Length, Motive::Nameless];
         for (plane, line) in motives().map(Advice::VariedDriving).iter().zip(motives().map(Advice::VariedSpeed).iter())
         {
-            let [plane, line] = [plane, line].map(|advice| advised(advice));
+            let [plane, line] = [plane, line].map(advised);
             assert!(plane.manoeuvre.contains("figures of eight"), "{plane:?}");
             let says = format!("{} {}", line.why, line.manoeuvre);
             assert!(!says.contains("turn") && !says.contains("eight"), "{says}");

@@ -10,6 +10,7 @@ pub mod odd_run;
 pub(crate) mod refusals;
 pub(crate) mod refute;
 pub(crate) mod scope_proposals;
+mod scope_refinement;
 pub(crate) mod scopes;
 pub(crate) mod search;
 pub mod select;

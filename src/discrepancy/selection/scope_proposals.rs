@@ -106,7 +106,7 @@ impl BlockRows {
             let free = |a: usize, b: usize| intervals.iter().all(|i| b < i.start || i.end < a);
             let pairs = (0..n).flat_map(|a| (a + 1..=n).map(move |b| (a, b))).filter(|(a, b)| free(*a, *b));
             let with = |(a, b): (usize, usize)| {
-                let all: Vec<Range<usize>> = intervals.iter().cloned().chain([a..b]).collect();
+                let all: Vec<Range<usize>> = intervals.iter().cloned().chain(std::iter::once(a..b)).collect();
                 let gain = sums.gain(&all);
                 (all, gain)
             };

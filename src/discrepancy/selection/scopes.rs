@@ -10,8 +10,7 @@ use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
 use crate::discrepancy::evidence::scope_scan::{BlockScores, Blocks};
 use crate::discrepancy::evidence::score_test::{self, ScoreTest, ScoreTests};
 use crate::discrepancy::shooting::window_integration::linearise;
-use crate::discrepancy::shooting::windows::WINDOW;
-use crate::effects::{Applied, Effect, Scope};
+use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::effect_equation::is_term;
 use crate::progress::{OnProgress, Stage, begin};
@@ -29,14 +28,6 @@ const TRIED_PER_BLOCK: usize = 10;
 const TRIED: usize = 2 * FINALISTS;
 /// And of one kind of scope so many.
 const OF_A_KIND: usize = 2;
-/// Two fits whose criteria differ by no more say the same.
-const SAME: f64 = 1.0;
-/// The effort of a fit by which scopes are compared.
-const QUICK: Effort = Effort { passes: 3, ..Effort::SCREENING };
-/// The steps by which the numbers of a scope are moved: shares of a window, or of a fifth of their size.
-const STEPS: [f64; 4] = [1.0, 0.4, 0.15, 0.05];
-/// Steps of one number one way, at most.
-const MOST_STEPS: usize = 12;
 /// Times beyond this are stamps, and what moves with time is told from the first row on, s.
 const STAMP: f64 = 1e4;
 
@@ -143,27 +134,6 @@ impl Search<'_> {
         Ok(None)
     }
 
-    /// The fit with the first effect of the library that says the same in the same scope.
-    fn named_first(&self, base: &Fit, own: &Applied, fit: Fit, weighed: &[ScoreTest]) -> Result<Fit> {
-        let Some(scope) = &own.effect.scope else { return Ok(fit) };
-        let mut rivals: Vec<Applied> = vec![];
-        for promise in weighed.iter().map(|p| &p.applied).filter(|a| place(a) < place(own)) {
-            if promise.values.len() == own.values.len() && !rivals.iter().any(|r| r.same_as(promise)) {
-                rivals.push(Applied { effect: promise.effect.within(scope.clone()), ..promise.clone() });
-            }
-        }
-        rivals.sort_by_key(place);
-        for rival in rivals {
-            let model = base.model.clone().with_effect(rival);
-            let other = self.problem.fit(&model, &fit.window_states, &fit.variances, Effort::FULL)?;
-            let n = fit.sample_size;
-            if let Some(other) = other.filter(|o| rounded(bic(o, n)) <= rounded(bic(&fit, n)) + SAME) {
-                return Ok(other);
-            }
-        }
-        Ok(fit)
-    }
-
     /// The fit with an effect in part, the numbers of its scope moved to where they explain most; `None` where it is not
     /// worth what it costs.
     fn in_part(&self, base: &Fit, promise: &ScoreTest, margin: f64) -> Result<Option<(Applied, Fit)>> {
@@ -181,43 +151,6 @@ impl Search<'_> {
         let n = base.sample_size.max(fit.sample_size);
         let gains = delta_bic(&fit, base, n) > margin && bic(&fit, n) + margin < bic(base, n);
         Ok((gains && !vanishes(&own) && is_possible(&own)).then_some((own, fit)))
-    }
-
-    /// The fit with the numbers of an effect's scope moved one after another, by ever smaller steps, at its variances.
-    fn with_scope_moved(&self, fit: &Fit, of: &Applied) -> Result<Fit> {
-        let mut best = self.problem.fit(&fit.model, &fit.window_states, &fit.variances, Effort::SCREENING)?;
-        for share in STEPS {
-            let Some(scope) = best.as_ref().and_then(|b| find(&b.model, of)).and_then(|a| a.effect.scope) else {
-                break;
-            };
-            for k in 0..scope.movable().len() {
-                for sign in [1.0, -1.0] {
-                    for _ in 0..MOST_STEPS {
-                        let Some(better) = self.moved(best.as_ref(), of, k, sign * share)? else { break };
-                        best = Some(better);
-                    }
-                }
-            }
-        }
-        Ok(best.unwrap_or_else(|| fit.clone()))
-    }
-
-    /// The fit with one number of a scope moved by a share of its own step, where that is better.
-    fn moved(&self, best: Option<&Fit>, of: &Applied, k: usize, by: f64) -> Result<Option<Fit>> {
-        let Some((best, mut own)) = best.and_then(|b| Some((b, find(&b.model, of)?))) else { return Ok(None) };
-        let Some(scope) = own.effect.scope.clone() else { return Ok(None) };
-        let mut numbers = scope.movable();
-        let step = match &scope {
-            Scope::Times(_) => WINDOW,
-            Scope::Disk([.., radius]) => 0.2 * radius,
-            _ => 0.2 * numbers[k].abs(),
-        };
-        numbers[k] = ((numbers[k] + by * step) * 1e4).round() / 1e4;
-        let Some(scope) = scope.moved(&numbers) else { return Ok(None) };
-        own.effect.scope = Some(scope);
-        let model = best.model.clone().with_effect(own);
-        let fit = self.problem.fit(&model, &best.window_states, &best.variances, QUICK)?;
-        Ok(fit.filter(|fit| fit.deviance < best.deviance - QUICK.enough))
     }
 
     /// Effects with the scopes and courses by which they promise most.

@@ -120,7 +120,7 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
         rest: rest(&selected.after, &after, &gap).filter(|_| usable && !is_noise),
         covariance: covariance(&selected.after).filter(|_| usable),
         refused: selected.refused.iter().filter(|_| usable).cloned().collect(),
-        remaining: Some(remaining(&selected.after, data.fitted[0].has_heading(), &after)),
+        remaining: Some(remaining(&selected.after, data.fitted[0].measures_heading(), &after)),
         steps: comparison.steps(&selected, &gap)?,
         gap,
         warnings,

@@ -24,7 +24,7 @@ pub use log::column_entry::{ColumnEntry, Kind, Reading};
 pub use log::columns::{Columns, InputColumn, Resolved, ResolvedInput};
 pub use log::header::read_beginning;
 pub use log::inputs::Inputs;
-pub use log::run::{Apart, Deviations, Run};
+pub use log::run::{Apart, Defined, Deviations, Run};
 pub use log::two_clocks::Clock;
 pub use model::dynamics::{ContactEntry, DynamicsEntry, StartEntry};
 pub use model::effect_entry::EffectEntry;

@@ -2,7 +2,7 @@
 
 use super::model::Model;
 use crate::error::{Error, Result};
-use crate::files::{Deviations, Run};
+use crate::files::{Defined, Deviations, Run};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -65,6 +65,7 @@ impl Run {
             differences: vec![None; roles.len()],
             roles,
             inputs,
+            defined: Defined::default(),
             deviations: Deviations::default(),
             rows_dropped: 0,
             why_dropped: BTreeMap::new(),

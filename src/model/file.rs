@@ -59,6 +59,7 @@ fn known_vehicle(v: &Vehicle) -> KnownVehicle {
         stays: v.stays(),
         trailers: false,
         tractor: v.pulls(),
+        line: v.line,
         dynamics: KnownDynamics::default(),
         sections: v.trailers.len(),
         description: Some(v.clone()),

@@ -90,17 +90,21 @@ pub fn outputs(trailers: usize) -> impl Iterator<Item = Output> {
     BODY.into_iter().chain((1..=trailers).map(of_trailer))
 }
 
-/// What a log has of a vehicle: which of its outputs have a column.
+/// What a log has of a vehicle: which of its outputs have a column, and which of these a sensor measures.
 ///
 /// ```
 /// use creepage::model::observation::{BODY_HEADING, Observation};
 /// let log = Observation::new(2, false, 3);
 /// assert_eq!(log.measured(), [0, 1, 3]);
 /// assert!(!log.measures(BODY_HEADING));
+/// // On a line the place along it is all there is to measure.
+/// let line = Observation::new(0, true, 3).defining([1, BODY_HEADING]);
+/// assert_eq!((line.columns(), line.measured()), (&[0, 1, 2][..], &[0][..]));
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Observation {
     trailers: usize,
+    columns: Vec<usize>,
     measured: Vec<usize>,
 }
 
@@ -108,7 +112,15 @@ impl Observation {
     /// Of a vehicle with so many trailers so many columns, in the order of the outputs; the body's heading may lack one.
     pub fn new(trailers: usize, has_heading: bool, columns: usize) -> Self {
         let all = (0..outputs(trailers).count()).filter(|i| has_heading || *i != BODY_HEADING);
-        Self { trailers, measured: all.take(columns).collect() }
+        let columns: Vec<usize> = all.take(columns).collect();
+        Self { trailers, measured: columns.clone(), columns }
+    }
+
+    /// The same where the columns of some outputs hold what is so by definition: they are known and not measured.
+    pub fn defining(mut self, outputs: impl IntoIterator<Item = usize>) -> Self {
+        let defined: Vec<usize> = outputs.into_iter().collect();
+        self.measured.retain(|i| !defined.contains(i));
+        self
     }
 
     /// How many trailers the vehicle has, measured or not.
@@ -117,11 +129,21 @@ impl Observation {
     }
 
     /// The outputs that have a column, column by column.
+    pub fn columns(&self) -> &[usize] {
+        &self.columns
+    }
+
+    /// The outputs that a sensor measures, in the order of their columns.
     pub fn measured(&self) -> &[usize] {
         &self.measured
     }
 
-    /// Whether an output has a column.
+    /// Whether an output has a column, measured or by definition.
+    pub fn knows(&self, output: usize) -> bool {
+        self.columns.contains(&output)
+    }
+
+    /// Whether a sensor measures an output.
     pub fn measures(&self, output: usize) -> bool {
         self.measured.contains(&output)
     }

@@ -21,6 +21,8 @@ pub struct Jump {
     pub is_shown_by_path: bool,
 }
 
+/// The component of the process noise across the body among [`JUMPS`].
+pub const ACROSS: usize = 1;
 /// The component of the process noise in yaw among [`JUMPS`].
 pub const YAW: usize = 2;
 

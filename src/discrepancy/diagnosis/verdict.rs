@@ -58,24 +58,24 @@ const LONG_SLIDE: f64 = 1.5;
 /// # Errors
 /// When the model's formulas are malformed.
 pub fn before_fitting(problem: &Problem, model: &Model) -> Result<Option<Outcome>> {
-    if let Some(outcome) = still_or_short(problem) {
+    if let Some(outcome) = still_or_short(problem, model) {
         return Ok(Some(outcome));
     }
     Ok(unit_errors::another_motion(model, &problem.records)?.map(unusable))
 }
 
-fn still_or_short(problem: &Problem) -> Option<Outcome> {
+fn still_or_short(problem: &Problem, model: &Model) -> Option<Outcome> {
     if !moves(problem) {
         let (reason, next) = match driven(problem) {
             true => (Reason::PosesStand, Advice::PosesOftener),
-            false => (Reason::NothingMoves, Advice::VariedDriving(Motive::Motion)),
+            false => (Reason::NothingMoves, Advice::varied(model, Motive::Motion)),
         };
         return Some(Outcome::new(Verdict::UnusableData, reason, Some(next)));
     }
     let windows = problem.windows();
     (windows < FEWEST_WINDOWS).then(|| {
         let reason = Reason::TooFewWindows { windows, needed: FEWEST_WINDOWS };
-        Outcome::new(Verdict::NotIdentifiable, reason, Some(Advice::VariedDriving(Motive::Length)))
+        Outcome::new(Verdict::NotIdentifiable, reason, Some(Advice::varied(model, Motive::Length)))
     })
 }
 
@@ -157,7 +157,7 @@ fn fitted(choice: &Selected, after: &[ConstraintResiduals], clocks: &[Drift]) ->
     match missed(&choice.candidates, choice.before.variance_inflation()) {
         Some(candidate) => {
             let missed = || Box::new(candidate.applied.clone());
-            let next = Advice::VariedDriving(Motive::Missed(missed()));
+            let next = Advice::varied(&choice.before.model, Motive::Missed(missed()));
             Outcome::new(Verdict::NotIdentifiable, Reason::Missed(missed()), Some(next))
         }
         None => {

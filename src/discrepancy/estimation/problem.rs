@@ -9,8 +9,8 @@ use crate::discrepancy::shooting::windows;
 use crate::discrepancy::shooting::windows::has_windows;
 use crate::discrepancy::shooting::windows::{Segment, WindowStates};
 use crate::error::Result;
-use crate::model::observation::POSITION;
-use crate::model::state::YAW;
+use crate::model::observation::{HEADING, PLACE, POSITION};
+use crate::model::state::{ACROSS, YAW};
 use crate::model::{Model, observation};
 
 /// Runs cut into windows, with what is known of their noise.
@@ -37,10 +37,12 @@ impl Problem {
         };
         let plan = windows::plan(&records);
         let trailers = records.first().map_or(0, |r| r.trailers());
+        let is_defined = !records.is_empty() && records.iter().all(|r| r.has_heading() && !r.measures_heading());
         let starts = observation::sensor_noise(trailers).iter().enumerate().map(|(k, noise)| {
             let known = if noise.unit == "m" { position } else { heading };
+            let given = (k == HEADING && is_defined).then_some(DEFINED);
             Start {
-                variance: known.unwrap_or_else(|| noise_of(&records, k)).powi(2),
+                variance: given.or(known).unwrap_or_else(|| noise_of(&records, k)).powi(2),
                 is_measured: records.iter().any(|r| r.channels().iter().any(|c| c.noise == k)),
                 is_known: known.is_some(),
             }
@@ -50,6 +52,11 @@ impl Problem {
             && let Some(yaw) = yaw_told(&records, &plan, variances.measurement()[POSITION].variance)
         {
             variances.process_mut()[YAW].variance = yaw;
+        }
+        // Along a line the place shows no motion across it.
+        if !records.iter().any(|r| r.observation.measures(PLACE[1])) {
+            variances.process_mut()[ACROSS].is_estimated = false;
+            variances.process_mut()[YAW].is_estimated &= !is_defined;
         }
         Self { records, plan, variances }
     }
@@ -110,6 +117,8 @@ pub(crate) fn starts(model: &Model, records: &[Record], plan: &[Segment]) -> Res
     Ok(plan.iter().map(|s| heading_from_path::starts(&equations, &records[s.record], &s.windows)).collect())
 }
 
+/// The standard deviation of a heading that is so by definition, rad.
+const DEFINED: f64 = 1e-9;
 /// Times the noise of inputs is drawn.
 const INPUT_DRAWS: u64 = 3;
 
@@ -129,8 +138,8 @@ fn yaw_told(records: &[Record], plan: &[Segment], variance: f64) -> Option<f64> 
 fn noise_of(records: &[Record], component: usize) -> f64 {
     let mut found: Vec<f64> = Vec::new();
     for r in records {
-        let columns = r.channels().into_iter().zip(&r.columns).filter(|(c, _)| c.noise == component);
-        found.extend(columns.filter_map(|(_, y)| local_polynomial::noise(&r.time[r.rows.clone()], &y[r.rows.clone()])));
+        let columns = r.channels().into_iter().filter(|c| c.noise == component).map(|c| &r.columns[c.column]);
+        found.extend(columns.filter_map(|y| local_polynomial::noise(&r.time[r.rows.clone()], &y[r.rows.clone()])));
     }
     // A column without any noise still has its last digit.
     local_polynomial::median(&mut found).unwrap_or(1e-3).max(1e-9)

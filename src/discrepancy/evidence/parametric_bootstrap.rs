@@ -116,9 +116,9 @@ impl Problem {
                 of_segment.push(arc.z[..equations.visible].to_vec());
                 for i in rows.clone() {
                     let y = stepper.outputs(&arc.z);
-                    for (column, channel) in record.columns.iter_mut().zip(&channels) {
+                    for channel in &channels {
                         let noise = v.measurement()[channel.noise].variance.sqrt() * normal(random);
-                        column[i] = y[channel.output] + noise;
+                        record.columns[channel.column][i] = y[channel.output] + noise;
                     }
                     if i + 1 < record.time.len() {
                         stepper.advance(&mut arc, record.time[i], record.time[i + 1]);

@@ -196,15 +196,15 @@ impl<'a> PredictedExperiment<'a> {
             Timing::Sample,
         );
         record.observation = self.like.observation.clone();
-        let (signals, channels) = (record.signals.clone(), record.channels());
+        let (signals, outputs) = (record.signals.clone(), self.like.observation.columns());
         let mut stepper = Stepper::new(&equations, &signals, &[]);
         let mut z = vec![0.0; equations.visible];
         z.extend(hidden_states::at_rest(&equations, &[], &mut stepper, record.time[0], &z).z);
         let mut arc = StateSensitivity { z, s: vec![] };
         for i in 0..record.time.len() {
             let y = stepper.outputs(&arc.z);
-            for (column, channel) in record.columns.iter_mut().zip(&channels) {
-                column.push(y[channel.output]);
+            for (column, output) in record.columns.iter_mut().zip(outputs) {
+                column.push(y[*output]);
             }
             if i + 1 < record.time.len() {
                 stepper.advance(&mut arc, record.time[i], record.time[i + 1]);

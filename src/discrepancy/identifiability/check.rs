@@ -107,7 +107,7 @@ pub(crate) fn assess(of: &Checked, progress: &OnProgress) -> Result<Assessment> 
     let starts = problem.starts(&model)?;
     let fit = problem.fit(&model, &starts, &problem.variances, Effort::FULL)?;
     let Some(fit) = fit else { return Ok(without_fit(data, findings, verdict::undefined_motion())) };
-    let data = data.with_fit(problem.variances.measurement(), &fit, problem.records[0].has_heading());
+    let data = data.with_fit(problem.variances.measurement(), &fit, problem.records[0].measures_heading());
     findings.extend(of_fit(&fit));
     let all = candidates(&model, of.library);
     let counter = Counter::begin(progress, Stage::Detection, all.len())?;

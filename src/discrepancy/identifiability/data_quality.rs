@@ -42,6 +42,8 @@ pub(crate) fn health(
     };
     let each: Vec<RunHealth> = runs.par_iter().zip(records).zip(left_out).map(one).collect::<Result<_>>()?;
     let mut found = findings(&each, records);
+    // A vehicle on a line is asked for no turns.
+    found.retain(|f| !model.vehicle.line || !matches!(f, DataFinding::NoTurns | DataFinding::OneTurnDirection(_)));
     for run in runs {
         let reading = |says: &String| DataFinding::Reading { run: run.name.clone(), says: says.clone() };
         found.extend(run.warnings.iter().map(reading));

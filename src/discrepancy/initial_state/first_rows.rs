@@ -81,7 +81,8 @@ impl<'a> Rows<'a> {
         for i in self.first..self.last {
             stepper.advance(&mut z, &mut s, &[time[i]; L], &[time[i + 1]; L]);
             let y = stepper.outputs_here(&z);
-            for (c, channel) in channels.iter().enumerate() {
+            for channel in &channels {
+                let c = channel.column;
                 for (found, y) in found.iter_mut().zip(y[channel.output]) {
                     let off = channel.difference(y - self.record.columns[c][i + 1]);
                     found.push(off / self.noise[c]);

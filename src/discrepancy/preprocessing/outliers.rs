@@ -90,8 +90,8 @@ fn residuals(record: &Record, predictor: &Rollout, windows: &[Window]) -> Vec<Ve
     let channels = record.channels();
     for Window { rows, .. } in windows {
         for (i, y) in rows.clone().zip(predictor.outputs(rows.start, rows.end - 1)) {
-            for (c, column) in found.iter_mut().enumerate() {
-                column[i] = channels[c].difference(record.columns[c][i] - y[channels[c].output]);
+            for c in &channels {
+                found[c.column][i] = c.difference(record.columns[c.column][i] - y[c.output]);
             }
         }
     }

@@ -172,7 +172,9 @@ impl Trial<'_> {
 
     fn pose_repairs(&self, given: &[Motion], before: &SignedRatios) -> Vec<Accepted> {
         let run = self.run;
-        let tried = PoseRepair::all(run.heading.is_some()).into_par_iter().filter_map(|(repair, cost)| {
+        // What is so by definition is not mended.
+        let measured = run.heading.as_deref().filter(|_| !run.defined.heading);
+        let tried = PoseRepair::all(measured.is_some()).into_par_iter().filter_map(|(repair, cost)| {
             let ([x, y], heading) = repair.applied([&run.x, &run.y], run.heading.as_deref());
             let windows = self.windows.in_unit(repair.metres());
             let after = windows.ratios(given, &windows.motions([&x, &y], heading.as_deref()));
@@ -300,6 +302,7 @@ mod tests {
             x,
             y,
             heading: has_heading.then_some(heading),
+            defined: crate::files::Defined::default(),
             trailer_headings: vec![],
             roles,
             inputs,

@@ -16,7 +16,7 @@ pub struct Record {
     pub name: String,
     /// Times, strictly increasing, s.
     pub time: Vec<f64>,
-    /// Measured x, y and, when measured, heading and trailer headings; angles unwrapped.
+    /// Measured x, y and, when measured, heading and trailer headings, or what they are by definition; angles unwrapped.
     pub columns: Vec<Vec<f64>>,
     /// Which outputs of the vehicle they are.
     pub observation: Observation,
@@ -45,6 +45,8 @@ impl Clone for Known {
 /// What a measured column is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Channel {
+    /// Its place among the columns of the record.
+    pub column: usize,
     /// The output of the equations that it is compared with.
     pub output: usize,
     /// Its component of the measurement noise.
@@ -87,7 +89,9 @@ impl Record {
         columns.extend(run.trailer_headings.iter().cloned());
         let signals = Signals::of_run(run, timing);
         let input_noise = Arc::new(InputNoise::of(run.input_time(), &run.inputs, &timings(&run.differences, timing)));
-        let observation = Observation::new(trailers, run.heading.is_some(), columns.len());
+        let defined = [(PLACE[1], run.defined.y), (BODY_HEADING, run.defined.heading)];
+        let defined = defined.into_iter().filter_map(|(output, is_defined)| is_defined.then_some(output));
+        let observation = Observation::new(trailers, run.heading.is_some(), columns.len()).defining(defined);
         let (name, time, rows) = (run.name.clone(), run.time.clone(), 0..run.time.len());
         Self { name, time, columns, observation, signals, input_noise, rows, known: Known::default() }
     }
@@ -112,12 +116,25 @@ impl Record {
     /// What each measured column is.
     pub fn channels(&self) -> Vec<Channel> {
         let outputs: Vec<observation::Output> = observation::outputs(self.trailers()).collect();
-        let channel = |i: &usize| Channel { output: *i, noise: outputs[*i].noise, is_angle: outputs[*i].is_angle };
-        self.observation.measured().iter().map(channel).collect()
+        let channel = |(column, i): (usize, &usize)| {
+            let (output, of) = (*i, outputs[*i]);
+            self.observation.measures(output).then_some(Channel {
+                column,
+                output,
+                noise: of.noise,
+                is_angle: of.is_angle,
+            })
+        };
+        self.observation.columns().iter().enumerate().filter_map(channel).collect()
     }
 
-    /// Whether a heading of the body was measured.
+    /// Whether the heading of the body is known, measured or by definition.
     pub fn has_heading(&self) -> bool {
+        self.observation.knows(BODY_HEADING)
+    }
+
+    /// Whether a sensor measures the heading of the body.
+    pub fn measures_heading(&self) -> bool {
         self.observation.measures(BODY_HEADING)
     }
 
@@ -259,5 +276,32 @@ mod tests {
                 assert!(near && smoothed.len() == 4, "{x} {y} {i}: {smoothed:?}");
             }
         }
+    }
+
+    /// A vehicle on a line needs no y: it is zero with the heading, so that a pose is whole, and neither is a measurement.
+    #[test]
+    fn on_a_line_the_place_along_it_is_all_that_is_measured() {
+        let known = crate::model::known(crate::effects::all());
+        let text = |more: &str| format!("vehicle = \"disk\"\n[parameters]\nwheel_radius = 0.5\n[columns]\n{more}");
+        let file = |more: &str| crate::files::ModelFile::parse(&text(more), "model.toml", &known).unwrap();
+        let read = |log: &str, more: &str| Run::parse("run.csv", log, &file(more));
+        let log = "time,x,wheel_rate\n0,0.5,1\n1,0.75,1\n2,1,1\n";
+        let run = read(log, "").unwrap();
+        let record = Record::of_run(&run, InputTiming::Sample, 0);
+        assert_eq!(record.measured(1), [0.75, 0.0, 0.0]);
+        assert_eq!(record.channels().iter().map(|c| (c.column, c.output)).collect::<Vec<_>>(), [(0, 0)]);
+        assert!(record.has_heading() && !record.measures_heading());
+        let problem = crate::discrepancy::estimation::problem::Problem::new(vec![record], None, None);
+        let estimated = problem.variances.components().iter().filter(|c| c.is_estimated).map(|c| c.id);
+        assert_eq!(estimated.collect::<Vec<_>>(), ["position", "along"]);
+        // A log that has the column is read by it, and one that is named must be there.
+        let both = read("time,x,y,heading,wheel_rate\n0,0.5,2,1,1\n1,0.75,2,1,1\n", "").unwrap();
+        let record = Record::of_run(&both, InputTiming::Sample, 0);
+        assert_eq!((record.measured(1), record.channels().len()), (vec![0.75, 2.0, 1.0], 3));
+        let turned = read("time,x,heading,wheel_rate\n0,0.5,1,1\n1,0.75,1,1\n", "").unwrap();
+        let record = Record::of_run(&turned, InputTiming::Sample, 0);
+        assert_eq!(record.channels().iter().map(|c| (c.column, c.output)).collect::<Vec<_>>(), [(0, 0), (2, 2)]);
+        let error = read(log, "y = \"y\"").unwrap_err().to_string();
+        assert!(error.contains("column \"y\" is missing"), "{error}");
     }
 }

@@ -21,10 +21,10 @@ impl Noise {
         let kept = (self.correlation_time - 1.0) / (self.correlation_time + 1.0);
         let fresh = (1.0 - kept * kept).sqrt();
         let mut noisy = record.columns.clone();
-        for (column, channel) in noisy.iter_mut().zip(record.channels()) {
+        for channel in record.channels() {
             let sigma = self.variance[channel.noise].sqrt();
             let mut last: Option<f64> = None;
-            for y in column.iter_mut() {
+            for y in &mut noisy[channel.column] {
                 let drawn: f64 = rng.sample(StandardNormal);
                 let noise = last.map_or(drawn, |last| kept * last + fresh * drawn);
                 *y += sigma * noise;

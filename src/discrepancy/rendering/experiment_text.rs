@@ -34,8 +34,12 @@ pub fn next_experiment(step: &NextStep) -> NextExperiment {
 fn advised(advice: &Advice) -> NextExperiment {
     let (why, manoeuvre) = match advice {
         Advice::VariedDriving(motive) => (
-            motivated(motive),
+            motivated(motive, "where speed and turn vary together, one law imitates another"),
             "drive at least 60 s at changing speed with turns to both sides, such as figures of eight",
+        ),
+        Advice::VariedSpeed(motive) => (
+            motivated(motive, "at one speed one law imitates another"),
+            "drive at least 60 s at changing speed, slow and fast, speeding up and slowing down",
         ),
         Advice::PosesOftener => (
             "between two rows of poses more happens than from one end of the run to the other".into(),
@@ -55,13 +59,12 @@ fn advised(advice: &Advice) -> NextExperiment {
     NextExperiment { why, manoeuvre: manoeuvre.into() }
 }
 
-fn motivated(motive: &Motive) -> String {
-    const IMITATES: &str = "where speed and turn vary together, one law imitates another";
+fn motivated(motive: &Motive, imitates: &str) -> String {
     match motive {
         Motive::Motion => "a model is tested by motion".into(),
         Motive::Length => "the runs are too short".into(),
-        Motive::Contradiction(effects) => format!("{}: {IMITATES}", inconsistent(effects)),
-        Motive::Nameless => format!("what disagrees in these runs has no name: {IMITATES}"),
+        Motive::Contradiction(effects) => format!("{}: {imitates}", inconsistent(effects)),
+        Motive::Nameless => format!("what disagrees in these runs has no name: {imitates}"),
         Motive::Missed(effect) => format!("a plausible {} would have been missed", effect.label()),
     }
 }
@@ -111,6 +114,19 @@ fn mending(mends: &[Mended], manoeuvre: &PlannedManoeuvre) -> NextExperiment {
 mod tests {
     use super::*;
     use crate::discrepancy::fixtures::applied;
+
+    /// A vehicle on a line is not told to turn.
+    #[test]
+    fn what_cannot_turn_is_told_to_change_its_speed() {
+        let motives = || [Motive::Motion, Motive::Length, Motive::Nameless];
+        for (plane, line) in motives().map(Advice::VariedDriving).iter().zip(motives().map(Advice::VariedSpeed).iter())
+        {
+            let [plane, line] = [plane, line].map(|advice| advised(advice));
+            assert!(plane.manoeuvre.contains("figures of eight"), "{plane:?}");
+            let says = format!("{} {}", line.why, line.manoeuvre);
+            assert!(!says.contains("turn") && !says.contains("eight"), "{says}");
+        }
+    }
 
     /// A manoeuvre that is worth the evidence is driven once, another is repeated; below there is none.
     #[test]

@@ -164,7 +164,7 @@ impl<'a> Rollout<'a> {
         let windows = self.windows(horizon);
         for ((_, to), [_, end]) in windows.iter().zip(self.ends(&windows)) {
             let measured = |c: usize| self.record.columns[c][*to];
-            let heading = self.record.has_heading().then(|| end[BODY_HEADING] - measured(BODY_HEADING));
+            let heading = self.record.measures_heading().then(|| end[BODY_HEADING] - measured(BODY_HEADING));
             errors.add(PLACE.map(|c| end[c] - measured(c)), heading);
         }
         errors
@@ -199,7 +199,7 @@ impl<'a> Rollout<'a> {
         let beside = Rollout { record: &noisier, equations: self.equations.clone(), hidden: self.hidden.clone() };
         let windows = self.windows(horizon);
         for ([_, here], [_, there]) in self.ends(&windows).iter().zip(beside.ends(&windows)) {
-            let heading = self.record.has_heading().then(|| there[BODY_HEADING] - here[BODY_HEADING]);
+            let heading = self.record.measures_heading().then(|| there[BODY_HEADING] - here[BODY_HEADING]);
             moved.add(PLACE.map(|c| there[c] - here[c]), heading);
         }
         moved
@@ -244,7 +244,7 @@ impl Restart {
         let turned = [(cos - 1.0) * d[0] - sin * d[1], sin * d[0] + (cos - 1.0) * d[1]];
         let end = |c: usize| noisy[c][self.to] - record.columns[c][self.to];
         let error = PLACE.map(|c| shift(c) + turned[c] - end(c));
-        errors.add(error, record.has_heading().then(|| turn - end(BODY_HEADING)));
+        errors.add(error, record.measures_heading().then(|| turn - end(BODY_HEADING)));
     }
 }
 

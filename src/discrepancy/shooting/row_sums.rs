@@ -145,7 +145,7 @@ impl<const L: usize> NormalEquations<L> {
         let visible = visible_of(record);
         for (c, channel) in self.channels.iter().enumerate() {
             output_line(y, channel.output, visible, k, s, &mut self.line);
-            let measured = &record.columns[c];
+            let measured = &record.columns[channel.column];
             let (kind, rest) = (channel.noise, &mut self.line[k]);
             for l in 0..L {
                 rest[l] = y[channel.output][l] - measured[at[l]];

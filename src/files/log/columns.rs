@@ -31,6 +31,8 @@ pub struct Columns {
     pub entries: BTreeMap<String, ColumnEntry>,
     /// `x` and `y` name longitude and latitude in degrees.
     pub geographic: bool,
+    /// The vehicle moves along a line and the file names no `y`: a log may lack it, and the heading.
+    pub on_line: bool,
 }
 
 /// The column of one input.
@@ -52,8 +54,8 @@ pub struct Resolved {
     pub time: Cells,
     /// Measured position along x.
     pub x: Cells,
-    /// Measured position along y.
-    pub y: Cells,
+    /// Measured position along y; none in a log of a vehicle on a line that has no such column.
+    pub y: Option<Cells>,
     /// `x` and `y` are longitude and latitude.
     pub geographic: bool,
     /// Measured heading, if the log has one.
@@ -106,6 +108,7 @@ impl Columns {
                 entries.insert((*role).to_string(), found);
             }
         }
+        let on_line = machine.vehicle.line && y.is_none();
         let position = get("position").map(|v| position(&v, [&x, &y])).transpose()?;
         let geographic = position.is_some();
         if let Some([latitude, longitude]) = position {
@@ -123,6 +126,7 @@ impl Columns {
             inputs: inputs.iter().map(|known| input(known, &get, &mut entries)).collect::<Result<_>>()?,
             entries,
             geographic,
+            on_line: on_line && !geographic,
         };
         columns.distinct(top, section.as_ref())?;
         Ok(columns)
@@ -155,11 +159,12 @@ impl Columns {
             None => None,
         };
         let trailer = |(i, column): (usize, &String)| angle(&format!("trailer_headings[{}]", i + 1), column);
+        let lacks_y = self.on_line && !header.contains(&self.y);
         let deviation = |role: &str| self.entries.get(role).map(|e| find(role, &e.columns[0])).transpose();
         Ok(Resolved {
             time: self.time_cells(header, role, time)?,
             x: place("x", &self.x)?,
-            y: place("y", &self.y)?,
+            y: (!lacks_y).then(|| place("y", &self.y)).transpose()?,
             geographic: self.geographic,
             heading,
             trailer_headings: self.trailer_headings.iter().enumerate().map(trailer).collect::<Result<_>>()?,
@@ -239,7 +244,8 @@ impl Resolved {
 
     /// The cells of the pose.
     pub(crate) fn pose(&self) -> Vec<&Cells> {
-        let mut pose = vec![&self.x, &self.y];
+        let mut pose = vec![&self.x];
+        pose.extend(&self.y);
         pose.extend(&self.heading);
         pose.extend(&self.trailer_headings);
         pose
@@ -332,6 +338,7 @@ mod tests {
             inputs: vec![drive],
             entries: BTreeMap::new(),
             geographic: false,
+            on_line: false,
         }
     }
 
@@ -359,7 +366,8 @@ mod tests {
             ),
             (Some(6), "wheel_rate", 5)
         );
-        assert_eq!([&found.time, &found.x, &found.y, &found.trailer_headings[0]].map(|c| c.places[0]), [1, 2, 3, 4]);
+        let y = found.y.as_ref().unwrap();
+        assert_eq!([&found.time, &found.x, y, &found.trailer_headings[0]].map(|c| c.places[0]), [1, 2, 3, 4]);
     }
 
     #[test]

@@ -53,7 +53,8 @@ impl Inputs {
         let mut columns = model.columns.clone();
         // Under forces the motion of the wheels is what comes out.
         columns.inputs = model.dynamics.as_ref().map_or(columns.inputs, |d| d.inputs.clone());
-        let whole = columns.resolve(sheet.header()).ok().filter(|r| r.heading.is_some() && !sheet.has_topics());
+        let is_whole = |r: &Resolved| r.y.is_some() && r.heading.is_some() && !sheet.has_topics();
+        let whole = columns.resolve(sheet.header()).ok().filter(is_whole);
         let (time, inputs) = columns.resolve_inputs(sheet.header()).map_err(|e| sheet.at_header(e))?;
         let driven: Vec<&Cells> = std::iter::once(&time).chain(inputs.iter().map(|i| &i.cells)).collect();
         let measured: Vec<&Cells> = whole.iter().flat_map(Resolved::pose).collect();

@@ -35,6 +35,8 @@ pub struct Run {
     pub heading: Option<Vec<f64>>,
     /// Measured absolute headings of each trailer, rad, without jumps; empty when not measured.
     pub trailer_headings: Vec<Vec<f64>>,
+    /// Which of them no sensor measures, and the line of the vehicle defines.
+    pub defined: Defined,
     /// Standard deviations of the pose that the log gives.
     pub deviations: Deviations,
     /// What each of the inputs is.
@@ -65,6 +67,15 @@ pub struct Apart {
     pub truth_sha256: String,
     /// Whether both have one clock, as the topics of a bag or the rows of a log of which some have no pose.
     pub one_clock: bool,
+}
+
+/// What of a pose is zero in every row by definition: a vehicle on a line has its place along it alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Defined {
+    /// The position along y.
+    pub y: bool,
+    /// The heading.
+    pub heading: bool,
 }
 
 /// Standard deviations of the measured pose, row by row, NaN where a row has none.
@@ -142,11 +153,15 @@ impl Run {
     pub(crate) fn build(path: &Path, found: Resolved, numbers: Numbers, warnings: Vec<String>) -> Self {
         let mut columns = numbers.columns.into_iter();
         let mut next = || columns.next().unwrap_or_default();
-        let (time, mut x, mut y) = (next(), next(), next());
+        let (time, mut x) = (next(), next());
+        let zeros = || vec![0.0; time.len()];
+        let mut y = if found.y.is_some() { next() } else { zeros() };
         if found.geographic {
             (x, y) = tangent_plane(&y, &x);
         }
         let heading = found.heading.as_ref().map(|_| cells::unwrapped(next()));
+        let defined = Defined { y: found.y.is_none(), heading: found.y.is_none() && heading.is_none() };
+        let heading = heading.or_else(|| defined.heading.then(zeros));
         let trailer_headings = found.trailer_headings.iter().map(|_| cells::unwrapped(next())).collect();
         let driven: Vec<&Cells> = found.inputs.iter().map(|input| &input.cells).collect();
         let inputs = inputs(&time, columns.by_ref(), &driven);
@@ -165,6 +180,7 @@ impl Run {
             y,
             heading,
             trailer_headings,
+            defined,
             deviations,
             inputs,
             differences: found.inputs.iter().map(|input| difference(&input.cells)).collect(),

@@ -26,7 +26,7 @@ pub(crate) fn recognised(header: &[String], origin: Origin) -> Option<Resolved> 
     let trajectory = |time, x, y, turn: Vec<usize>| Resolved {
         time,
         x: cells(vec![x], Kind::Number),
-        y: cells(vec![y], Kind::Number),
+        y: Some(cells(vec![y], Kind::Number)),
         geographic: false,
         heading: Some(cells(turn, Kind::Quaternion)),
         trailer_headings: vec![],
@@ -92,7 +92,7 @@ pub(crate) fn kitti(log: Log, path: &Path) -> Result<(Resolved, Numbers)> {
     let found = Resolved {
         time: one(0),
         x: one(1),
-        y: one(2),
+        y: Some(one(2)),
         geographic: false,
         heading: Some(one(3)),
         trailer_headings: vec![],

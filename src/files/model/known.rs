@@ -31,6 +31,8 @@ pub struct KnownVehicle {
     pub heading: Option<String>,
     /// It has no place in the plane, so `x` and `y` may be left out of `[initial]`.
     pub stays: bool,
+    /// It moves along a line: what is measured of its place is how far along it is.
+    pub line: bool,
     /// It pulls trailers, so `tractor`, `trailer_lengths` and `hitch_offsets` may stand in the file.
     pub trailers: bool,
     /// It may be the `tractor` of a vehicle with trailers.

@@ -117,7 +117,8 @@ impl Problem {
                 for i in rows.clone() {
                     let y = stepper.outputs(&arc.z);
                     for channel in &channels {
-                        let noise = v.measurement()[channel.noise].variance.sqrt() * normal(random);
+                        let sigma = v.measurement()[channel.noise].variance.sqrt();
+                        let noise = sigma * record.weights.deviation(channel.column, i) * normal(random);
                         record.columns[channel.column][i] = y[channel.output] + noise;
                     }
                     if i + 1 < record.time.len() {

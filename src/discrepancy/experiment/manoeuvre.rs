@@ -162,6 +162,7 @@ pub(crate) mod samples {
     use super::*;
     use crate::discrepancy::record::input_noise::InputNoise;
     use crate::discrepancy::record::run_record::{Known, Record};
+    use crate::discrepancy::record::row_weights::RowWeights;
     use crate::model::Model;
     use crate::model::observation::Observation;
     use crate::motion::{Signals, Timing};
@@ -178,6 +179,7 @@ pub(crate) mod samples {
             time,
             columns: vec![],
             observation: Observation::new(0, false, 0),
+            weights: RowWeights::default(),
             signals,
             input_noise: InputNoise::of(&[], &[], &[]).into(),
             known: Known::default(),

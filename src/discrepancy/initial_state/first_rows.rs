@@ -85,7 +85,7 @@ impl<'a> Rows<'a> {
                 let c = channel.column;
                 for (found, y) in found.iter_mut().zip(y[channel.output]) {
                     let off = channel.difference(y - self.record.columns[c][i + 1]);
-                    found.push(off / self.noise[c]);
+                    found.push(off / (self.noise[c] * self.record.weights.deviation(c, i + 1)));
                 }
             }
         }

@@ -4,5 +4,6 @@ pub mod angle;
 pub(crate) mod input_noise;
 pub mod local_polynomial;
 pub(crate) mod quantisation;
+pub mod row_weights;
 pub mod run_record;
 pub mod sensor_noise;

@@ -3,6 +3,7 @@
 use super::angle::wrapped;
 use super::input_noise::InputNoise;
 use super::local_polynomial;
+use super::row_weights::RowWeights;
 use crate::files::{InputTiming, Run};
 use crate::model::observation::{self, BODY_HEADING, Observation, PLACE};
 use crate::motion::{Signals, Timing, timings};
@@ -20,6 +21,8 @@ pub struct Record {
     pub columns: Vec<Vec<f64>>,
     /// Which outputs of the vehicle they are.
     pub observation: Observation,
+    /// How much each row of a column counts.
+    pub weights: RowWeights,
     /// The inputs.
     pub signals: Signals,
     /// What was added to each input before it was logged.
@@ -79,7 +82,8 @@ impl Record {
         let trailers = columns.len() - PLACE.len() - usize::from(has_heading);
         let observation = Observation::new(trailers, has_heading, columns.len());
         let (name, known) = (name.to_string(), Known::default());
-        Self { name, time, columns, observation, signals, input_noise, rows, known }
+        let weights = RowWeights::default();
+        Self { name, time, columns, observation, weights, signals, input_noise, rows, known }
     }
 
     /// A run as it was read, of a vehicle with some trailers.
@@ -93,7 +97,8 @@ impl Record {
         let defined = defined.into_iter().filter_map(|(output, is_defined)| is_defined.then_some(output));
         let observation = Observation::new(trailers, run.heading.is_some(), columns.len()).defining(defined);
         let (name, time, rows) = (run.name.clone(), run.time.clone(), 0..run.time.len());
-        Self { name, time, columns, observation, signals, input_noise, rows, known: Known::default() }
+        let (weights, known) = (RowWeights::of_run(run), Known::default());
+        Self { name, time, columns, observation, weights, signals, input_noise, rows, known }
     }
 
     /// The run with inputs that are as noisy again.
@@ -108,6 +113,7 @@ impl Record {
         Record {
             time: pick(&self.time),
             columns: self.columns.iter().map(|c| pick(c)).collect(),
+            weights: self.weights.keeping(&pick),
             rows: before(self.rows.start)..before(self.rows.end),
             ..self.clone()
         }

@@ -24,10 +24,10 @@ impl Noise {
         for channel in record.channels() {
             let sigma = self.variance[channel.noise].sqrt();
             let mut last: Option<f64> = None;
-            for y in &mut noisy[channel.column] {
+            for (i, y) in noisy[channel.column].iter_mut().enumerate() {
                 let drawn: f64 = rng.sample(StandardNormal);
                 let noise = last.map_or(drawn, |last| kept * last + fresh * drawn);
-                *y += sigma * noise;
+                *y += sigma * record.weights.deviation(channel.column, i) * noise;
                 last = Some(noise);
             }
         }

@@ -155,6 +155,14 @@ impl<const L: usize> NormalEquations<L> {
                     *rest = wrapped(*rest);
                 }
             }
+            if let Some(weights) = record.weights.of(channel.column) {
+                for line in &mut self.line {
+                    for l in 0..L {
+                        line[l] *= weights[at[l]];
+                    }
+                }
+            }
+            let rest = self.line[k];
             let mut all = true;
             for l in 0..L {
                 all &= active[l];

@@ -198,10 +198,12 @@ pub fn linearise(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::discrepancy::record::row_weights::RowWeights;
     use crate::discrepancy::shooting::windows;
     use crate::effects;
     use crate::effects::Applied;
     use crate::model::Model;
+    use crate::model::observation::{HEADING, POSITION};
     use crate::motion::Timing;
 
     /// A run of uneven rows with some that are missing.
@@ -251,6 +253,27 @@ mod tests {
             assert!(alone == together && windows > 40);
             assert_eq!(done, windows);
         }
+    }
+
+    /// A row of weight w counts w² times: one and two by turns, and two and one, make five times the plain sums.
+    #[test]
+    fn rows_count_by_the_squares_of_their_weights() {
+        let (plain, model) = (record(), model("rotation-creep", &[0.05]));
+        let (equations, p) = (model.free_equations().unwrap(), model.free_values());
+        let summed = |weights: RowWeights| {
+            let records = [Record { weights, ..plain.clone() }];
+            let plan = windows::plan(&records);
+            let starts = plan.iter().map(|s| s.windows.iter().map(|w| plain.measured(w.start)).collect()).collect();
+            linearise(&equations, &p, &records, &plan, &starts).unwrap().remove(0).remove(3).gram
+        };
+        let by_turns = |even: bool| {
+            let weight = |i: usize| if i.is_multiple_of(2) == even { 2.0 } else { 1.0 };
+            let of_place = Some((0..plain.time.len()).map(weight).collect::<Vec<f64>>());
+            summed(RowWeights::new(vec![of_place.clone(), of_place, None]))
+        };
+        let (alike, [a, b]) = (summed(RowWeights::default()), [true, false].map(by_turns));
+        assert!((&a[POSITION] + &b[POSITION] - 5.0 * &alike[POSITION]).norm() < 1e-12 * alike[POSITION].norm());
+        assert!(a[POSITION] != b[POSITION] && a[HEADING] == alike[HEADING] && alike[HEADING].norm() > 0.0);
     }
 
     /// Hidden states that were taken to be elsewhere are noticed.

@@ -24,6 +24,7 @@ mod parquet_types;
 #[path = "../support/program.rs"]
 mod program;
 mod read;
+mod robot_description;
 mod robot_logs;
 #[path = "../simulator/mod.rs"]
 mod simulator;

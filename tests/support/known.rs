@@ -24,7 +24,7 @@ fn vehicle(id: &str, parameters: &[&str], inputs: &[&str]) -> KnownVehicle {
 
 fn effect(id: &str, parameters: &[&str], per_trailer: bool) -> KnownEffect {
     let parameter = |name: &&str| KnownParameter { name: name.to_string(), min: -1.0, max: 1.0 };
-    KnownEffect { id: id.into(), parameters: parameters.iter().map(parameter).collect(), per_trailer }
+    KnownEffect { id: id.into(), parameters: parameters.iter().map(parameter).collect(), per_trailer, per_input: false }
 }
 
 /// Vehicles and effects by the names of the contract.

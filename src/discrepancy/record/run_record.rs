@@ -113,7 +113,7 @@ impl Record {
         Record {
             time: pick(&self.time),
             columns: self.columns.iter().map(|c| pick(c)).collect(),
-            weights: self.weights.keeping(&pick),
+            weights: self.weights.keeping(pick),
             rows: before(self.rows.start)..before(self.rows.end),
             ..self.clone()
         }

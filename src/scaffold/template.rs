@@ -131,16 +131,20 @@ impl Starter {
             "\n[parameters]                      # placeholders: put what you measured, or what the drawing says",
         );
         for (name, p) in &vehicle.parameters {
+            let left_out = measures.map(|m| m.left_out(name)).unwrap_or_default();
             if let Some(value) = measures.and_then(|m| m.of(name)) {
                 let source = measures.map(|m| plain(&m.source)).unwrap_or_default();
-                self.entry(&format!("{name} = {value:?}"), &format!("{}; {}, from {source}", p.unit, p.meaning));
+                self.entry(
+                    &format!("{name} = {value:?}"),
+                    &format!("{}; {}, from {source}{left_out}", p.unit, p.meaning),
+                );
                 continue;
             }
             let usual = USUAL.iter().find(|(usual, _)| usual == name).map(|(_, value)| *value);
             let value = usual.unwrap_or(if name.ends_with("offset") { 0.0 } else { 1.0 });
             let optional = if p.optional { "# " } else { "" };
             let may = if p.optional { "; may be left out" } else { "" };
-            self.entry(&format!("{optional}{name} = {value:?}"), &format!("{}; {}{may}", p.unit, p.meaning));
+            self.entry(&format!("{optional}{name} = {value:?}"), &format!("{}; {}{may}{left_out}", p.unit, p.meaning));
             if !p.optional {
                 self.placeholders.push(name.clone());
             }

@@ -17,6 +17,8 @@ pub struct Measures {
     pub track_width: Option<f64>,
     /// Distance between front and rear wheels.
     pub wheelbase: Option<f64>,
+    /// How many wheels have a radius that is not above zero, which is not taken.
+    pub without_radius: usize,
 }
 
 /// A wheel: its radius, and where it stands on the robot.
@@ -76,6 +78,7 @@ impl Measures {
             wheel_radius: radii.get(radii.len() / 2).copied(),
             track_width: spread(&|w| w.y),
             wheelbase: spread(&|w| w.x),
+            without_radius: wheels.iter().filter(|w| w.radius.is_some_and(|r| r <= 0.0)).count(),
         })
     }
 
@@ -86,6 +89,17 @@ impl Measures {
             "track_width" => self.track_width,
             "wheelbase" => self.wheelbase,
             _ => None,
+        }
+    }
+}
+
+impl Measures {
+    /// What was left out for a parameter, in words behind its meaning.
+    pub(crate) fn left_out(&self, parameter: &str) -> String {
+        let wheels = if self.without_radius == 1 { "wheel" } else { "wheels" };
+        match (parameter, self.without_radius) {
+            ("wheel_radius", n) if n > 0 => format!("; not taken: a radius not above zero of {n} {wheels}"),
+            _ => String::new(),
         }
     }
 }

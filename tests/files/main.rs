@@ -9,6 +9,7 @@ mod bad_formulas;
 mod bad_inputs;
 #[path = "../support/bad_vehicles.rs"]
 mod bad_vehicles;
+mod bag_definitions;
 mod bag_messages;
 mod bounds;
 mod effects_identity;
@@ -24,6 +25,7 @@ mod parquet_types;
 #[path = "../support/program.rs"]
 mod program;
 mod read;
+mod robot_description;
 mod robot_logs;
 #[path = "../simulator/mod.rs"]
 mod simulator;

@@ -1,6 +1,6 @@
 //! An MCAP file of ROS 2 messages as a log: its topics looked through once, its columns read in a second pass.
 
-use super::messages::Layout;
+use super::messages::Layouts;
 use super::{cdr, messages};
 use crate::error::{Error, Result};
 use crate::files::log::csv_table::Numbers;
@@ -38,18 +38,28 @@ impl Bag {
     pub fn open(path: &Path) -> Result<Self> {
         let mut known: BTreeMap<String, Vec<String>> = BTreeMap::new();
         let mut others: BTreeMap<String, String> = BTreeMap::new();
-        let mut columns = 0;
+        let (mut columns, mut layouts) = (0, Layouts::default());
         for (n, message) in messages(path)?.enumerate() {
             let message = message.map_err(|e| unreadable(path, n, &e))?;
-            let Some(layout) = Layout::of(&message.channel) else {
+            let Some(layout) = layouts.of(&message.channel) else {
                 others.entry(message.channel.topic.clone()).or_insert_with(|| kind(&message));
                 continue;
             };
-            let fields = known.entry(message.channel.topic.clone()).or_default();
-            if !fields.is_empty() && !layout.varies() {
+            let is_new = !known.contains_key(&message.channel.topic);
+            if !is_new && !layout.varies() {
                 continue;
             }
-            for name in layout.fields(&message.data).map_err(|e| malformed(path, &message, n, e))? {
+            let names = match layout.fields(&message.data) {
+                Ok(names) => names,
+                // What a definition says wrongly of a topic that nobody may ask for is no reason to refuse the bag.
+                Err(_) if layout.is_defined() => {
+                    others.entry(message.channel.topic.clone()).or_insert_with(|| kind(&message));
+                    continue;
+                }
+                Err(e) => return Err(malformed(path, &message, n, e)),
+            };
+            let fields = known.entry(message.channel.topic.clone()).or_default();
+            for name in names {
                 if !fields.contains(&name) {
                     fields.push(name);
                     columns += 1;
@@ -63,7 +73,7 @@ impl Bag {
             let there: Vec<String> = others.iter().map(|(topic, kind)| format!("{topic} ({kind})")).collect();
             let there: Vec<&str> = there.iter().map(String::as_str).collect();
             return Err(Error::input("has no message that creepage reads").at_file(path).help(format!(
-                "it reads {} in CDR; the bag has: {}",
+                "it reads {}, and any other that the bag defines (ros2msg), in CDR; the bag has: {}",
                 messages::NAMES.join(", "),
                 suggestions::list(&there)
             )));
@@ -118,15 +128,21 @@ impl Bag {
         for (topic, _) in wanted {
             found.entry(topic.clone()).or_insert_with(|| vec![vec![]; of(topic).len() + 1]);
         }
+        let mut layouts = Layouts::default();
         for (n, message) in messages(&self.path)?.enumerate() {
             let message = message.map_err(|e| unreadable(&self.path, n, &e))?;
             let Some(columns) = found.get_mut(&message.channel.topic) else { continue };
-            let Some(layout) = Layout::of(&message.channel) else { continue };
+            let Some(layout) = layouts.of(&message.channel) else { continue };
             let fields = of(&message.channel.topic);
             let (stamp, values) =
                 layout.values(&message.data, &fields).map_err(|e| malformed(&self.path, &message, n, e))?;
+            // A message of other frames says nothing of the one that is asked for.
+            if layout.is_defined() && values.iter().all(|v| v.is_nan()) {
+                continue;
+            }
             let logged = message.log_time as f64 * 1e-9;
-            columns[0].push(if by_stamp { stamp } else { logged });
+            let without = layout.is_defined() && stamp.is_nan();
+            columns[0].push(if by_stamp && !without { stamp } else { logged });
             columns[1..].iter_mut().zip(values).for_each(|(c, v)| c.push(v));
         }
         Ok(found)

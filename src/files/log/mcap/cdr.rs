@@ -70,6 +70,23 @@ impl<'a> Cdr<'a> {
         Ok(if self.little { f64::from_le_bytes(b) } else { f64::from_be_bytes(b) })
     }
 
+    /// The bits of a number of one, two, four or eight bytes.
+    pub fn integer(&mut self, bytes: usize) -> Read<u64> {
+        let start = self.at.next_multiple_of(bytes.min(self.widest));
+        let found = self.body.get(start..).and_then(|b| b.get(..bytes)).ok_or(Malformed::Short)?;
+        self.at = start + bytes;
+        let join = |value: u64, byte: &u8| value << 8 | u64::from(*byte);
+        Ok(if self.little { found.iter().rev().fold(0, join) } else { found.iter().fold(0, join) })
+    }
+
+    /// Passes over numbers of so many bytes each, one after another.
+    pub fn skip(&mut self, count: usize, bytes: usize) -> Read<()> {
+        let start = self.at.next_multiple_of(bytes.min(self.widest));
+        let end = count.checked_mul(bytes).and_then(|n| start.checked_add(n)).ok_or(Malformed::Short)?;
+        self.at = end.min(self.body.len());
+        if end > self.body.len() { Err(Malformed::Short) } else { Ok(()) }
+    }
+
     /// A text without its closing zero.
     pub fn text(&mut self) -> Read<&'a str> {
         let length = self.u32()? as usize;

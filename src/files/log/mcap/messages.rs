@@ -1,8 +1,10 @@
-//! The messages that are known, as data.
+//! The layouts of messages: those that are known by heart, as data, and those by a definition.
 
 use super::cdr::{Cdr, Read};
+use super::definition::Form;
 use crate::files::log::quaternion::yaw;
 use mcap::Channel;
+use std::collections::BTreeMap;
 
 /// A piece of a message.
 #[derive(Clone, Copy)]
@@ -20,12 +22,25 @@ pub(crate) enum Part {
 use Part::{Number, Skip, Text, Turn};
 
 /// How a message is laid out behind its header's stamp.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(crate) enum Layout {
     /// Piece by piece.
     Parts(&'static [Part]),
     /// Names of joints, then positions, velocities and efforts.
     Joints,
+    /// As its definition says, the header among the rest.
+    Defined(Form),
+}
+
+/// The layouts of the channels of a bag.
+#[derive(Default)]
+pub(crate) struct Layouts(BTreeMap<u16, Option<Layout>>);
+
+impl Layouts {
+    /// The layout of a channel's messages, if it is known or defined.
+    pub fn of(&mut self, channel: &Channel) -> Option<&Layout> {
+        self.0.entry(channel.id).or_insert_with(|| Layout::of(channel)).as_ref()
+    }
 }
 
 const ODOMETRY: &[Part] = &[
@@ -67,7 +82,7 @@ const POSE_WITH_COVARIANCE: &[Part] = &[
     Skip(36),
 ];
 
-/// The types of messages that are read.
+/// The types of messages that are known by heart.
 pub(crate) const NAMES: [&str; 5] = [
     "nav_msgs/Odometry",
     "sensor_msgs/JointState",
@@ -80,11 +95,14 @@ pub(crate) const NAMES: [&str; 5] = [
 const JOINT: [&str; 3] = ["position", "velocity", "effort"];
 
 impl Layout {
-    /// The layout of a channel's messages, if it is known.
-    pub fn of(channel: &Channel) -> Option<Self> {
+    fn of(channel: &Channel) -> Option<Self> {
         let schema = channel.schema.as_ref().filter(|_| channel.message_encoding == "cdr")?;
         let name = schema.name.replace("/msg/", "/");
-        Some(match NAMES.iter().position(|n| *n == name)? {
+        let Some(known) = NAMES.iter().position(|n| *n == name) else {
+            let text = std::str::from_utf8(&schema.data).ok().filter(|_| schema.encoding == "ros2msg")?;
+            return Form::of(&schema.name, text).map(Self::Defined);
+        };
+        Some(match known {
             0 => Self::Parts(ODOMETRY),
             1 => Self::Joints,
             2 => Self::Parts(IMU),
@@ -94,32 +112,55 @@ impl Layout {
     }
 
     /// Whether one message may have other fields than the next.
-    pub fn varies(self) -> bool {
-        matches!(self, Self::Joints)
+    pub fn varies(&self) -> bool {
+        match self {
+            Self::Parts(_) => false,
+            Self::Joints => true,
+            Self::Defined(form) => form.varies(),
+        }
+    }
+
+    /// Whether it is read by a definition.
+    pub fn is_defined(&self) -> bool {
+        matches!(self, Self::Defined(_))
     }
 
     /// The names of a message's fields.
-    pub fn fields(self, message: &[u8]) -> Read<Vec<String>> {
-        let found = self.all(message)?.1;
+    pub fn fields(&self, message: &[u8]) -> Read<Vec<String>> {
+        let (_, found) = self.all(message, &[])?;
         Ok(found.into_iter().map(|(name, _)| name).collect())
     }
 
     /// The time of a message's header, s, and some of its fields; NaN where there is none.
-    pub fn values(self, message: &[u8], wanted: &[&str]) -> Read<(f64, Vec<f64>)> {
-        let (stamp, all) = self.all(message)?;
+    ///
+    /// Within a list each element may have a header, and the one is taken that the first of the fields stands beside.
+    pub fn values(&self, message: &[u8], wanted: &[&str]) -> Read<(f64, Vec<f64>)> {
+        let (stamp, all) = self.all(message, wanted)?;
         let value = |w: &&str| all.iter().find(|(name, _)| name == w).map_or(f64::NAN, |(_, v)| *v);
         Ok((stamp, wanted.iter().map(value).collect()))
     }
 
-    fn all(self, message: &[u8]) -> Read<(f64, Vec<(String, f64)>)> {
+    fn all(&self, message: &[u8], wanted: &[&str]) -> Read<(f64, Vec<(String, f64)>)> {
+        if let Self::Defined(form) = self {
+            let found = form.numbers(message)?;
+            return Ok((stamp_of(&found, wanted.first().copied().unwrap_or_default()), found));
+        }
         let mut cdr = Cdr::new(message)?;
         let stamp = cdr.stamp()?;
         let found = match self {
             Self::Parts(parts) => piecewise(&mut cdr, parts)?,
             Self::Joints => joints(&mut cdr)?,
+            Self::Defined(_) => vec![],
         };
         Ok((stamp, found))
     }
+}
+
+/// The stamp of the innermost header around a field; NaN where there is none.
+fn stamp_of(found: &[(String, f64)], field: &str) -> f64 {
+    let around = field.rmatch_indices('.').map(|(at, _)| format!("{}.", &field[..at])).chain([String::new()]);
+    let mut names = around.flat_map(|inner| ["header.stamp", "stamp"].map(|name| format!("{inner}{name}")));
+    names.find_map(|name| found.iter().find(|(n, _)| *n == name)).map_or(f64::NAN, |(_, stamp)| *stamp)
 }
 
 fn piecewise(cdr: &mut Cdr, parts: &[Part]) -> Read<Vec<(String, f64)>> {

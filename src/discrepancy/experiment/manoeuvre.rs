@@ -162,7 +162,6 @@ pub(crate) mod samples {
     use super::*;
     use crate::discrepancy::record::input_noise::InputNoise;
     use crate::discrepancy::record::row_weights::RowWeights;
-    use crate::discrepancy::record::row_weights::RowWeights;
     use crate::discrepancy::record::run_record::{Known, Record};
     use crate::model::Model;
     use crate::model::observation::Observation;

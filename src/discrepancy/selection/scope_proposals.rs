@@ -15,6 +15,11 @@ const QUANTILES: [f64; 7] = [0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9];
 /// Radii of disks that are tried, as shares of the extent of the path.
 const RADII: [f64; 8] = [0.06, 0.09, 0.13, 0.19, 0.27, 0.36, 0.5, 0.7];
 
+/// How long the data in a scope, and those outside of it, last at least, s.
+pub(crate) const SHORTEST: f64 = 8.0;
+/// What a scope gains in a run that bears it out.
+const BORNE_OUT: f64 = 10.0;
+
 /// What the vehicle does in a row: where it is, the speed that the inputs ask for, how it grows, and the yaw rate.
 #[derive(Clone, Copy, Debug)]
 struct Row {
@@ -38,6 +43,8 @@ pub(crate) struct BlockRows {
 pub(crate) struct Proposal {
     pub scope: Scope,
     pub gain: f64,
+    /// The share of each block that it takes.
+    shares: Vec<f64>,
     /// How many were tried that it is the best of.
     pub of: usize,
 }
@@ -86,7 +93,28 @@ impl BlockRows {
         found.extend(self.above_speed(scores));
         found.extend(self.while_growing(scores));
         found.extend(self.in_disk(scores));
+        found.retain(|p| self.is_told(&p.shares) && self.is_shared(p, scores));
         found
+    }
+
+    /// Whether enough of the data lie in a scope, and enough outside.
+    fn is_told(&self, shares: &[f64]) -> bool {
+        let durations = self.times.iter().map(|[from, until]| until - from);
+        let inside: f64 = durations.clone().zip(shares).map(|(d, share)| d * share).sum();
+        inside >= SHORTEST && durations.sum::<f64>() - inside >= SHORTEST
+    }
+
+    /// Whether more than one run bears a scope out, where there are several: what one run has alone is that run's.
+    fn is_shared(&self, p: &Proposal, scores: &BlockScores) -> bool {
+        let of = |run: &Range<usize>| {
+            let own = |(b, share): (usize, &f64)| if run.contains(&b) { *share } else { 0.0 };
+            scores.gain(&p.shares.iter().enumerate().map(own).collect::<Vec<_>>())
+        };
+        self.runs.len() < 2 || self.runs.iter().filter(|run| of(run) > BORNE_OUT).count() > 1
+    }
+
+    fn shares(&self, intervals: &[Range<usize>]) -> Vec<f64> {
+        (0..self.times.len()).map(|b| f64::from(u8::from(intervals.iter().any(|i| i.contains(&b))))).collect()
     }
 
     /// Until a time, from a time on, and in more and more intervals.
@@ -98,7 +126,8 @@ impl BlockRows {
         let from = best((1..n).map(|k| half(k..n)).collect());
         let until = best((1..n).map(|k| half(0..k)).collect());
         for (ends, gain) in [from, until].into_iter().flatten() {
-            found.push(Proposal { scope: self.times(&[ends]), gain, of: 2 * n });
+            let shares = self.shares(std::slice::from_ref(&ends));
+            found.push(Proposal { scope: self.times(&[ends]), gain, shares, of: 2 * n });
         }
         let mut intervals: Vec<Range<usize>> = vec![];
         let mut reached = 0.0;
@@ -116,7 +145,8 @@ impl BlockRows {
             }
             (intervals, reached) = (all, gain);
             intervals.sort_by_key(|i| i.start);
-            found.push(Proposal { scope: self.times(&intervals), gain, of: n * n / 2 * intervals.len() });
+            let shares = self.shares(&intervals);
+            found.push(Proposal { scope: self.times(&intervals), gain, shares, of: n * n / 2 * intervals.len() });
         }
         found
     }
@@ -132,6 +162,7 @@ impl BlockRows {
                 some.then(|| Proposal {
                     scope: Scope::Times(vec![ends]),
                     gain: scores.gain(&shares),
+                    shares,
                     of: self.times.len(),
                 })
             };
@@ -216,7 +247,7 @@ impl BlockRows {
         let share = |rows: &Vec<Row>| rows.iter().filter(|r| open(r)).count() as f64 / rows.len().max(1) as f64;
         let shares: Vec<f64> = self.rows.iter().map(share).collect();
         let whole = shares.iter().sum::<f64>() / shares.len().max(1) as f64;
-        (0.02..0.98).contains(&whole).then(|| Proposal { scope, gain: scores.gain(&shares), of })
+        (0.02..0.98).contains(&whole).then(|| Proposal { scope, gain: scores.gain(&shares), shares, of })
     }
 
     fn quantiles(&self, of: impl Fn(&Row) -> f64) -> Vec<f64> {

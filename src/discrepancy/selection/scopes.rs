@@ -1,7 +1,7 @@
 //! Effects that hold in part only, or move with time, asked for where what holds always does not explain the data.
 
 use super::candidates::{FINALISTS, place, rounded};
-use super::scope_proposals::{BlockRows, Proposal};
+use super::scope_proposals::{BlockRows, Proposal, SHORTEST};
 use super::search::{Search, SearchState, find};
 use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
 use crate::discrepancy::estimation::fit::{Effort, Fit};
@@ -10,7 +10,7 @@ use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
 use crate::discrepancy::evidence::scope_scan::{BlockScores, Blocks};
 use crate::discrepancy::evidence::score_test::{self, ScoreTest, ScoreTests};
 use crate::discrepancy::shooting::window_integration::linearise;
-use crate::effects::{Applied, Effect};
+use crate::effects::{Applied, Effect, Scope};
 use crate::error::Result;
 use crate::model::effect_equation::is_term;
 use crate::progress::{OnProgress, Stage, begin};
@@ -18,6 +18,8 @@ use rayon::prelude::*;
 
 /// Effects with a scope or a course at most.
 const MOST: usize = 2;
+/// Effects that always hold, added beside one in part, at most.
+const BESIDE: usize = 2;
 /// Proposals that are linearised with gates of their own, at most.
 const SHORTLIST: usize = 16;
 /// Effects of which the blocks are weighed by one linearisation.
@@ -40,7 +42,6 @@ pub(crate) fn search(selection: &Search, named: &SearchState, progress: &OnProgr
         return Ok(None);
     }
     begin(progress, Stage::Scopes)?;
-    let mut best: Option<SearchState> = None;
     let mut starts = vec![SearchState::from(selection.before)];
     if !named.steps.is_empty() {
         starts.push(SearchState { steps: named.steps.clone(), ..SearchState::from(&named.fit) });
@@ -48,15 +49,12 @@ pub(crate) fn search(selection: &Search, named: &SearchState, progress: &OnProgr
     for start in starts {
         let Some(found) = selection.with_scopes(start, progress)? else { continue };
         let n = named.fit.sample_size.max(found.fit.sample_size);
-        let than = best.as_ref().map_or(&named.fit, |b| &b.fit);
-        if bic(&found.fit, n) < bic(than, n) - selection.margin() && delta_bic(&found.fit, than, n) > 0.0 {
-            best = Some(SearchState { candidates: named.candidates.clone(), ..found });
-        }
-        if best.as_ref().is_some_and(|b| !remains(&b.fit)) {
-            break;
+        let gains = delta_bic(&found.fit, &named.fit, n) > 0.0;
+        if gains && bic(&found.fit, n) < bic(&named.fit, n) - selection.margin() {
+            return Ok(Some(SearchState { candidates: named.candidates.clone(), ..found }));
         }
     }
-    Ok(best)
+    Ok(None)
 }
 
 /// Whether an effect holds in part only, or moves with time.
@@ -85,7 +83,8 @@ impl Search<'_> {
             let mut trail = [&steps[..], &[(label, fit.model.clone())]].concat();
             let fit = self.eliminate_backward(fit, self.margin())?;
             // What is explained to its noise needs nothing beside.
-            let more = if remains(&fit) { self.grown(&fit, progress)? } else { SearchState::from(&fit) };
+            let few = Search { most: BESIDE, ..*self };
+            let more = if remains(&fit) { few.grown(&fit, progress)? } else { SearchState::from(&fit) };
             trail.extend(more.steps);
             if is_second && remains(&more.fit) {
                 break;
@@ -148,9 +147,20 @@ impl Search<'_> {
             fit = self.refit(&moved)?.unwrap_or(moved);
         }
         let Some(own) = find(&fit.model, &promise.applied) else { return Ok(None) };
+        if own.effect.scope.as_ref().is_some_and(|s| !self.lasts(s)) {
+            return Ok(None);
+        }
         let n = base.sample_size.max(fit.sample_size);
         let gains = delta_bic(&fit, base, n) > margin && bic(&fit, n) + margin < bic(base, n);
         Ok((gains && !vanishes(&own) && is_possible(&own)).then_some((own, fit)))
+    }
+
+    /// Whether enough of the data lie within the times of a scope.
+    fn lasts(&self, scope: &Scope) -> bool {
+        let Scope::Times(intervals) = scope else { return true };
+        let records = self.problem.records.iter().map(|r| [r.time[r.rows.start], r.time[r.rows.end - 1]]);
+        let inside = records.flat_map(|[a, b]| intervals.iter().map(move |[from, until]| until.min(b) - from.max(a)));
+        inside.filter(|s| *s > 0.0).sum::<f64>() >= SHORTEST
     }
 
     /// Effects with the scopes and courses by which they promise most.

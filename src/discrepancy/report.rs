@@ -209,17 +209,6 @@ pub struct OddRun {
     pub says: String,
 }
 
-impl Named {
-    /// Its id, with the input it acts on and its scope in brackets where it has them.
-    pub fn title(&self) -> String {
-        let course = self.parameters.iter().filter(|(_, p)| p.course.is_some());
-        let course = course.map(|(name, _)| format!("{name} moving with time"));
-        let scope = self.scope.as_ref().map(|s| s.says.clone());
-        let all: Vec<String> = self.on.clone().into_iter().chain(scope).chain(course).collect();
-        if all.is_empty() { self.id.clone() } else { format!("{} ({})", self.id, all.join(", ")) }
-    }
-}
-
 /// When, where or in which regime an effect holds; the keys are those of a model file.
 ///
 /// ```

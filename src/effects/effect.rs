@@ -37,9 +37,10 @@ pub struct Effect {
     /// Whether it may act on one input, too, and not on all of them alike.
     #[serde(default)]
     pub input_optional: bool,
-    /// Whether it is of inputs that come in steps alone.
+    /// Whether it is of inputs that come in steps alone, or of those alone that do not: steps are blurred by whatever
+    /// lags, so that a lag is found where there is none.
     #[serde(default)]
-    pub coarse: bool,
+    pub coarse: Option<bool>,
     /// The role of the input it acts on, for an effect that acts on one.
     #[serde(skip)]
     pub on: Option<String>,

@@ -3,6 +3,7 @@
 
 mod applied;
 mod course;
+mod drifting;
 mod effect;
 mod scope;
 

@@ -36,6 +36,7 @@ pub(super) fn call(f: Fun, x: f64) -> f64 {
         Fun::Abs => x.abs(),
         Fun::Sign if x == 0.0 => 0.0,
         Fun::Sign => x.signum(),
+        Fun::Step if x.is_nan() => f64::NAN,
         Fun::Step => f64::from(u8::from(x > 0.0)),
     })
 }

@@ -78,7 +78,7 @@ mod tests {
         };
         let car = shown("car", &[("wheel_radius", 0.3), ("wheelbase", 2.5)]);
         assert_eq!(car[..2], ["wheel_radius*wheel_rate", "wheel_radius*wheel_rate'"]);
-        assert!(car[2].contains("tan(steering_angle)") && !car[2].contains("v_"), "{}", car[2]);
+        assert!(car[2].contains("sin(steering_angle)") && !car[2].contains("v_"), "{}", car[2]);
         let drive = shown("differential-drive", &[("wheel_radius", 0.1), ("track_width", 0.5)]);
         assert!(drive[1].contains("wheel_rate_left'") && drive[1].contains("wheel_rate_right'"), "{}", drive[1]);
     }

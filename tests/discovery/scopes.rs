@@ -76,13 +76,12 @@ fn what_moves_with_time_is_named_with_its_course() {
 }
 
 #[test]
-fn one_input_that_is_late_limited_or_slack_is_named_with_its_input() {
+fn one_input_that_is_late_limited_or_dead_is_named_with_its_input() {
     for (head, id, rest, input) in [
         (UNICYCLE, "input-delay", "delay = -0.3", "yaw_rate"),
         (UNICYCLE, "input-lag", "time_constant = 0.4", "yaw_rate"),
         (CAR, "input-saturation", "limit = 0.2", "steering_angle"),
         (CAR, "input-dead-band", "width = 0.03", "steering_angle"),
-        (CAR, "input-backlash", "width = 0.03", "steering_angle"),
     ] {
         let (report, _) = answer(head, &effect(id, &format!("input = \"{input}\"\n{rest}")), 6);
         let [one] = &report.effects[..] else { panic!("{id}: {}", report.summary) };

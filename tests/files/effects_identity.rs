@@ -66,6 +66,7 @@ fn related(vehicle: &str, trailers: usize, measured: Measured) -> Vec<String> {
 const RADIUS: &str = "rotation-creep identical wheel-radius";
 const STEERING: &str = "steering-offset identical front-traverse-creep";
 const HEADING: &str = "traverse-creep first order heading-misalignment";
+const YAWING: &str = "lever-arm contains odometry-speed-per-yaw";
 const TWO_WHEELS: [&str; 3] = [
     "rotation-creep contained unequal-rotation-creep",
     "wheel-radius contained unequal-rotation-creep",
@@ -75,7 +76,7 @@ const TWO_WHEELS: [&str; 3] = [
 #[test]
 fn every_related_pair_of_every_vehicle_is_found_and_no_other() {
     let drive = [&[RADIUS][..], &TWO_WHEELS, &[HEADING]].concat();
-    assert_eq!(related("unicycle", 0, Measured::ALL), [RADIUS, HEADING]);
+    assert_eq!(related("unicycle", 0, Measured::ALL), [RADIUS, HEADING, YAWING]);
     assert_eq!(related("differential-drive", 0, Measured::ALL), drive);
     assert_eq!(related("differential-drive-castor", 0, Measured::ALL), drive);
     assert_eq!(related("car", 0, Measured::ALL), [RADIUS, STEERING]);
@@ -99,7 +100,7 @@ fn trailers_change_nothing_for_their_tractor() {
     assert_eq!(related("unicycle", 1, Measured::ALL), [RADIUS]);
     // Nothing sees the trailers: their effects act on nothing that is measured.
     let trailers = Measured { heading: true, trailers: false };
-    assert_eq!(related("unicycle", 1, trailers), [RADIUS, HEADING]);
+    assert_eq!(related("unicycle", 1, trailers), [RADIUS, HEADING, YAWING]);
 }
 
 #[test]

@@ -87,7 +87,7 @@ fn a_disk_travels_along_its_heading_and_nowhere_else() {
 fn effects_that_need_sideways_motion_do_not_apply_to_a_disk() {
     let disk = vehicle("disk", &[0.3]);
     let found: Vec<&str> = disk.applicable(effects::all()).into_iter().map(|(e, _)| e.id.as_str()).collect();
-    let expected = ["rotation-creep", "wheel-radius", "traction-creep", "input-delay", "heading-misalignment"];
+    let expected = ["rotation-creep", "wheel-radius", "traction-creep", "input-delay", "heading-misalignment", "grade"];
     assert_eq!(found, expected);
     for e in effects::all().iter().filter(|e| !e.per_trailer && !expected.contains(&e.id.as_str())) {
         let values: Vec<f64> = e.parameters.values().map(|p| p.size).collect();

@@ -86,7 +86,7 @@ pub const BAD_FORMULAS: &[Case] = &[
     case(
         "unknown function",
         &[("\"it - u\"", "\"it - sinh(u)\"")],
-        "20:13: no function is called \"sinh\"; known are sin, cos, tan, cot, asin, acos, atan, tanh, exp, ln, sqrt, abs, sign\n  it - sinh(u)\n       ^",
+        "20:13: no function is called \"sinh\"; known are sin, cos, tan, cot, asin, acos, atan, tanh, exp, ln, sqrt, abs, sign, heaviside\n  it - sinh(u)\n       ^",
     ),
     case(
         "bracket left open",

@@ -269,7 +269,7 @@ pub const BAD_VEHICLES: &[Case] = &[
     case(
         "function",
         &[("formula = \"wheelbase\"", "formula = \"sinh(wheelbase)\"")],
-        "23:18: no function is called \"sinh\"; known are sin, cos, tan, cot, asin, acos, atan, tanh, exp, ln, sqrt, abs, sign\n  sinh(wheelbase)\n  ^",
+        "23:18: no function is called \"sinh\"; known are sin, cos, tan, cot, asin, acos, atan, tanh, exp, ln, sqrt, abs, sign, heaviside\n  sinh(wheelbase)\n  ^",
     ),
     case(
         "define unit",

@@ -92,7 +92,8 @@ impl Make {
         // What is asked for in the place of its limit is made by forces: tests/discovery/forces.rs.
         let first = model.applicable(effects::all()).into_iter().filter(|(e, _)| e.limit.is_none());
         let applicable = first.map(|(e, trailer)| (e.id.as_str(), trailer));
-        applicable.filter(|(id, _)| self.heading || !self.is_a_start_heading(id)).collect()
+        let simulated = applicable.filter(|(id, _)| super::secret::has_law(id));
+        simulated.filter(|(id, _)| self.heading || !self.is_a_start_heading(id)).collect()
     }
 
     /// Without a measured heading these effects are the same as another heading at the start.

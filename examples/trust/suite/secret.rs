@@ -46,6 +46,15 @@ pub fn made((id, trailer): Target, values: &[f64]) -> Hidden {
     }
 }
 
+/// Effects of the library that the simulator has no law for yet.
+const WITHOUT_LAW: [&str; 5] =
+    ["odometry-yaw-per-speed", "odometry-speed-per-yaw", "grade", "saturating-creep", "castor-swing"];
+
+/// Whether the simulator can hide an effect.
+pub fn has_law(id: &str) -> bool {
+    !WITHOUT_LAW.contains(&id)
+}
+
 /// The name and trailer of a hidden effect of the library.
 pub fn target(hidden: &Hidden) -> Target {
     let trailer = hidden.parameters().iter().find(|(name, _)| *name == "trailer").map(|(_, i)| *i as usize);

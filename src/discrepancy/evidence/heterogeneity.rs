@@ -8,7 +8,7 @@
 //! | τ² | variance between runs, θ_k ~ N(μ, v_k + τ²) |
 //! | 1/Σ 1/(v_k + τ²) | variance of μ |
 
-use super::wald_test::tail;
+use super::chi_squared::tail;
 use crate::discrepancy::estimation::fit::{Fit, inverse};
 
 /// Steps of the iteration for τ² at most.

@@ -1,5 +1,6 @@
 //! Whether an effect is real: information criterion, score test, Wald test, cross-validation, bootstrap, jackknife.
 
+pub(crate) mod chi_squared;
 pub mod cross_validation;
 pub(crate) mod heterogeneity;
 pub mod information_criterion;

@@ -4,7 +4,7 @@
 //! some of the chance gains are zero) or the effect's other parameters say nothing where it vanishes (then the best of
 //! many is taken and gains are larger). How often and how much is asked of data drawn from the model without the effect.
 
-use super::wald_test::tail;
+use super::chi_squared::tail;
 use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::estimation::problem::Problem;

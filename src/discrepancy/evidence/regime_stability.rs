@@ -77,7 +77,8 @@ impl Problem {
         let of_effect = |effect: &Applied| {
             let own = at..at + effect.values.len();
             at = own.end;
-            if is_term(effect) {
+            // What holds in part has its regime.
+            if is_term(effect) || effect.effect.scope.is_some() {
                 return None;
             }
             let each = regimes.iter().filter_map(|(r, inside)| difference(fit, &linear, *r, inside, own.clone()));

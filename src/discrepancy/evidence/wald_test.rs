@@ -3,7 +3,7 @@
 use super::heterogeneity::{RunValue, spreads};
 use crate::discrepancy::estimation::fit::Fit;
 use crate::effects::Applied;
-use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
+use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
 /// Where an effect's values stand among the free ones, those that vanish where it is neutral.
 pub(crate) fn neutral_at_zero(fit: &Fit, effect: &Applied) -> Vec<(usize, f64)> {
@@ -74,11 +74,6 @@ pub(crate) fn is_one_way(fit: &Fit, effect: &Applied) -> bool {
     let Some((i, value)) = most else { return false };
     let is_along = |v: &RunValue| v.value * value > 0.0 || v.value.abs() < v.variance.sqrt();
     spreads(fit)[i].as_ref().is_some_and(|s| s.values.len() == fit.runs && s.values.iter().all(is_along))
-}
-
-/// Probability that χ² with k degrees of freedom exceeds x.
-pub(crate) fn tail(x: f64, k: usize) -> f64 {
-    ChiSquared::new(k as f64).map_or(f64::NAN, |d| d.sf(x))
 }
 
 #[cfg(test)]

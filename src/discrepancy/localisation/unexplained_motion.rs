@@ -4,7 +4,7 @@ use super::constraint_residuals::ConstraintResiduals;
 use super::whiteness::is_white;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::unexplained;
-use crate::discrepancy::evidence::wald_test::tail;
+use crate::discrepancy::evidence::chi_squared::tail;
 use crate::discrepancy::report::{Remaining, RemainingConstraint};
 use crate::model::observation::{HEADING, POSITION};
 use crate::model::state::JUMPS;

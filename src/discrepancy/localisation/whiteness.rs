@@ -7,7 +7,7 @@
 //! | kurtosis | (m₄/m₂² − 3)/√(24/n): no few windows stand out |
 
 use super::constraint_residuals::ConstraintResiduals;
-use crate::discrepancy::evidence::wald_test::tail;
+use crate::discrepancy::evidence::chi_squared::tail;
 
 /// Lags that are looked at.
 const LAGS: usize = 5;

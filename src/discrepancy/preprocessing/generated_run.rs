@@ -1,4 +1,5 @@
 //! Runs as they should be, of any vehicle, for the tests of what is not.
+#![cfg(test)]
 
 use crate::discrepancy::record::run_record::Record;
 use crate::effects::{self, Applied};

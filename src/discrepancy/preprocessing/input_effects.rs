@@ -27,7 +27,8 @@ pub(crate) fn on_inputs(library: &[Effect], model: &Model, runs: &[Run]) -> Vec<
 fn on_input(effect: &Effect, role: &str, model: &Model, runs: &[Run]) -> Option<Effect> {
     let columns: Vec<&[f64]> = runs.iter().filter_map(|run| column(run, role)).collect();
     let size = size(&columns);
-    let stands = size > 0.0 && (!effect.coarse || columns.iter().any(|c| step_of(c).is_some()));
+    let in_steps = || columns.iter().any(|c| step_of(c).is_some());
+    let stands = size > 0.0 && effect.coarse.is_none_or(|coarse| coarse == in_steps());
     // A speed may be logged in the place of a wheel's rate, whatever the vehicle.
     let unit = model.vehicle.inputs.get(role).map_or("m/s", |input| &input.unit);
     stands.then(|| effect.on_input(role, unit, size))

@@ -5,7 +5,6 @@ mod clipped_inputs;
 pub(crate) mod clock_jumps;
 pub(crate) mod dataset;
 pub(crate) mod dead_reckoning;
-#[cfg(test)]
 mod generated_run;
 mod held_poses;
 pub(crate) mod input_effects;

@@ -16,4 +16,5 @@ pub(crate) mod repair_text;
 pub(crate) mod rest_text;
 pub(crate) mod slip_text;
 pub mod summary;
+pub(crate) mod title_text;
 pub(crate) mod warning_text;

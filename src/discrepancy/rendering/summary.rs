@@ -1,5 +1,6 @@
 //! The report on one screen of a terminal, and the sentences every form of the report shares.
 
+use super::title_text::title;
 use crate::discrepancy::report::{
     BeforeAfter, CourseFound, Estimate, Gap, Named, Report, Rival, RunClock, Unnamed, Verdict,
 };
@@ -48,7 +49,7 @@ pub(crate) fn composed_sentence(verdict: Verdict, effects: &[Named], unnamed: &[
             "Model and measurement disagree in a repeatable way at the {}, and no known effect explains it.",
             unnamed.first().map_or("constraints", |u| u.place.as_str())
         ),
-        Verdict::MissingEffect => format!("The model misses {}.", listed(effects.iter().map(Named::title))),
+        Verdict::MissingEffect => format!("The model misses {}.", listed(effects.iter().map(title))),
         Verdict::NoMissingEffect => "The model explains these runs to their noise; no effect is missing.".into(),
     }
 }

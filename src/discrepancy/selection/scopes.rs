@@ -18,6 +18,8 @@ use rayon::prelude::*;
 
 /// Effects with a scope or a course at most.
 const MOST: usize = 2;
+/// What an effect in part leaves of the variance of what is unexplained, at most, where it leaves anything.
+const LEFT: f64 = 0.25;
 /// Effects that always hold, added beside one in part, at most.
 const BESIDE: usize = 2;
 /// Proposals that are linearised with gates of their own, at most.
@@ -49,12 +51,21 @@ pub(crate) fn search(selection: &Search, named: &SearchState, progress: &OnProgr
     for start in starts {
         let Some(found) = selection.with_scopes(start, progress)? else { continue };
         let n = named.fit.sample_size.max(found.fit.sample_size);
-        let gains = delta_bic(&found.fit, &named.fit, n) > 0.0;
+        let gains = delta_bic(&found.fit, &named.fit, n) > 0.0 && explains(&found.fit, selection.before);
         if gains && bic(&found.fit, n) < bic(&named.fit, n) - selection.margin() {
             return Ok(Some(SearchState { candidates: named.candidates.clone(), ..found }));
         }
     }
     Ok(None)
+}
+
+/// Whether a fit leaves nothing, or far less than another: beside a large rest a scope may imitate whatever is there.
+fn explains(fit: &Fit, than: &Fit) -> bool {
+    let left = |fit: &Fit| fit.variances.process().iter().map(|c| c.variance).collect::<Vec<f64>>();
+    let (now, before) = (left(fit), left(than));
+    let worst = |c: usize| before[c] * than.unexplained[c];
+    let most = (0..before.len()).max_by(|a, b| worst(*a).total_cmp(&worst(*b)));
+    !remains(fit) || most.is_some_and(|c| now[c] < LEFT * before[c])
 }
 
 /// Whether an effect holds in part only, or moves with time.

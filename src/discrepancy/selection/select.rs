@@ -12,11 +12,12 @@ use super::unnamed_terms;
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
+use crate::discrepancy::estimation::unexplained::remains;
+use crate::discrepancy::evidence::chi_squared::tail;
 use crate::discrepancy::evidence::heterogeneity::spreads;
 use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
 use crate::discrepancy::evidence::jackknife::Jackknife;
 use crate::discrepancy::evidence::parametric_bootstrap;
-use crate::discrepancy::evidence::wald_test::tail;
 use crate::discrepancy::selection::choice::{Selected, SelectedEffect};
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
@@ -53,8 +54,16 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &O
         drops: true,
     };
     let named = transients::search(&selection, library, selection.grown(&before, progress)?)?;
-    let named = scopes::search(&selection, &named, progress)?.unwrap_or(named);
-    let grown = unnamed_terms::search(&selection, &named, &[], progress)?.unwrap_or(named);
+    let grown = match scopes::search(&selection, &named, progress)? {
+        Some(partial) if !remains(&partial.fit) => partial,
+        partial => {
+            // What holds in part and leaves a rest may imitate a law: the one that explains the data better stands.
+            let law = unnamed_terms::search(&selection, &named, &[], progress)?;
+            let n = named.fit.sample_size;
+            let all = [law, partial].into_iter().flatten();
+            all.min_by(|a, b| bic(&a.fit, n).total_cmp(&bic(&b.fit, n))).unwrap_or(named)
+        }
+    };
     let Stable { mut grown, inconsistent, scatter } = stability::search(&selection, grown, progress)?;
     let InputSampling { dropped: sampling_sensitive, missed } = keep_sampled(&selection, &mut grown, progress)?;
     // Where something went, the values no longer stand where they stood.
@@ -135,7 +144,7 @@ impl Search<'_> {
         let behind = |f: &Fit| (bic(f, n) - bic(fit, n)) / fit.variance_inflation();
         let near = self.in_place_of(fit, chosen)?.into_iter().filter(|(_, f)| behind(f) < 4.0 * CLOSE);
         let mut found = Vec::new();
-        for (applied, rough) in near.take(FINALISTS) {
+        for (applied, rough) in near.take(2 * FINALISTS) {
             let full = self.refit(&rough)?.unwrap_or(rough);
             if behind(&full) < CLOSE {
                 found.extend(find(&full.model, &applied));

@@ -176,7 +176,7 @@ mod tests {
             let entry = &file.effects[0];
             let plain = read("").unwrap();
             let written = plain.patched(std::slice::from_ref(entry));
-            assert!(written.ends_with(&format!("bias = 0.01\n{line}\n")), "{written}");
+            assert!(written.trim_end().ends_with(&format!("bias = 0.01\n{line}")), "{written}");
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::part::holding;
 use crate::discrepancy::rendering::summary::{verdict_name, verdict_sentence, why};
+use crate::discrepancy::rendering::title_text;
 use crate::discrepancy::report::{Estimate, Named, Report, Verdict};
 use crate::discrepancy::report::{judged, middle};
 use crate::number_format::{plain, prefixed, significant, with_error};
@@ -101,7 +102,7 @@ pub(crate) fn parameter(name: &str, e: &Estimate) -> String {
 
 fn one_line(effect: &Named) -> Element {
     let values: Vec<String> = effect.parameters.iter().map(|(name, e)| parameter(name, e)).collect();
-    let line = Element::new("li").child(holding("strong", effect.title()));
+    let line = Element::new("li").child(holding("strong", title_text::title(effect)));
     let line = match effect.says.is_empty() {
         true => line.text(format!(" {}", values.join(", "))),
         false => line.text(format!(": {}; {}", effect.says, values.join(", "))),

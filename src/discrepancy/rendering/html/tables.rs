@@ -4,6 +4,7 @@ use super::head::{counted, parameter, shrinkage};
 use super::part::{Cell, holding, section, table};
 use super::runs;
 use crate::discrepancy::rendering::summary::{seconds, why};
+use crate::discrepancy::rendering::title_text;
 use crate::discrepancy::report;
 use crate::discrepancy::report::{BeforeAfter, Gap, Pictures, Report};
 use crate::number_format::{decimals, plain, prefixed, probability, significant, with_error};
@@ -36,7 +37,7 @@ fn effects(report: &Report) -> Option<Element> {
         let shown = |(name, p): (&String, &report::Estimate)| parameter(name, p).replace(' ', "\u{a0}");
         let rivals = e.indistinguishable_from.iter().map(|r| format!("{}: {}", r.id, why(r))).collect();
         vec![
-            Cell::Lines(vec![e.title(), e.place.clone()]),
+            Cell::Lines(vec![title_text::title(e), e.place.clone()]),
             Cell::Lines(e.parameters.iter().map(shown).collect()),
             Cell::Number(significant(e.evidence.delta_bic, 3)),
             Cell::Number(probability(e.evidence.p_value)),

@@ -3,6 +3,7 @@
 use super::{Course, Scope};
 use crate::formula::{Expr, Symbol};
 use crate::provenance::Origin;
+use crate::vehicles::Moves;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -41,6 +42,12 @@ pub struct Effect {
     /// lags, so that a lag is found where there is none.
     #[serde(default)]
     pub coarse: Option<bool>,
+    /// What the inputs do that it is asked of; of all where the list is empty. A wheel that lags is a creep.
+    #[serde(default)]
+    pub inputs_that: Vec<Moves>,
+    /// Whether it is not asked for, because another effect says the same.
+    #[serde(default)]
+    pub unsought: bool,
     /// The role of the input it acts on, for an effect that acts on one.
     #[serde(skip)]
     pub on: Option<String>,

@@ -27,6 +27,10 @@ pub(crate) fn on_inputs(library: &[Effect], model: &Model, runs: &[Run]) -> Vec<
 fn on_input(effect: &Effect, role: &str, model: &Model, runs: &[Run]) -> Option<Effect> {
     let columns: Vec<&[f64]> = runs.iter().filter_map(|run| column(run, role)).collect();
     let size = size(&columns);
+    let moves = model.vehicle.moved_by(role);
+    if effect.unsought || !effect.inputs_that.is_empty() && !moves.is_some_and(|m| effect.inputs_that.contains(&m)) {
+        return None;
+    }
     let in_steps = || columns.iter().any(|c| step_of(c).is_some());
     let stands = size > 0.0 && effect.coarse.is_none_or(|coarse| coarse == in_steps());
     // A speed may be logged in the place of a wheel's rate, whatever the vehicle.

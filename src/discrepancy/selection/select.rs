@@ -144,7 +144,7 @@ impl Search<'_> {
         let behind = |f: &Fit| (bic(f, n) - bic(fit, n)) / fit.variance_inflation();
         let near = self.in_place_of(fit, chosen)?.into_iter().filter(|(_, f)| behind(f) < 4.0 * CLOSE);
         let mut found = Vec::new();
-        for (applied, rough) in near.take(2 * FINALISTS) {
+        for (applied, rough) in near.take(4 * FINALISTS) {
             let full = self.refit(&rough)?.unwrap_or(rough);
             if behind(&full) < CLOSE {
                 found.extend(find(&full.model, &applied));

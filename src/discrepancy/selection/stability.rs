@@ -87,8 +87,8 @@ impl Stable {
 
 /// The effect that stands out least, of those that do not stand out; one without a name before one that has one.
 fn least_shared(fit: &Fit, scatter: &Jackknife) -> Option<Applied> {
-    // What holds in part is told by that part; it has paid for being sought.
-    let whole = fit.model.free_effects().filter(|e| !is_partial(e));
+    // What holds in part is told by that part; it has paid for being sought. A course is that of all runs.
+    let whole = fit.model.free_effects().filter(|e| e.effect.scope.is_none() && (fit.runs > 1 || !is_partial(e)));
     let ranked = whole.map(|e| (!is_term(e), scatter.shows(fit, e), e));
     let inconsistent = ranked.filter(|(_, shows, _)| *shows < 1.0);
     inconsistent.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))).map(|(_, _, e)| e.clone())

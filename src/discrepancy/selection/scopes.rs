@@ -19,7 +19,7 @@ use rayon::prelude::*;
 /// Effects with a scope or a course at most.
 const MOST: usize = 2;
 /// What an effect in part leaves of the variance of what is unexplained, at most, where it leaves anything.
-const LEFT: f64 = 0.25;
+const LEFT: f64 = 0.04;
 /// Effects that always hold, added beside one in part, at most.
 const BESIDE: usize = 2;
 /// Proposals that are linearised with gates of their own, at most.
@@ -200,7 +200,9 @@ impl Search<'_> {
         let scoped = all.into_iter().take(SHORTLIST).map(|(e, t, p)| (e.within(p.scope), t)).collect();
         let since = self.problem.records.first().map_or(0.0, |r| r.time[0]);
         let since = if since.abs() > STAMP { since } else { 0.0 };
-        let most = open.iter().map(|(e, _)| e.parameters.len()).max().unwrap_or(0);
+        // A course is one of a single clock: of several runs each may have its own.
+        let clocks = self.problem.records.len();
+        let most = open.iter().filter(|_| clocks == 1).map(|(e, _)| e.parameters.len()).max().unwrap_or(0);
         let nth = |i: usize| {
             let one = |(e, t): &(&Effect, Option<usize>)| Some((e.drifting(e.parameters.keys().nth(i)?, since)?, *t));
             open.iter().filter_map(one).collect()

@@ -75,13 +75,13 @@ fn rule(first: f64, remembers: bool) -> Damping {
     Damping { first, divisor: 3.0, least: 1e-15, factor: 2.0, raised: 0.0, most: 1e16, remembers }
 }
 
-/// Goes downhill, every step further down than the last.
-struct Downhill<'a>(&'a Curve<'a>);
+/// The squares of a curve's residuals, of which a rise by some share of the sum counts for none.
+struct Squares<'a> {
+    curve: &'a Curve<'a>,
+    rise: f64,
+}
 
-/// Goes on by whole steps until they are only rounding: the sum of squares is flat at its minimum, the steps still tell.
-struct Level<'a>(&'a Curve<'a>);
-
-impl LeastSquares for Downhill<'_> {
+impl LeastSquares for Squares<'_> {
     type Point = Linear;
 
     fn normal(&self, here: &Linear) -> (DMatrix<f64>, DVector<f64>) {
@@ -89,35 +89,16 @@ impl LeastSquares for Downhill<'_> {
     }
 
     fn next(&self, here: &Linear, step: &DVector<f64>, _: f64) -> Option<Linear> {
-        self.0.at(&here.b + step)
+        self.curve.at(&here.b + step)
     }
 
     fn gain(&self, here: &Linear, next: &Linear, _: f64) -> f64 {
         here.r.norm_squared() - next.r.norm_squared()
     }
 
-    fn tolerance(&self, _: &Linear) -> f64 {
-        -f64::MIN_POSITIVE
-    }
-}
-
-impl LeastSquares for Level<'_> {
-    type Point = Linear;
-
-    fn normal(&self, here: &Linear) -> (DMatrix<f64>, DVector<f64>) {
-        Downhill(self.0).normal(here)
-    }
-
-    fn next(&self, here: &Linear, step: &DVector<f64>, share: f64) -> Option<Linear> {
-        Downhill(self.0).next(here, step, share)
-    }
-
-    fn gain(&self, here: &Linear, next: &Linear, share: f64) -> f64 {
-        Downhill(self.0).gain(here, next, share)
-    }
-
+    /// Where no rise counts for none, every step leads further down than the last.
     fn tolerance(&self, here: &Linear) -> f64 {
-        1e-9 * here.r.norm_squared()
+        if self.rise > 0.0 { self.rise * here.r.norm_squared() } else { -f64::MIN_POSITIVE }
     }
 }
 
@@ -127,11 +108,12 @@ pub fn fit(problem: &Problem, start: &[f64]) -> Fitted {
     let curve = Curve::of(problem);
     let ways = [(1e-3, false), (1e-3, true), (1.0, false), (1.0, true)];
     let first = || curve.at(DVector::from_column_slice(start)).expect("the start is defined");
-    let reached =
-        ways.map(|(damping, remembers)| minimise(&Downhill(&curve), first(), &rule(damping, remembers), 20_000));
+    let [downhill, level] = [0.0, 1e-9].map(|rise| Squares { curve: &curve, rise });
+    let reached = ways.map(|(damping, remembers)| minimise(&downhill, first(), &rule(damping, remembers), 20_000));
     let steps = reached.iter().map(|r| r.evaluations).sum();
     let best = reached.into_iter().map(|r| r.here).min_by(|a, b| a.r.norm_squared().total_cmp(&b.r.norm_squared()));
-    let here = minimise(&Level(&curve), best.expect("there are four ways"), &Damping::NONE, 20).here;
+    // The sum of squares is flat at its minimum; the steps still tell.
+    let here = minimise(&level, best.expect("there are four ways"), &Damping::NONE, 20).here;
     let squares = here.r.norm_squared();
     let free = (problem.data.len() - here.b.len()) as f64;
     let covariance = here.j.tr_mul(&here.j).cholesky().map(|c| c.inverse() * (squares / free));

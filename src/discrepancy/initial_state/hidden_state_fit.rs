@@ -91,11 +91,12 @@ struct Prior<'a> {
     information: DVector<f64>,
 }
 
-/// What is missed from a beginning, and its slopes.
+/// A beginning, the slopes of what the rows miss from it, and the normal equations of that and of what was carried.
 struct Missed {
     begin: Vec<f64>,
-    residuals: DVector<f64>,
     jacobian: DMatrix<f64>,
+    information: DMatrix<f64>,
+    gradient: DVector<f64>,
 }
 
 impl<'a> Prior<'a> {
@@ -114,7 +115,11 @@ impl<'a> Prior<'a> {
             &residuals,
             |tries| rows.all_missed(tries.iter().map(|begin| (rows.p, &begin[..]))),
         )?;
-        Some(Missed { begin, residuals, jacobian })
+        let mut information = jacobian.tr_mul(&jacobian);
+        (0..begin.len()).for_each(|i| information[(i, i)] += self.information[i]);
+        let away = |i: usize, _| self.information[i] * (begin[i] - self.before[i]);
+        let gradient = jacobian.tr_mul(&residuals) + DVector::from_fn(begin.len(), away);
+        Some(Missed { begin, jacobian, information, gradient })
     }
 }
 
@@ -126,10 +131,7 @@ impl LeastSquares for Prior<'_> {
     type Point = Missed;
 
     fn normal(&self, here: &Missed) -> (DMatrix<f64>, DVector<f64>) {
-        let mut information = here.jacobian.tr_mul(&here.jacobian);
-        (0..self.before.len()).for_each(|i| information[(i, i)] += self.information[i]);
-        let away = |i: usize, _| self.information[i] * (here.begin[i] - self.before[i]);
-        (information, here.jacobian.tr_mul(&here.residuals) + DVector::from_fn(self.before.len(), away))
+        (here.information.clone(), here.gradient.clone())
     }
 
     fn next(&self, here: &Missed, step: &DVector<f64>, _: f64) -> Option<Missed> {
@@ -137,7 +139,7 @@ impl LeastSquares for Prior<'_> {
     }
 
     fn is_small(&self, here: &Missed, step: &DVector<f64>, _: Option<f64>) -> bool {
-        -self.normal(here).1.dot(step) < SETTLED
+        -here.gradient.dot(step) < SETTLED
     }
 }
 
@@ -148,7 +150,7 @@ fn fitted(rows: &Rows, carried: &[f64], pose: &[f64], spread: &[f64]) -> Option<
     let prior = Prior::of(rows, carried, pose, spread);
     let Minimum { here, step, .. } = minimise(&prior, prior.at(prior.before.clone())?, &Damping::NONE, MOST_STEPS);
     let mut begin = plus(&here.begin, &step?);
-    let factors = prior.normal(&here).0.cholesky()?;
+    let factors = here.information.cholesky()?;
     let covariance = factors.inverse();
     let share = DMatrix::from_fn(h, h, |i, j| covariance[(m + i, m + j)] * prior.information[m + j]);
     // Where the sum is least its slope is zero whatever the values: they move the states by −(JᵀJ + P)⁻¹·Jᵀ·∂r/∂p.

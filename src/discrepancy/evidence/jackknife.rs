@@ -3,6 +3,7 @@
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
+use crate::discrepancy::evidence::regime_stability::FACTOR;
 use crate::discrepancy::evidence::wald_test::neutral_at_zero;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::shooting::windows::plan;
@@ -26,8 +27,8 @@ const BY_CHANCE: f64 = 0.05;
 pub(crate) struct Jackknife {
     /// Standard deviations of the values.
     pub std: Vec<f64>,
-    /// Whether all parts have a value in one direction, by the pseudo-values g·θ − (g − 1)·θ₍ᵢ₎ of Tukey.
-    pub one_way: Vec<bool>,
+    /// Whether all parts have a value in one direction and of one size, by the pseudo-values g·θ − (g − 1)·θ₍ᵢ₎ of Tukey.
+    pub alike: Vec<bool>,
     /// How many parts there are.
     pub(crate) parts: usize,
 }
@@ -50,28 +51,29 @@ impl Jackknife {
             let mean = all.iter().map(|p| p[i]).sum::<f64>() / g;
             ((g - 1.0) / g * all.iter().map(|p| (p[i] - mean).powi(2)).sum::<f64>()).sqrt()
         };
-        let is_one_way = |i: usize| {
-            let pseudo = all.iter().map(|p| g * fit.p[i] - (g - 1.0) * p[i]);
-            pseudo.map(|value| value * fit.p[i]).all(|along| along > 0.0)
+        let are_alike = |i: usize| {
+            let pseudo = all.iter().map(|p| (g * fit.p[i] - (g - 1.0) * p[i]) * fit.p[i].signum());
+            let [least, most] = pseudo.fold([f64::INFINITY, 0.0_f64], |[a, b], v| [a.min(v), b.max(v)]);
+            least > 0.0 && most <= FACTOR * least
         };
         let each = 0..fit.p.len();
         Ok(Some(Self {
             std: each.clone().map(of_value).collect(),
-            one_way: each.map(is_one_way).collect(),
+            alike: each.map(are_alike).collect(),
             parts: all.len(),
         }))
     }
 
     /// How far an effect stands out from its scatter, in units of what chance would make of it: its values are the same
-    /// in all parts where this is one or more. Of a value that all parts have in one direction the other direction is not
-    /// asked about.
+    /// in all parts where this is one or more. Of a value that is alike in all parts the other direction is not asked
+    /// about.
     pub(crate) fn shows(&self, fit: &Fit, effect: &Applied) -> f64 {
         let own = neutral_at_zero(fit, effect);
         // One value of several may do: each has its share of the chance.
         let share = BY_CHANCE / own.len().max(1) as f64;
         let Ok(student) = StudentsT::new(0.0, 1.0, self.parts as f64 - 1.0) else { return 0.0 };
         let far = |(i, v): &(usize, f64)| {
-            let tail = if self.one_way[*i] { share } else { 0.5 * share };
+            let tail = if self.alike[*i] { share } else { 0.5 * share };
             v.abs() / self.std[*i] / student.inverse_cdf(1.0 - tail)
         };
         own.iter().map(far).fold(0.0, f64::max)
@@ -111,15 +113,15 @@ mod tests {
         let fit = fit_of(unicycle(&KNOWN));
         let [_, relaxing, creep] = &fit.model.effects[..] else { panic!() };
         for (parts, one) in [(3, 4.302_653), (5, 2.776_445)] {
-            let scatter = Jackknife { std: vec![1.0, 0.02, 0.1, 0.01], one_way: vec![false; 4], parts };
+            let scatter = Jackknife { std: vec![1.0, 0.02, 0.1, 0.01], alike: vec![false; 4], parts };
             let shows = scatter.shows(&fit, creep);
             assert!((shows - 5.0 / one).abs() < 1e-4, "{parts}: {shows}");
             // A length is not neutral at zero; the creep that it builds up is.
             let shows = scatter.shows(&fit, relaxing);
             assert!((shows - 5.0 / one).abs() < 1e-4, "{parts}: {shows}");
         }
-        // In one direction: 2.9200 of two degrees of freedom.
-        let scatter = Jackknife { std: vec![1.0, 0.02, 0.1, 0.01], one_way: vec![true; 4], parts: 3 };
+        // Alike in all parts: 2.9200 of two degrees of freedom.
+        let scatter = Jackknife { std: vec![1.0, 0.02, 0.1, 0.01], alike: vec![true; 4], parts: 3 };
         assert!((scatter.shows(&fit, creep) - 5.0 / 2.919_986).abs() < 1e-4);
     }
 

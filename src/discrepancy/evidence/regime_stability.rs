@@ -27,7 +27,7 @@ const BEYOND_CHANCE: f64 = 20.0;
 /// A difference of so large a share of the value is that of no constant.
 const LARGE: f64 = 0.5;
 /// Values of one sign that are no further apart than by this factor are those of one effect whose law is not quite right.
-const FACTOR: f64 = 2.0;
+pub(crate) const FACTOR: f64 = 2.0;
 
 /// A regime of driving, told by the inputs' means over windows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

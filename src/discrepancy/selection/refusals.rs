@@ -4,7 +4,6 @@ use super::input_noise;
 use super::search::{Search, SearchState, find, first_of, forget};
 use crate::discrepancy::estimation::bounds::is_possible;
 use crate::discrepancy::estimation::fit::{Effort, Fit};
-use crate::discrepancy::estimation::unexplained::remains;
 use crate::discrepancy::evidence::jackknife::Jackknife;
 use crate::discrepancy::evidence::wald_test::neutral_at_zero;
 use crate::discrepancy::selection::choice::{Refusal, Refused, SelectedEffect};
@@ -17,9 +16,6 @@ use crate::progress::OnProgress;
 const RIDGE: f64 = 0.97;
 /// A value that moves by so large a share of itself when a law without a name is taken out leans on it.
 const LEANS: f64 = 0.5;
-
-/// How many times its price an effect that not every vehicle has must be worth beside a rest.
-const BESIDE_A_REST: f64 = 3.0;
 
 /// What the selection ends with: the effects that stand, and those that do not.
 pub(crate) struct Standing {
@@ -86,18 +82,12 @@ impl Search<'_> {
             all.min_by(|a, b| a.delta_bic.total_cmp(&b.delta_bic)).map(|c| c.applied.clone())
         };
         let is_open = |c: &SelectedEffect| c.std.iter().any(Option::is_none);
-        let is_cheap = |c: &SelectedEffect| c.delta_bic <= self.bar(fit, c) || self.is_faint(fit, c);
+        let is_cheap = |c: &SelectedEffect| c.delta_bic <= self.margin() || self.is_faint(fit, c);
         worst(&|c| !is_possible(&c.applied))
             .map(|a| (a, Refusal::Impossible))
             .or_else(|| worst(&is_open).map(|a| (a, Refusal::NoDeviation)))
             .or_else(|| worst(&is_cheap).map(|a| (a, Refusal::BelowBar)))
             .or_else(|| ridge(fit, chosen).map(|(a, other)| (a, Refusal::Ridge(Box::new(other)))))
-    }
-
-    /// What an effect must be worth: beside a rest one that not every vehicle has may only imitate a part of it.
-    fn bar(&self, fit: &Fit, c: &SelectedEffect) -> f64 {
-        let is_rare = !c.applied.effect.basic && !is_term(&c.applied);
-        self.margin() * if is_rare && remains(fit) { BESIDE_A_REST } else { 1.0 }
     }
 
     /// Whether an effect's values stand out of their own deviations by less than what a parameter costs.

@@ -34,6 +34,9 @@ const BEYOND_DOUBT: f64 = 60.0;
 /// Data sets drawn for the law of chance gains.
 const DRAWS: usize = 99;
 
+/// Times a law is sought again after names fell beside it, at most.
+const LAWS_AGAIN: usize = 2;
+
 /// Adds effects of the library until nothing is left above the noise.
 ///
 /// A candidate must beat BIC = deviance + k·ln n by a margin of 2·ln M for a library of M candidates: with
@@ -65,11 +68,22 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &O
         }
     };
     let Stable { mut grown, inconsistent, scatter } = stability::search(&selection, grown, progress)?;
-    let InputSampling { dropped: sampling_sensitive, missed } = keep_sampled(&selection, &mut grown, progress)?;
+    let InputSampling { dropped: mut sampling_sensitive, missed } = keep_sampled(&selection, &mut grown, progress)?;
     // Where something went, the values no longer stand where they stood.
     let scatter = scatter.filter(|_| sampling_sensitive.is_empty());
-    let Standing { chosen, refused, missed } =
+    let Standing { mut chosen, mut refused, mut missed } =
         selection.keep_standing(&mut grown, scatter.as_ref(), missed, progress)?;
+    for _ in 0..LAWS_AGAIN {
+        let fallen = refused.iter().map(|r| &r.applied).chain(&inconsistent).chain(&sampling_sensitive).cloned();
+        let fallen: Vec<Applied> = fallen.collect();
+        let Some(found) = unnamed_terms::without_fallen(&selection, &grown, &fallen, progress)? else { break };
+        grown = found;
+        let InputSampling { dropped, missed: of_values } = keep_sampled(&selection, &mut grown, progress)?;
+        sampling_sensitive.extend(dropped);
+        let again = selection.keep_standing(&mut grown, None, of_values, progress)?;
+        refused.extend(again.refused);
+        (chosen, missed) = (again.chosen, again.missed);
+    }
     let SearchState { fit: after, steps, candidates, .. } = grown;
     Ok(Some(Selected { before, after, chosen, steps, candidates, inconsistent, sampling_sensitive, refused, missed }))
 }

@@ -104,7 +104,7 @@ mod tests {
     fn what_is_least_shared_goes_first() {
         let fit = fit_of(unicycle(&[("traction-creep", &[0.3]), ("traverse-creep", &[-0.05])]));
         let gone = |std: [f64; 2]| {
-            least_shared(&fit, &Jackknife { std: std.to_vec(), one_way: vec![false; 2], parts: 3 })
+            least_shared(&fit, &Jackknife { std: std.to_vec(), alike: vec![false; 2], parts: 3 })
                 .map(|e| e.effect.id.clone())
         };
         assert_eq!(gone([0.3 / 4.31, 0.05 / 4.31]), None);

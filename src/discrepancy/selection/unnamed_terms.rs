@@ -1,7 +1,7 @@
 //! Disagreement that no effect of the library explains: an equation for it, where one is repeatable.
 
 use super::search::{Search, SearchState};
-use crate::discrepancy::estimation::fit::Fit;
+use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::estimation::unexplained::{is_wanted, remains};
 use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
 use crate::discrepancy::localisation::constraint_residuals::reduction;
@@ -61,6 +61,30 @@ pub(crate) fn search(
     found.steps = [&named.steps[..], &found.steps].concat();
     found.candidates.clone_from(&named.candidates);
     Ok((better && predicts).then_some(found))
+}
+
+/// The search repeated after names fell that a law stood beside: it was what those names left, and may be another now.
+/// `None` where there is none that explains more.
+pub(crate) fn without_fallen(
+    selection: &Search,
+    standing: &SearchState,
+    fallen: &[Applied],
+    progress: &OnProgress,
+) -> Result<Option<SearchState>> {
+    let fit = &standing.fit;
+    if !fallen.iter().any(|e| !is_term(e)) || !fit.model.free_effects().any(is_term) || !remains(fit) {
+        return Ok(None);
+    }
+    let mut bare = fit.model.clone();
+    bare.effects.retain(|e| !is_term(e));
+    let variances = &selection.before.variances;
+    let Some(bare) = selection.problem.fit(&bare, &fit.window_states, variances, Effort::FULL)? else {
+        return Ok(None);
+    };
+    let named = SearchState { candidates: standing.candidates.clone(), ..SearchState::from(&bare) };
+    let found = search(selection, &named, fallen, progress)?;
+    let n = found.as_ref().map_or(0.0, |f| f.fit.sample_size).max(fit.sample_size);
+    Ok(found.filter(|found| bic(&found.fit, n) < bic(fit, n)))
 }
 
 fn named_effects(fit: &Fit) -> usize {

@@ -129,8 +129,9 @@ impl Model {
             let targets = self.targets(&applied.effect, applied.trailer, &names);
             let targets = targets.ok_or_else(|| {
                 let (label, vehicle) = (applied.label(), &self.vehicle.id);
-                let stranger = self.stranger(&applied.effect, &names);
-                Error::input(match stranger.filter(|_| applied.effect.targets(&names, applied.trailer).is_some()) {
+                let has_all = applied.effect.needs.iter().all(|role| self.vehicle.inputs.contains_key(role));
+                let is_aimed = has_all && applied.effect.targets(&names, applied.trailer).is_some();
+                Error::input(match self.stranger(&applied.effect, &names).filter(|_| is_aimed) {
                     Some(name) => format!("the effect {label} speaks of {name}, which this {vehicle} has not"),
                     None => format!("the effect {label} does not apply to the vehicle {vehicle}"),
                 })

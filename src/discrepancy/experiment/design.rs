@@ -90,11 +90,17 @@ fn between(problem: &Problem, choice: &Selected, relatives: &[Vec<EquivalentEffe
         return Ok(None);
     }
     // Whichever is true, the other must fall short.
+    let apart = |m: &Manoeuvre, a: &PriorInformation, b: &PriorInformation| {
+        Some(thought.expected_delta_bic(m, a, b)?.min(thought.expected_delta_bic(m, b, a)?))
+    };
     let worth = |m: &Manoeuvre| {
-        let both = others
-            .iter()
-            .flat_map(|o| [thought.expected_delta_bic(m, &truth, o), thought.expected_delta_bic(m, o, &truth)]);
-        both.collect::<Option<Vec<_>>>().map(|all| all.into_iter().fold(f64::INFINITY, f64::min))
+        let all = others.iter().map(|o| apart(m, &truth, o));
+        all.collect::<Option<Vec<_>>>().map(|all| all.into_iter().fold(f64::INFINITY, f64::min))
+    };
+    // One of the rivals may be the true one, and the others are then its rivals.
+    let among = |m: &Manoeuvre| {
+        let pairs = others.iter().enumerate().flat_map(|(i, a)| others[..i].iter().map(move |b| (a, b)));
+        pairs.filter(|(a, b)| apart(m, a, b).is_some_and(|worth| worth > ENOUGH)).count()
     };
     let step = |(m, worth)| NextStep::Separate {
         chosen: chosen.applied.clone(),
@@ -103,7 +109,7 @@ fn between(problem: &Problem, choice: &Selected, relatives: &[Vec<EquivalentEffe
         expected_delta_bic: worth,
         times: repetitions(worth),
     };
-    Ok(thought.best(worth).map(step))
+    Ok(thought.best_of_all(worth, among).map(step))
 }
 
 /// The manoeuvre that would show an effect of plausible size that the runs at hand would not have shown.
@@ -166,10 +172,25 @@ impl<'a> PredictedExperiment<'a> {
 
     /// The manoeuvre of the most worth, or the simplest of those that are nearly as good.
     fn best(&self, worth: impl Fn(&Manoeuvre) -> Option<f64> + Sync) -> Option<(&'static Manoeuvre, f64)> {
+        self.best_of_all(worth, |_| 0)
+    }
+
+    /// The same, of those that separate beyond doubt and of these of the ones that settle most of the other questions.
+    fn best_of_all(
+        &self,
+        worth: impl Fn(&Manoeuvre) -> Option<f64> + Sync,
+        settled: impl Fn(&Manoeuvre) -> usize + Sync,
+    ) -> Option<(&'static Manoeuvre, f64)> {
         let all: Vec<&Manoeuvre> = library(&self.envelope).collect();
         let worths: Vec<Option<f64>> = all.par_iter().map(|m| worth(m)).collect();
-        let most = worths.iter().flatten().copied().fold(f64::NEG_INFINITY, f64::max);
-        all.into_iter().zip(worths).find_map(|(m, w)| w.filter(|w| nearly(*w, most)).map(|w| (m, w)))
+        let enough = |w: &Option<f64>| w.is_some_and(|w| w > ENOUGH);
+        let each = all.par_iter().zip(&worths).map(|(m, w)| if enough(w) { settled(m) } else { 0 });
+        let each: Vec<usize> = each.collect();
+        let most_settled = each.iter().copied().max().unwrap_or(0);
+        let eligible = |i: usize| worths[i].filter(|_| each[i] == most_settled);
+        let most = (0..all.len()).filter_map(eligible).fold(f64::NEG_INFINITY, f64::max);
+        let first = (0..all.len()).find_map(|i| eligible(i).filter(|w| nearly(*w, most)).map(|w| (i, w)));
+        first.map(|(i, w)| (all[i], w))
     }
 
     /// By how much the BIC of `other` is expected to exceed that of `truth` after a manoeuvre.

@@ -262,18 +262,23 @@ pub struct AboveSpeed {
 /// use creepage::report::CourseFound;
 /// let text = r#"{"kind": "linear", "per_s": 0.0004, "std": 0.00001, "since": 0.0}"#;
 /// let warming: CourseFound = serde_json::from_str(text).unwrap();
-/// assert!(warming.std.is_some_and(|std| warming.per_s > 3.0 * std));
+/// assert!(warming.std.zip(warming.per_s).is_some_and(|(std, per_s)| per_s > 3.0 * std));
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CourseFound {
-    /// `linear`.
+    /// `linear` or `random-walk`.
     pub kind: String,
-    /// How fast, in the parameter's unit a second.
-    pub per_s: f64,
+    /// Of a linear one how fast, in the parameter's unit a second.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub per_s: Option<f64>,
+    /// Of a walk the deviation of its steps over a second, in the parameter's unit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub per_sqrt_s: Option<f64>,
     /// The standard deviation of that; null where the data give none.
     pub std: Option<f64>,
-    /// When the parameter has its value, s.
-    pub since: f64,
+    /// Of a linear one when the parameter has its value, s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub since: Option<f64>,
 }
 
 /// A fitted number.

@@ -58,7 +58,9 @@ impl Applied {
         let trailer = self.trailer.map(|i| format!("trailer {i}"));
         let scope = self.effect.scope.as_ref().map(ToString::to_string);
         let course = self.effect.course.as_ref().map(|c| format!("{} moving with time", c.parameter));
-        let all: Vec<String> = trailer.into_iter().chain(self.effect.on.clone()).chain(scope).chain(course).collect();
+        let walk = self.effect.walk.as_ref().map(|w| format!("{} walking at random", w.parameter));
+        let all = trailer.into_iter().chain(self.effect.on.clone()).chain(scope).chain(course).chain(walk);
+        let all: Vec<String> = all.collect();
         if all.is_empty() { self.effect.id.clone() } else { format!("{} ({})", self.effect.id, all.join(", ")) }
     }
 

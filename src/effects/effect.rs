@@ -1,6 +1,6 @@
 //! An effect: the definitions it changes, its parameters, its states.
 
-use super::{Course, Scope};
+use super::{Course, RandomWalk, Scope};
 use crate::formula::{Expr, Symbol};
 use crate::provenance::Origin;
 use crate::vehicles::Moves;
@@ -57,6 +57,9 @@ pub struct Effect {
     /// Which of its parameters moves with time.
     #[serde(skip)]
     pub course: Option<Course>,
+    /// A parameter that walks at random.
+    #[serde(skip)]
+    pub walk: Option<RandomWalk>,
     /// Whether every vehicle has it in one form or another: where one of plausible size could hide, silence means
     /// nothing. A user's own effect is basic where its file says so.
     #[serde(default)]

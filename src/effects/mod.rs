@@ -5,12 +5,14 @@ mod applied;
 mod course;
 mod drifting;
 mod effect;
+mod random_walk;
 mod scope;
 
 pub use applied::Applied;
 pub use course::Course;
 pub use effect::{Effect, Parameter, State};
 pub(crate) use effect::{acting, delaying};
+pub use random_walk::RandomWalk;
 pub use scope::{DrivingRegime, Scope};
 
 use std::sync::LazyLock;

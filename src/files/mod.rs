@@ -32,7 +32,7 @@ pub use model::known::{Known, KnownDynamics, KnownEffect, KnownInput, KnownLaw, 
 pub use model::measurement::{Initial, InputTiming, Noise, Sensor};
 pub use model::model_file::ModelFile;
 pub use model::patch::VEHICLES_FILE;
-pub use model::scope_entry::CourseEntry;
+pub use model::scope_entry::{CourseEntry, Motion};
 pub(crate) use output_path::{check_target, unwritable};
 pub use sweep::axis::{Axis, AxisValues, Distribution, Sampled};
 pub use sweep::sweep_file::{SweepFile, SweepInput, SweepRows};

@@ -3,10 +3,11 @@
 use super::terms;
 use super::trailer::Trailer;
 use super::vehicle_model::{Model, Sensor};
-use crate::effects::{Applied, Effect};
+use crate::effects::{Applied, Effect, RandomWalk};
 use crate::error::{Error, Result};
 use crate::files::{
     CourseEntry, EffectEntry, Known, KnownDynamics, KnownEffect, KnownInput, KnownParameter, KnownVehicle, ModelFile,
+    Motion,
 };
 use crate::vehicles;
 use crate::vehicles::Vehicle;
@@ -134,13 +135,18 @@ fn applied(entry: &EffectEntry, library: &[Effect], vehicle: &Vehicle) -> Option
     if let Some(role) = &entry.input {
         effect = effect.on_input(role, vehicle.inputs.get(role).map_or("m/s", |input| &input.unit), 1.0);
     }
-    if let Some(course) = &entry.course {
-        effect = effect.drifting(&course.parameter, course.since)?;
+    let mut per_s = None;
+    match entry.course.as_ref().map(|c| (c.parameter.clone(), c.motion)) {
+        Some((parameter, Motion::Linear { per_s: rate, since })) => {
+            effect = effect.drifting(&parameter, since)?;
+            per_s = Some(rate);
+        }
+        Some((parameter, Motion::RandomWalk { per_sqrt_s })) => {
+            effect.walk = Some(RandomWalk { parameter, per_sqrt_s, std: None });
+        }
+        None => {}
     }
-    let rate = |name: &String| {
-        let course = entry.course.as_ref().zip(effect.course.as_ref()).filter(|(_, c)| c.rate() == *name);
-        course.map(|(entry, _)| entry.per_s)
-    };
+    let rate = |name: &String| per_s.filter(|_| effect.course.as_ref().is_some_and(|c| c.rate() == *name));
     let values = effect.parameters.keys().map(|name| entry.parameters.get(name).copied().or_else(|| rate(name)));
     let values = values.collect::<Option<_>>()?;
     effect.scope.clone_from(&entry.scope);
@@ -153,14 +159,18 @@ impl Applied {
         let mut parameters = self.named_values();
         let course = self.effect.course.as_ref().and_then(|c| {
             let per_s = parameters.remove(&c.rate())?;
-            Some(CourseEntry { parameter: c.parameter.clone(), per_s, since: c.since })
+            Some(CourseEntry { parameter: c.parameter.clone(), motion: Motion::Linear { per_s, since: c.since } })
+        });
+        let walk = self.effect.walk.as_ref().map(|w| {
+            let motion = Motion::RandomWalk { per_sqrt_s: w.per_sqrt_s };
+            CourseEntry { parameter: w.parameter.clone(), motion }
         });
         EffectEntry {
             id: self.effect.id.clone(),
             trailer: self.trailer,
             input: self.effect.on.clone(),
             scope: self.effect.scope.clone(),
-            course,
+            course: course.or(walk),
             parameters,
             defined_in: self.effect.origin.as_ref().map(|o| o.path.clone()),
             ..EffectEntry::default()

@@ -27,9 +27,24 @@ pub(crate) fn estimates(a: &Applied, std: &[Option<f64>]) -> BTreeMap<String, Es
         .collect();
     if let Some(course) = &a.effect.course {
         let moving = parameters.remove(&course.rate());
-        let moving =
-            moving.map(|m| CourseFound { kind: LINEAR.into(), per_s: m.value, std: m.std, since: course.since });
+        let moving = moving.map(|m| CourseFound {
+            kind: LINEAR.into(),
+            per_s: Some(m.value),
+            per_sqrt_s: None,
+            std: m.std,
+            since: Some(course.since),
+        });
         parameters.entry(course.parameter.clone()).and_modify(|p| p.course = moving);
+    }
+    if let Some(walk) = &a.effect.walk {
+        let walking = CourseFound {
+            kind: RANDOM_WALK.into(),
+            per_s: None,
+            per_sqrt_s: Some(walk.per_sqrt_s),
+            std: walk.std,
+            since: None,
+        };
+        parameters.entry(walk.parameter.clone()).and_modify(|p| p.course = Some(walking));
     }
     if let Some(i) = a.trailer {
         parameters.insert("trailer".into(), Estimate { value: i as f64, std: None, unit: "1".into(), course: None });
@@ -39,6 +54,8 @@ pub(crate) fn estimates(a: &Applied, std: &[Option<f64>]) -> BTreeMap<String, Es
 
 /// The kind of a course at a constant rate.
 const LINEAR: &str = "linear";
+/// The kind of a course at random.
+const RANDOM_WALK: &str = "random-walk";
 
 /// A scope as the report lists it.
 fn scope(scope: &Scope) -> ScopeFound {

@@ -6,6 +6,7 @@ pub(crate) mod heterogeneity;
 pub mod information_criterion;
 pub mod jackknife;
 pub mod parametric_bootstrap;
+pub(crate) mod random_walk;
 pub mod regime_stability;
 pub(crate) mod scope_scan;
 pub mod score_test;

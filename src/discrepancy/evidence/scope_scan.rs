@@ -58,8 +58,8 @@ impl Blocks {
 pub(crate) struct BlockScores {
     /// Parameters of the effect.
     parameters: usize,
-    information: DMatrix<f64>,
-    gradient: DVector<f64>,
+    pub(crate) information: DMatrix<f64>,
+    pub(crate) gradient: DVector<f64>,
 }
 
 impl BlockScores {

@@ -7,6 +7,9 @@ use crate::files::Run;
 /// A step off by so many times the usual error of a step, and by so many usual steps, is a jump.
 const OFF: f64 = 15.0;
 const STEPS: f64 = 4.0;
+/// The same where the reference has jumped already: some five deviations of a step, which noise makes in no run.
+const OFF_AGAIN: f64 = 4.5;
+const STEPS_AGAIN: f64 = 0.5;
 /// What is off by this share of a jump after the next row has come back: a gross error, no jump.
 const BACK: f64 = 0.5;
 /// Jumps so near to one another belong to one stretch, s.
@@ -44,18 +47,24 @@ pub fn jumps(run: &Run, reckoned: &[Vec<f64>; 3]) -> Vec<Jumps> {
     let usual = median(&mut each.clone()).unwrap_or(0.0);
     let way = |i: usize| (run.x[i] - run.x[i - 1]).hypot(run.y[i] - run.y[i - 1]);
     let usual_way = median(&mut (1..run.time.len()).map(way).collect::<Vec<_>>()).unwrap_or(0.0);
-    let bar = (OFF * usual).max(STEPS * usual_way);
-    let is_jump = |i: &usize| {
-        let size = each[*i - 1];
-        let stays = off(i - 1, i + 1) > BACK * size && off(i - 2, *i) > BACK * size;
-        size > bar && stays && step[*i - 1] < 3.0 * usual_step
+    let is_jump = |i: usize, bar: f64| {
+        let size = each[i - 1];
+        let stays = || off(i - 1, i + 1) > BACK * size && off(i - 2, i) > BACK * size;
+        size > bar && step[i - 1] < 3.0 * usual_step && stays()
     };
-    // At either end nothing tells a jump from a gross error.
-    let found: Vec<usize> = (2..run.time.len() - 1).filter(is_jump).collect();
-    if bar <= 0.0 || found.len() as f64 > MOST * run.time.len() as f64 {
+    let beyond = |off: f64, steps: f64| {
+        let bar = (off * usual).max(steps * usual_way);
+        // At either end nothing tells a jump from a gross error.
+        let found: Vec<usize> = (2..run.time.len() - 1).filter(|i| bar > 0.0 && is_jump(*i, bar)).collect();
+        if found.len() as f64 > MOST * run.time.len() as f64 { vec![] } else { found }
+    };
+    let large = beyond(OFF, STEPS);
+    if large.is_empty() {
         return vec![];
     }
-    let found = stretches(run, &found);
+    // A reference that jumps makes smaller jumps, too.
+    let all = beyond(OFF_AGAIN, STEPS_AGAIN);
+    let found = stretches(run, if all.is_empty() { &large } else { &all });
     let lost: f64 = found.iter().map(|j| j.span[1] - j.span[0]).sum();
     let lasts = run.time[run.time.len() - 1] - run.time[0];
     if lost > MOST_LOST * lasts { vec![] } else { found }
@@ -129,6 +138,13 @@ mod tests {
         let [one] = &of(&[80], None)[..] else { panic!("{:?}", of(&[80], None)) };
         assert!(one.times == 1 && (one.span[0] - 7.9).abs() < 1e-9 && (one.span[1] - 8.0).abs() < 1e-9, "{one:?}");
         assert_eq!([Some(80), Some(0), Some(199)].map(|row| of(&[], row)), [vec![], vec![], vec![]]);
+        // A small step is a jump where there are larger ones.
+        let small = |at: &[usize]| {
+            let (mut run, reckoned) = run(at, None);
+            (150..200).for_each(|i| run.y[i] += 0.1);
+            jumps(&run, &reckoned).len()
+        };
+        assert_eq!([small(&[]), small(&[80])], [0, 2]);
         // A reference that is lost through most of a run is no exception in it.
         assert_eq!(of(&[20, 100, 180], None), []);
     }

@@ -26,6 +26,10 @@ pub fn says(refused: &Refused, roles: &[String]) -> String {
                 named(std::slice::from_ref(other))
             )
         }
+        Refusal::Imitation(other) => {
+            let other = named(std::slice::from_ref(other));
+            format!("{label} and {other} together imitate a law that neither of them is, so that {label} is not named")
+        }
         Refusal::LeansOnLaw => format!("{label} stands only beside a law without a name, so that is not named"),
         Refusal::Regime { regime, values: [elsewhere, there] } => {
             let [elsewhere, there] = [elsewhere, there].map(|v| significant(*v, 2));

@@ -156,8 +156,12 @@ fn one_effect(effect: &Named) -> Vec<String> {
 
 /// The line of a parameter that moves with time.
 fn moving(name: &str, course: &CourseFound, unit: &str) -> String {
-    let per_s = Estimate { value: course.per_s, std: course.std, unit: String::new(), course: None };
-    row("", &format!("{name} per s"), &brief(&per_s), &format!("{unit}/s"), "")
+    let (value, per) = match (course.per_s, course.per_sqrt_s) {
+        (Some(value), _) => (value, "s"),
+        (None, walk) => (walk.unwrap_or_default(), "√s"),
+    };
+    let moving = Estimate { value, std: course.std, unit: String::new(), course: None };
+    row("", &format!("{name} per {per}"), &brief(&moving), &format!("{unit}/{per}"), "")
 }
 
 /// A value and its deviation, that one as a power of ten where both are too long for their column.

@@ -32,6 +32,9 @@ pub enum Refusal {
     BelowBar,
     /// It only pays along a ridge with another.
     Ridge(Box<Applied>),
+    /// With another at its place, of which each explains most of what both do, it leaves a rest there: they imitate a law
+    /// that neither of them is.
+    Imitation(Box<Applied>),
     /// It only stands beside a law without a name.
     LeansOnLaw,
     /// Its value is another in a regime of driving.

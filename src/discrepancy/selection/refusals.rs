@@ -2,20 +2,26 @@
 
 use super::input_noise;
 use super::search::{Search, SearchState, find, first_of, forget};
+use super::select::Weighed;
 use crate::discrepancy::estimation::bounds::is_possible;
 use crate::discrepancy::estimation::fit::{Effort, Fit};
+use crate::discrepancy::estimation::unexplained::remaining;
 use crate::discrepancy::evidence::jackknife::Jackknife;
 use crate::discrepancy::evidence::wald_test::neutral_at_zero;
 use crate::discrepancy::selection::choice::{Refusal, Refused, SelectedEffect};
 use crate::effects::Applied;
 use crate::error::{Error, Result};
 use crate::model::effect_equation::is_term;
+use crate::model::state::JUMPS;
 use crate::progress::OnProgress;
 
 /// Two effects whose values are correlated by this much and more are one effect, or none.
 const RIDGE: f64 = 0.97;
 /// A value that moves by so large a share of itself when a law without a name is taken out leans on it.
 const LEANS: f64 = 0.5;
+
+/// Each of two effects that explains so large a share of what both explain is there for the same.
+const MOST_OF_BOTH: f64 = 0.5;
 
 /// What the selection ends with: the effects that stand, and those that do not.
 pub(crate) struct Standing {
@@ -46,7 +52,10 @@ impl Search<'_> {
                 grown.go_back_to(smaller);
                 continue;
             }
-            let fallen = self.fallen(&grown.fit, &chosen)?;
+            let fallen = match companion(&refused, &chosen) {
+                Some(fallen) => Some(fallen),
+                None => self.fallen(&grown.fit, &weighed, &chosen)?,
+            };
             let without = |(applied, why): (Applied, Refusal)| {
                 let smaller = self.without(&grown.fit, &applied)?;
                 Ok::<_, Error>(smaller.map(|smaller| (applied, why, smaller)))
@@ -62,9 +71,12 @@ impl Search<'_> {
     }
 
     /// The next effect that does not stand, the cheapest question first.
-    fn fallen(&self, fit: &Fit, chosen: &[SelectedEffect]) -> Result<Option<(Applied, Refusal)>> {
+    fn fallen(&self, fit: &Fit, weighed: &[Weighed], chosen: &[SelectedEffect]) -> Result<Option<(Applied, Refusal)>> {
         if let Some(fallen) = self.fallen_by_value(fit, chosen) {
             return Ok(Some(fallen));
+        }
+        if let Some([less, more]) = self.imitating(fit, weighed)? {
+            return Ok(Some((less, Refusal::Imitation(Box::new(more)))));
         }
         if let Some(applied) = self.leaning(fit, chosen)? {
             return Ok(Some((applied, Refusal::LeansOnLaw)));
@@ -98,6 +110,30 @@ impl Search<'_> {
         !own.is_empty() && own.iter().map(ratio).fold(0.0, f64::max) <= self.margin() + fit.sample_size.ln()
     }
 
+    /// Two effects at a place where something remains, neither of which every vehicle has, and each of which alone explains
+    /// most of what both do: the one that is worth less, and the other.
+    fn imitating(&self, fit: &Fit, weighed: &[Weighed]) -> Result<Option<[Applied; 2]>> {
+        let places: Vec<&str> = remaining(fit).map(|c| JUMPS[c].place).collect();
+        let is_law = |w: &&Weighed| {
+            let applied = &w.effect.applied;
+            !applied.effect.basic && !is_term(applied) && places.contains(&applied.effect.place.as_str())
+        };
+        let laws: Vec<&Weighed> = weighed.iter().filter(is_law).collect();
+        for (i, a) in laws.iter().enumerate() {
+            for b in laws[..i].iter().filter(|b| b.effect.applied.effect.place == a.effect.applied.effect.place) {
+                let Some(neither) = self.without(&a.without, &b.effect.applied)? else { continue };
+                let both = neither.deviance - fit.deviance;
+                let alone = [&a.without, &b.without].map(|with_other| neither.deviance - with_other.deviance);
+                if alone.iter().all(|gain| *gain > MOST_OF_BOTH * both) {
+                    let order = a.effect.delta_bic < b.effect.delta_bic;
+                    let [less, more] = if order { [a, b] } else { [b, a] };
+                    return Ok(Some([less, more].map(|w| w.effect.applied.clone())));
+                }
+            }
+        }
+        Ok(None)
+    }
+
     /// The effect that has another value in a regime of driving, the one whose difference is largest beyond chance.
     fn changing(&self, fit: &Fit) -> Result<Option<(Applied, Refusal)>> {
         let real = self
@@ -124,6 +160,18 @@ impl Search<'_> {
         let most = moved.filter(|(by, _)| *by > LEANS).max_by(|a, b| a.0.total_cmp(&b.0));
         Ok(most.map(|(_, a)| a.clone()))
     }
+}
+
+/// The one that was to imitate a law together with another that fell for it: it falls, too.
+fn companion(refused: &[Refused], chosen: &[SelectedEffect]) -> Option<(Applied, Refusal)> {
+    let left = |r: &Refused| match &r.why {
+        Refusal::Imitation(other) => {
+            let stands = chosen.iter().find(|c| c.applied.same_as(other))?;
+            Some((stands.applied.clone(), Refusal::Imitation(Box::new(r.applied.clone()))))
+        }
+        _ => None,
+    };
+    refused.iter().find_map(left)
 }
 
 /// By what share of themselves the values of an effect move from one fit to another.

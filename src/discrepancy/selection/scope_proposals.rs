@@ -17,8 +17,8 @@ const RADII: [f64; 8] = [0.06, 0.09, 0.13, 0.19, 0.27, 0.36, 0.5, 0.7];
 
 /// How long the data in a scope, and those outside of it, last at least, s.
 pub(crate) const SHORTEST: f64 = 8.0;
-/// What a scope gains in a run that bears it out.
-const BORNE_OUT: f64 = 10.0;
+/// What a scope, or a course, gains in a run that bears it out.
+pub(crate) const BORNE_OUT: f64 = 10.0;
 
 /// What the vehicle does in a row: where it is, the speed that the inputs ask for, how it grows, and the yaw rate.
 #[derive(Clone, Copy, Debug)]

@@ -1,11 +1,12 @@
 //! Effects that hold in part only, or move with time, asked for where what holds always does not explain the data.
 
 use super::candidates::{FINALISTS, place, rounded};
-use super::scope_proposals::{BlockRows, Proposal, SHORTEST};
-use super::search::{Search, SearchState, find};
+use super::scope_proposals::{BORNE_OUT, BlockRows, Proposal, SHORTEST};
+use super::search::{Search, SearchState, find, first_of};
 use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
 use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::estimation::unexplained::{is_wanted, remains};
+use crate::discrepancy::evidence::heterogeneity::{RunValue, spreads};
 use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
 use crate::discrepancy::evidence::scope_scan::{BlockScores, Blocks};
 use crate::discrepancy::evidence::score_test::{self, ScoreTest, ScoreTests};
@@ -32,6 +33,8 @@ const TRIED_PER_BLOCK: usize = 10;
 const TRIED: usize = 2 * FINALISTS;
 /// And of one kind of scope so many.
 const OF_A_KIND: usize = 2;
+/// Runs whose first rows lie within so many seconds of one another have one clock.
+const ONE_CLOCK: f64 = 1.0;
 /// Times beyond this are stamps, and what moves with time is told from the first row on, s.
 const STAMP: f64 = 1e4;
 
@@ -158,7 +161,7 @@ impl Search<'_> {
             fit = self.refit(&moved)?.unwrap_or(moved);
         }
         let Some(own) = find(&fit.model, &promise.applied) else { return Ok(None) };
-        if own.effect.scope.as_ref().is_some_and(|s| !self.lasts(s)) {
+        if own.effect.scope.as_ref().is_some_and(|s| !self.lasts(s)) || !moves_alike(&fit, &own) {
             return Ok(None);
         }
         let n = base.sample_size.max(fit.sample_size);
@@ -198,11 +201,12 @@ impl Search<'_> {
         all.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
         let tried = (open.len() * blocks.count * TRIED_PER_BLOCK).max(1) as f64;
         let scoped = all.into_iter().take(SHORTLIST).map(|(e, t, p)| (e.within(p.scope), t)).collect();
-        let since = self.problem.records.first().map_or(0.0, |r| r.time[0]);
-        let since = if since.abs() > STAMP { since } else { 0.0 };
-        // A course is one of a single clock: of several runs each may have its own.
-        let clocks = self.problem.records.len();
-        let most = open.iter().filter(|_| clocks == 1).map(|(e, _)| e.parameters.len()).max().unwrap_or(0);
+        let first = self.problem.records.first().map_or(0.0, |r| r.time[0]);
+        let since = if first.abs() > STAMP { first } else { 0.0 };
+        // A course is one of a single clock: runs have one where they begin at one time.
+        let begin = self.problem.records.iter().map(|r| r.time[0]);
+        let is_one_clock = begin.into_iter().all(|t| (t - first).abs() < ONE_CLOCK);
+        let most = open.iter().filter(|_| is_one_clock).map(|(e, _)| e.parameters.len()).max().unwrap_or(0);
         let nth = |i: usize| {
             let one = |(e, t): &(&Effect, Option<usize>)| Some((e.drifting(e.parameters.keys().nth(i)?, since)?, *t));
             open.iter().filter_map(one).collect()
@@ -242,6 +246,18 @@ impl Search<'_> {
         }
         Ok(found)
     }
+}
+
+/// Whether more than one run bears out that a parameter moves, and none that it moves the other way, where there are
+/// several.
+fn moves_alike(fit: &Fit, effect: &Applied) -> bool {
+    let Some(course) = &effect.effect.course else { return true };
+    let Some(rate) = effect.effect.parameters.keys().position(|name| *name == course.rate()) else { return true };
+    let each = &spreads(fit)[first_of(fit, effect) + rate];
+    let Some(each) = each.as_ref().filter(|_| fit.runs > 1) else { return fit.runs < 2 };
+    let far = |v: &RunValue| v.value * v.value / v.variance;
+    let opposed = |v: &RunValue| v.value * effect.values[rate] < 0.0 && far(v) > 1.0;
+    each.values.iter().filter(|v| far(v) > BORNE_OUT).count() > 1 && !each.values.iter().any(opposed)
 }
 
 /// The most promising candidates, a few of each kind of scope.

@@ -63,16 +63,18 @@ pub(crate) fn search(
     Ok((better && predicts).then_some(found))
 }
 
-/// The search repeated after names fell that a law stood beside: it was what those names left, and may be another now.
-/// `None` where there is none that explains more.
+/// The search repeated after names fell that a law stood beside: it was what those names left, and may be another now; or
+/// names that imitated one. `None` where there is none that explains more.
 pub(crate) fn without_fallen(
     selection: &Search,
     standing: &SearchState,
     fallen: &[Applied],
+    imitated: bool,
     progress: &OnProgress,
 ) -> Result<Option<SearchState>> {
     let fit = &standing.fit;
-    if !fallen.iter().any(|e| !is_term(e)) || !fit.model.free_effects().any(is_term) || !remains(fit) {
+    let is_asked = imitated || fit.model.free_effects().any(is_term);
+    if !fallen.iter().any(|e| !is_term(e)) || !is_asked || !remains(fit) {
         return Ok(None);
     }
     let mut bare = fit.model.clone();

@@ -3,7 +3,7 @@
 //! What is here besides: Windows line ends, and whole numbers of more than 64 bits, neither of which `toml_edit` keeps.
 
 use super::effect_entry::EffectEntry;
-use super::scope_entry::CourseEntry;
+use super::scope_entry::{CourseEntry, Motion};
 use crate::effects::Scope;
 use toml_edit::{Array, ArrayOfTables, Decor, DocumentMut, InlineTable, Item, Key, Table, TableLike, Value};
 
@@ -214,12 +214,16 @@ fn scope(scope: &Scope) -> Value {
 }
 
 fn course(course: &CourseEntry) -> Value {
-    let mut table: InlineTable =
-        [("kind", "linear".into()), ("parameter", course.parameter.as_str().into()), ("per_s", spelled(course.per_s))]
-            .into_iter()
-            .collect();
-    if course.since != 0.0 {
-        table.insert("since", spelled(course.since));
+    let (kind, name, number) = match course.motion {
+        Motion::Linear { per_s, .. } => ("linear", "per_s", per_s),
+        Motion::RandomWalk { per_sqrt_s } => ("random-walk", "per_sqrt_s", per_sqrt_s),
+    };
+    let of = [("kind", kind.into()), ("parameter", course.parameter.as_str().into()), (name, spelled(number))];
+    let mut table: InlineTable = of.into_iter().collect();
+    if let Motion::Linear { since, .. } = course.motion
+        && since != 0.0
+    {
+        table.insert("since", spelled(since));
     }
     Value::InlineTable(table)
 }

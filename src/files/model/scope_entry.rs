@@ -15,10 +15,25 @@ const SCOPE_EXAMPLE: &str = "scope = { from = 35.3 }, { from = 35.3, until = 50.
 pub struct CourseEntry {
     /// The parameter.
     pub parameter: String,
-    /// How fast it moves, its unit a second.
-    pub per_s: f64,
-    /// The time at which it has its value, s.
-    pub since: f64,
+    /// How it moves.
+    pub motion: Motion,
+}
+
+/// How a parameter moves with time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Motion {
+    /// At a constant rate.
+    Linear {
+        /// How fast, its unit a second.
+        per_s: f64,
+        /// The time at which it has its value, s.
+        since: f64,
+    },
+    /// At random.
+    RandomWalk {
+        /// The deviation of its steps over a second.
+        per_sqrt_s: f64,
+    },
 }
 
 /// Reads the scope of an entry.
@@ -67,12 +82,16 @@ pub(super) fn read_course(section: &Section, effect: &KnownEffect) -> Result<Opt
     let Some(value) = section.get("course") else { return Ok(None) };
     let example = "course = { kind = \"linear\", per_s = 0.0004 }";
     let table = value.section_like("course".into(), example)?;
-    table.only(&["kind", "parameter", "per_s", "since"])?;
     let kind = table.need("kind", example)?;
-    if kind.text()? != "linear" {
-        let help = "write kind = \"linear\": a parameter that moves at a constant rate";
-        return Err(kind.error(format!("a course {:?} is not known", kind.text()?)).help(help));
-    }
+    let walks = match kind.text()? {
+        "linear" => false,
+        "random-walk" => true,
+        other => {
+            let help = "write kind = \"linear\": a parameter that moves at a constant rate, or kind = \"random-walk\"";
+            return Err(kind.error(format!("a course {other:?} is not known")).help(help));
+        }
+    };
+    table.only(if walks { &["kind", "parameter", "per_sqrt_s"] } else { &["kind", "parameter", "per_s", "since"] })?;
     let names: Vec<&str> = effect.parameters.iter().map(|p| p.name.as_str()).collect();
     let parameter = match (table.get("parameter"), &names[..]) {
         (Some(value), names) => {
@@ -89,9 +108,14 @@ pub(super) fn read_course(section: &Section, effect: &KnownEffect) -> Result<Opt
             return Err(value.error("the course does not say which parameter moves").help(help));
         }
     };
-    let per_s = table.need("per_s", example)?.number()?;
-    let since = table.get("since").map_or(Ok(0.0), |v| v.number())?;
-    Ok(Some(CourseEntry { parameter, per_s, since }))
+    let motion = if walks {
+        let example = "course = { kind = \"random-walk\", per_sqrt_s = 0.0001 }";
+        Motion::RandomWalk { per_sqrt_s: table.need("per_sqrt_s", example)?.positive()? }
+    } else {
+        let per_s = table.need("per_s", example)?.number()?;
+        Motion::Linear { per_s, since: table.get("since").map_or(Ok(0.0), |v| v.number())? }
+    };
+    Ok(Some(CourseEntry { parameter, motion }))
 }
 
 fn ordered(value: &Value, [from, until]: [f64; 2]) -> Result<()> {
@@ -171,6 +195,7 @@ mod tests {
             "scope = { where = \"x - 3 > 0\" }",
             "course = { kind = \"linear\", parameter = \"bias\", per_s = 0.0004 }",
             "course = { kind = \"linear\", parameter = \"bias\", per_s = 0.0004, since = 12.0 }",
+            "course = { kind = \"random-walk\", parameter = \"bias\", per_sqrt_s = 0.0004 }",
         ] {
             let file = read(line).unwrap();
             let entry = &file.effects[0];
@@ -193,6 +218,8 @@ mod tests {
             ("scope = {}", "empty"),
             ("course = { kind = \"cubic\", per_s = 1.0 }", "not known"),
             ("course = { kind = \"linear\", per_s = 1.0, parameter = \"scale\" }", "no parameter"),
+            ("course = { kind = \"random-walk\", per_s = 1.0 }", "per_s"),
+            ("course = { kind = \"random-walk\", per_sqrt_s = -1.0 }", "-1.0"),
         ] {
             let told = told(line);
             assert!(told.starts_with("model.toml:7:") && told.contains(expected), "{line}: {told}");

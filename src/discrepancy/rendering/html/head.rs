@@ -96,7 +96,10 @@ fn found(report: &Report) -> Option<Element> {
 pub(crate) fn parameter(name: &str, e: &Estimate) -> String {
     let unit = if e.unit == "1" { "" } else { e.unit.as_str() };
     let shown = format!("{name} = {} {unit}", with_error(e.value, e.std)).trim_end().to_string();
-    let moving = e.course.as_ref().map(|c| format!(", moving by {} {unit}/s", with_error(c.per_s, c.std)));
+    let moving = e.course.as_ref().map(|c| match (c.per_s, c.per_sqrt_s) {
+        (Some(per_s), _) => format!(", moving by {} {unit}/s", with_error(per_s, c.std)),
+        (None, walk) => format!(", walking by {} {unit}/√s", with_error(walk.unwrap_or_default(), c.std)),
+    });
     shown + &moving.unwrap_or_default()
 }
 

@@ -1,0 +1,176 @@
+//! A parameter that walks: the variance of its steps by restricted maximum likelihood, as in a structural time-series model
+//! with a local level (Harvey, 1989).
+//!
+//! The data are cut into blocks, and the parameter differs from its fitted value by b in each. One elimination of the poses
+//! gives the gradient g and the information A of b, all else free; a prior b = c·1 + w with a walk w, whose covariance
+//! between times t and t' is q·min(t, t'), then has in closed form
+//!
+//! −2·ln L(q) = ln|I + A·K| + ln(1ᵀ·M·1) − gᵀ·K·(I + A·K)⁻¹·g − (1ᵀ·h)²/(1ᵀ·M·1),
+//! h = (I + A·K)⁻¹·g, M = (I + A·K)⁻¹·A
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | K = q·C | covariance of the walk; each run walks by itself |
+//! | c | mean, without a prior |
+//! | q | variance of its steps a second |
+
+use super::cross_validation::Along;
+use super::scope_scan::{BlockScores, Blocks};
+use super::wald_test::neutral_at_zero;
+use crate::discrepancy::estimation::elimination::eliminate;
+use crate::discrepancy::estimation::fit::Fit;
+use crate::discrepancy::estimation::noise_model::NoiseModel;
+use crate::discrepancy::estimation::problem::Problem;
+use crate::discrepancy::estimation::unexplained::remaining;
+use crate::discrepancy::estimation::variance_components::deviance;
+use crate::discrepancy::shooting::window_integration::linearise;
+use crate::effects::Applied;
+use crate::error::Result;
+use nalgebra::{DMatrix, DVector};
+
+/// Shares of the unexplained motion that are tried beside a walk, for a part of it is the walk's.
+const SHARES: [f64; 8] = [1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 1e-3];
+/// A walk leaves no larger share of the unexplained motion: what leaves more is not all of a walk.
+const LEFT: f64 = 0.1;
+/// Steps of the search over √q, from a thousandth of the parameter's size over a run to a thousand of them.
+const STEPS: usize = 61;
+const DECADES: f64 = 3.0;
+
+/// A walk that a parameter was found to make.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Walk {
+    /// √q and its standard deviation.
+    pub per_sqrt_s: f64,
+    pub std: f64,
+    /// Deviance without less deviance with it.
+    pub gain: f64,
+}
+
+/// Twice the negative log likelihood with noise of one size: without a walk, and what a walk adds to it.
+struct Likelihood {
+    without: f64,
+    information: DMatrix<f64>,
+    gradient: DVector<f64>,
+}
+
+impl Likelihood {
+    /// With a walk of that covariance.
+    fn at(&self, covariance: &DMatrix<f64>) -> f64 {
+        let n = self.gradient.len();
+        let (a, g) = (&self.information, &self.gradient);
+        let lu = (DMatrix::identity(n, n) + a * covariance).lu();
+        let (Some(h), Some(m)) = (lu.solve(g), lu.solve(a)) else { return f64::INFINITY };
+        let determinant = lu.u().diagonal().map(|x| x.abs().ln()).sum();
+        let mean = h.sum().powi(2) / m.sum() - g.sum().powi(2) / a.sum();
+        let added = determinant + (m.sum() / a.sum()).ln() - g.dot(&(covariance * &h)) - mean;
+        if added.is_finite() { self.without + added } else { f64::INFINITY }
+    }
+}
+
+impl Problem {
+    /// The walk of an effect's one parameter, where the fit leaves motion that a walk explains.
+    ///
+    /// # Errors
+    /// When the model's formulas are malformed.
+    pub(crate) fn walk(&self, fit: &Fit, effect: &Applied) -> Result<Option<Walk>> {
+        let left: Vec<usize> = remaining(fit).collect();
+        if effect.values.len() != 1 || left.is_empty() {
+            return Ok(None);
+        }
+        let equations = fit.model.free_equations()?;
+        let linear = linearise(&equations, &fit.p, &self.records, &self.plan, &fit.window_states);
+        let Some(linear) = linear else { return Ok(None) };
+        let windows: Vec<usize> = self.plan.iter().map(|s| s.windows.len()).collect();
+        let blocks = Blocks::of(&windows);
+        let covariance = self.covariance_of_walk(&blocks);
+        let duration = covariance.diagonal().max().max(1.0);
+        let size = effect.effect.parameters.values().next().map_or(1.0, |p| p.size);
+        let step =
+            |k: usize| size / duration.sqrt() * 10f64.powf(DECADES * (2.0 * k as f64 / (STEPS - 1) as f64 - 1.0));
+        let mut best: Option<(f64, f64, usize, Vec<f64>)> = None;
+        for share in SHARES {
+            let v = with_share(&fit.variances, &left, share);
+            let Some(likelihood) = self.likelihood(fit, effect, &linear, &blocks, &v) else { continue };
+            let each: Vec<f64> = (0..STEPS).map(|k| likelihood.at(&(&covariance * step(k).powi(2)))).collect();
+            let Some(k) = (0..STEPS).min_by(|a, b| each[*a].total_cmp(&each[*b])) else { continue };
+            if best.as_ref().is_none_or(|(reached, ..)| each[k] < *reached) {
+                best = Some((each[k], share, k, each));
+            }
+        }
+        let Some((reached, share, k, each)) = best else { return Ok(None) };
+        if share > LEFT || k == 0 || k + 1 == STEPS {
+            return Ok(None);
+        }
+        // The curvature in ln √q at the lowest of the points.
+        let width = 2.0 * DECADES * 10f64.ln() / (STEPS - 1) as f64;
+        let curvature = (each[k - 1] - 2.0 * each[k] + each[k + 1]) / (width * width);
+        let walk = |share: f64| Walk { per_sqrt_s: step(k), std: step(k) * share, gain: fit.deviance - reached };
+        Ok((curvature > 0.0).then(|| walk((2.0 / curvature).sqrt())))
+    }
+
+    fn likelihood(
+        &self,
+        fit: &Fit,
+        effect: &Applied,
+        linear: &Along,
+        blocks: &Blocks,
+        v: &NoiseModel,
+    ) -> Option<Likelihood> {
+        let (own, _) = *neutral_at_zero(fit, effect).first()?;
+        let kept: Vec<usize> = (0..fit.p.len()).filter(|i| *i != own).collect();
+        let scores = BlockScores::of(linear, blocks, v, fit.p.len(), &kept, &[own])?;
+        let all = eliminate(linear, v, fit.p.len())?;
+        let BlockScores { information, gradient, .. } = scores;
+        Some(Likelihood { without: deviance(linear, v, &all), information, gradient })
+    }
+
+    /// min(t, t') from the beginning of each run on, between the blocks.
+    fn covariance_of_walk(&self, blocks: &Blocks) -> DMatrix<f64> {
+        let middle = |(segment, windows): &(usize, std::ops::Range<usize>)| {
+            let segment = &self.plan[*segment];
+            let record = &self.records[segment.record];
+            let rows = segment.windows[windows.start].start..segment.windows[windows.end - 1].end;
+            let last = rows.end.min(record.time.len() - 1);
+            (segment.record, 0.5 * (record.time[rows.start] + record.time[last]) - record.time[record.rows.start])
+        };
+        let times: Vec<(usize, f64)> = blocks.windows().iter().map(middle).collect();
+        let between = |a: (usize, f64), b: (usize, f64)| if a.0 == b.0 { a.1.min(b.1) } else { 0.0 };
+        DMatrix::from_fn(times.len(), times.len(), |i, j| between(times[i], times[j]))
+    }
+}
+
+/// The variances with a share of some components of the process noise.
+fn with_share(variances: &NoiseModel, components: &[usize], share: f64) -> NoiseModel {
+    let mut v = variances.clone();
+    components.iter().for_each(|c| v.process_mut()[*c].variance *= share);
+    v
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Values that are measured block by block with a deviation of one: the closed form against the density of the measured
+    /// values themselves, whose covariance is 1 + K, the mean integrated out.
+    #[test]
+    fn the_likelihood_is_that_of_measured_values_with_a_covariance() {
+        let n = 6;
+        let measured = DVector::from_vec(vec![0.3, -0.2, 0.9, 1.4, 1.1, 2.0]);
+        let likelihood = Likelihood { without: 0.0, information: DMatrix::identity(n, n), gradient: measured.clone() };
+        let direct = |k: &DMatrix<f64>| {
+            let inverse = (DMatrix::identity(n, n) + k).try_inverse().unwrap();
+            let ones = DVector::from_element(n, 1.0);
+            let weight = ones.dot(&(&inverse * &ones));
+            let mean = ones.dot(&(&inverse * &measured)) / weight;
+            let rest = measured.add_scalar(-mean);
+            weight.ln() - inverse.determinant().ln() + rest.dot(&(&inverse * &rest))
+        };
+        let k = |q: f64| DMatrix::from_fn(n, n, |i, j| q * (i.min(j) as f64 + 0.5));
+        let none = k(0.0);
+        for q in [0.01, 0.1, 1.0] {
+            let by_direct = direct(&k(q)) - direct(&none);
+            assert!((likelihood.at(&k(q)) - likelihood.at(&none) - by_direct).abs() < 1e-9, "{q}");
+        }
+        assert!(likelihood.at(&none).abs() < 1e-12);
+    }
+}

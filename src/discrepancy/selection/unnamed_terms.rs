@@ -6,7 +6,7 @@ use crate::discrepancy::estimation::unexplained::{is_wanted, remains};
 use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
 use crate::discrepancy::localisation::constraint_residuals::reduction;
 use crate::discrepancy::selection::search::still_open;
-use crate::effects::Applied;
+use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::effect_equation::is_term;
 use crate::progress::{OnProgress, Stage, begin};
@@ -84,6 +84,9 @@ pub(crate) fn without_fallen(
         return Ok(None);
     };
     let named = SearchState { candidates: standing.candidates.clone(), ..SearchState::from(&bare) };
+    // Where names imitated a law it is that one which is asked for, and no other name.
+    let none: Vec<Effect> = vec![];
+    let selection = &Search { library: if imitated { &none } else { selection.library }, ..*selection };
     let found = search(selection, &named, fallen, progress)?;
     let n = found.as_ref().map_or(0.0, |f| f.fit.sample_size).max(fit.sample_size);
     Ok(found.filter(|found| bic(&found.fit, n) < bic(fit, n)))

@@ -13,6 +13,9 @@
 //! | K = q·C | covariance of the walk; each run walks by itself |
 //! | c | mean, without a prior |
 //! | q | variance of its steps a second |
+//!
+//! What moves from one block to the next by more than a block tells is no walk that these data show: a law that is not the
+//! effect's, asked block by block, looks like that. So only walks are found that are slow beside what the blocks tell.
 
 use super::cross_validation::Along;
 use super::scope_scan::{BlockScores, Blocks};
@@ -23,6 +26,7 @@ use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::estimation::unexplained::remaining;
 use crate::discrepancy::estimation::variance_components::deviance;
+use crate::discrepancy::record::local_polynomial::median;
 use crate::discrepancy::shooting::window_integration::linearise;
 use crate::effects::Applied;
 use crate::error::Result;
@@ -54,6 +58,13 @@ struct Likelihood {
 }
 
 impl Likelihood {
+    /// The deviation of the value that the middle one of the blocks tells alone.
+    fn told_by_block(&self) -> Option<f64> {
+        let mut each: Vec<f64> =
+            self.information.diagonal().iter().filter(|a| **a > 0.0).map(|a| a.sqrt().recip()).collect();
+        median(&mut each)
+    }
+
     /// With a walk of that covariance.
     fn at(&self, covariance: &DMatrix<f64>) -> f64 {
         let n = self.gradient.len();
@@ -98,7 +109,9 @@ impl Problem {
             }
         }
         let Some((reached, share, k, each)) = best else { return Ok(None) };
-        if share > LEFT || k == 0 || k + 1 == STEPS {
+        let is_slow = |told: f64| step(k) * (duration / blocks.count as f64).sqrt() < told;
+        let told = self.likelihood(fit, effect, &linear, &blocks, &fit.variances).and_then(|l| l.told_by_block());
+        if share > LEFT || k == 0 || k + 1 == STEPS || !told.is_some_and(is_slow) {
             return Ok(None);
         }
         // The curvature in ln √q at the lowest of the points.

@@ -39,6 +39,9 @@ pub fn says(refused: &Refused, roles: &[String]) -> String {
         Refusal::InputNoise => {
             format!("the steps or the noise of the inputs alone make such a {label}, so that is not named")
         }
+        Refusal::NotBorneOut => {
+            format!("held-out runs are predicted no better with {label}, and something remains, so that is not named")
+        }
         Refusal::HeldOut(growth) => format!("held-out runs refute {label}: {}", grows(growth, "it")),
         Refusal::HeldOutTogether(growth) => {
             format!(

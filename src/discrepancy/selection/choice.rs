@@ -46,6 +46,8 @@ pub enum Refusal {
     },
     /// The noise of the inputs makes as much of nothing.
     InputNoise,
+    /// Beside a rest it is worth little, and held-out runs are predicted no better with it.
+    NotBorneOut,
     /// Held-out runs are predicted worse with it.
     HeldOut(Growth),
     /// Held-out runs are predicted worse with all that was found, and it is worth least of that.
@@ -101,7 +103,7 @@ pub struct Refused {
 impl Refusal {
     /// Whether held-out runs are the reason.
     pub fn is_held_out(&self) -> bool {
-        matches!(self, Self::HeldOut(_) | Self::HeldOutTogether(_))
+        matches!(self, Self::NotBorneOut | Self::HeldOut(_) | Self::HeldOutTogether(_))
     }
 }
 

@@ -4,11 +4,16 @@ use super::search::{MOST, Search, SearchState, forget};
 use super::transients;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
+use crate::discrepancy::estimation::unexplained::remains;
 use crate::discrepancy::selection::choice::{Growth, Refusal, Refused, Selected, SelectedEffect};
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::Model;
 use crate::progress::OnProgress;
+
+/// Beside a rest an effect that not every vehicle has and that is worth less than so many times its price must help the
+/// held-out runs: it may imitate a part of the rest.
+const WEAK: f64 = 3.0;
 
 /// Held-out runs.
 pub(crate) trait HeldOut {
@@ -70,7 +75,13 @@ fn next(
     for c in chosen {
         let Some(smaller) = search.without(fit, &c.applied)? else { continue };
         let gaps = held_out.gaps(&fit.model, &smaller.model)?;
-        let Some(growth) = most_grown(&gaps) else { continue };
+        let Some(growth) = most_grown(&gaps) else {
+            let is_weak = !c.applied.effect.basic && c.delta_bic < WEAK * search.margin();
+            if is_weak && remains(fit) && !gaps.iter().any(Growth::shrinks) {
+                return Ok(Some((c.applied.clone(), Refusal::NotBorneOut, smaller)));
+            }
+            continue;
+        };
         let (factor, why) = (growth.factor(), Refusal::HeldOut(growth));
         if worst.as_ref().is_none_or(|(f, ..)| factor > *f) {
             worst = Some((factor, c.applied.clone(), why, smaller));

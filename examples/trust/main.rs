@@ -34,6 +34,9 @@ struct Arguments {
     /// Runs with something hidden; one in six hides a pair
     #[arg(long, default_value_t = 900)]
     effects: u64,
+    /// Runs in which one effect begins at a time, or holds for a time
+    #[arg(long, default_value_t = 200)]
+    in_part: u64,
     /// Runs of 60 s at 50 Hz whose time is measured, one after another
     #[arg(long, default_value_t = 60)]
     timed: u64,
@@ -63,6 +66,7 @@ fn main() -> std::io::Result<()> {
     let seeds: Vec<u64> =
         [(Kind::Nothing, arguments.null), pairs_apart(arguments.effects, false), pairs_apart(arguments.effects, true)]
             .into_iter()
+            .chain([(Kind::InPart, arguments.in_part)])
             .flat_map(|(kind, n)| chosen(&arguments, kind, n))
             .collect();
     let mut outcomes = workers::all(&seeds, arguments.threads, &|done| say(done, seeds.len()));

@@ -2,6 +2,7 @@
 
 use crate::interval::Share;
 use crate::rows::{hidden_text, target_text};
+use crate::suite::judgement::Answer;
 use crate::tally::{Groups, SILENCE, Tally, UNNAMED, times};
 use crate::workers::Outcome;
 use std::fmt::Write as _;
@@ -13,6 +14,7 @@ pub fn text(tally: &Tally, outcomes: &[Outcome]) -> String {
     line("false alarms", &tally.false_alarms);
     line("one effect, named rightly", &tally.singles);
     line("two effects, both named rightly", &tally.pairs);
+    line("one in part, named with its time", &tally.in_part);
     line("95 % intervals that hold the truth", &tally.coverage);
     line("named though the data hardly tell", &tally.undetermined);
     if tally.coverage.n > 0 {
@@ -28,11 +30,22 @@ pub fn text(tally: &Tally, outcomes: &[Outcome]) -> String {
             "60 s at 50 Hz, one core"
         );
     }
+    out += &answers(tally);
     out += &section("False alarms by", &tally.false_alarms_by);
     out += &section("Names right by", &tally.names_by);
     out += &section("Coverage by", &tally.coverage_by);
     out += &confusion(tally);
     out + &failures(outcomes)
+}
+
+/// Right, class, honest rest, wrong: the columns that matter.
+fn answers(tally: &Tally) -> String {
+    let heads = Answer::ALL.map(|(_, name)| format!("{name:>12}")).concat();
+    let row = |(kind, of): (&String, &std::collections::BTreeMap<Answer, u64>)| {
+        let cells = Answer::ALL.map(|(answer, _)| format!("{:>12}", of.get(&answer).copied().unwrap_or(0)));
+        format!("  {kind:10}{}\n", cells.concat())
+    };
+    format!("\nAnswers {:4}{heads}\n{}", "", tally.answers.iter().map(row).collect::<String>())
 }
 
 fn section(title: &str, groups: &Groups) -> String {

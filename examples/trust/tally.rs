@@ -1,8 +1,10 @@
 //! Outcomes counted.
 
 use crate::interval::Share;
+use crate::simulator::InputLog;
 use crate::suite::case::Kind;
 use crate::suite::class;
+use crate::suite::judgement::Answer;
 use crate::suite::make::Target;
 use crate::suite::secret;
 use crate::workers::Outcome;
@@ -28,8 +30,12 @@ pub struct Tally {
     pub singles: Share,
     /// The same, pairs.
     pub pairs: Share,
+    /// The same, one effect that begins or holds for a time, its time right as well.
+    pub in_part: Share,
     /// The same by class of effect and by vehicle.
     pub names_by: Groups,
+    /// What answers are to their readers where the data determine them: kind → answer → cases.
+    pub answers: BTreeMap<String, BTreeMap<Answer, u64>>,
     /// All names right where the data do not determine them.
     pub undetermined: Share,
     /// Of those answers to undetermined data that are not right, the ones the data excuse.
@@ -81,9 +87,15 @@ fn noise_text(position: f64) -> String {
 /// The groups a case belongs to, its effects left out.
 fn groups(o: &Outcome) -> Vec<String> {
     let s = &o.case.scenario;
+    let exact = InputLog::default();
+    let inputs = match s.inputs {
+        inputs if inputs == exact => "inputs exact",
+        inputs if inputs.noise > 0.0 => "inputs with noise",
+        _ => "inputs in steps",
+    };
     let errors = if s.outliers.share > 0.0 { "with gross errors" } else { "without gross errors" };
     let drive = format!("drive {}", o.case.drive.name());
-    vec![o.case.make.name.into(), noise_text(s.noise.position), drive, errors.into()]
+    vec![o.case.make.name.into(), noise_text(s.noise.position), drive, errors.into(), inputs.into()]
 }
 
 impl Tally {
@@ -110,6 +122,10 @@ impl Tally {
 
     fn something_hidden(&mut self, o: &Outcome) {
         let right = o.judgement.right;
+        if o.case.determined() {
+            let answer = o.judgement.answer.unwrap_or(Answer::Wrong);
+            *self.answers.entry(o.case.kind.name().into()).or_default().entry(answer).or_default() += 1;
+        }
         if !o.case.determined() {
             self.undetermined.count(right);
             if !right {
@@ -117,11 +133,10 @@ impl Tally {
             }
             return;
         }
-        let pair = o.case.scenario.hidden.len() > 1;
-        if pair {
-            self.pairs.count(right)
-        } else {
-            self.singles.count(right)
+        match o.case.kind {
+            Kind::InPart => self.in_part.count(right),
+            _ if o.case.scenario.hidden.len() > 1 => self.pairs.count(right),
+            _ => self.singles.count(right),
         }
         let effects = o.case.scenario.hidden.iter().map(|h| class_text(secret::target(h)));
         effects.chain(groups(o)).for_each(|g| count(&mut self.names_by, g, right));

@@ -72,7 +72,51 @@ fn what_moves_with_time_is_named_with_its_course() {
     let (report, _) = answer(UNICYCLE, &effect("yaw-rate-bias", bias), 5);
     let [one] = &report.effects[..] else { panic!("{}", report.summary) };
     let course = one.parameters["bias"].course.clone().unwrap();
-    assert!(one.id == "yaw-rate-bias" && (course.per_s - 5e-4).abs() < 3e-5, "{}: {course:?}", report.summary);
+    assert!(one.id == "yaw-rate-bias" && (course.per_s.unwrap() - 5e-4).abs() < 3e-5, "{}: {course:?}", report.summary);
+}
+
+/// Runs of one clock in which it moves alike share their course; where it moves to either side they do not.
+#[test]
+fn runs_of_one_clock_share_a_course() {
+    let runs = |rates: [f64; 2]| {
+        let one = |(rate, seed): (f64, u64)| {
+            let bias = format!("bias = 0.002\ncourse = {{ kind = \"linear\", per_s = {rate:?} }}");
+            driven(UNICYCLE, &effect("yaw-rate-bias", &bias), 2e-3, seed)
+        };
+        let runs = [one((rates[0], 21)), one((rates[1], 22))];
+        creepage::discover(&Model::parse(UNICYCLE).unwrap(), &runs).unwrap().report
+    };
+    let courses = |report: &Report| {
+        let all = report.effects.iter().flat_map(|e| e.parameters.values());
+        all.filter_map(|p| p.course.as_ref()?.per_s).collect::<Vec<f64>>()
+    };
+    let alike = runs([5e-4, 5e-4]);
+    let [per_s] = courses(&alike)[..] else { panic!("{}", alike.summary) };
+    assert!((per_s - 5e-4).abs() < 3e-5, "{}: {per_s}", alike.summary);
+    let apart = runs([5e-4, -5e-4]);
+    assert!(courses(&apart).is_empty(), "{}", apart.summary);
+}
+
+/// The bias of a gyroscope that walks, with a deviation of 0.001 rad/s over a second.
+#[test]
+fn a_bias_that_walks_is_named_with_its_walk() {
+    let mut run = driven(UNICYCLE, "", 2e-3, 31);
+    let mut random = ChaCha8Rng::seed_from_u64(32);
+    let rate = run.roles.iter().position(|r| r == "yaw_rate").unwrap();
+    let mut bias = 0.02;
+    for value in &mut run.inputs[rate] {
+        *value -= bias;
+        bias += 1e-3 * 0.05_f64.sqrt() * (0..12).map(|_| random.random_range(-0.5..0.5)).sum::<f64>();
+    }
+    let found = creepage::discover(&Model::parse(UNICYCLE).unwrap(), &[run]).unwrap();
+    let [one] = &found.report.effects[..] else { panic!("{}", found.report.summary) };
+    let course = one.parameters["bias"].course.clone().unwrap();
+    let walk = course.per_sqrt_s.unwrap();
+    assert_eq!((one.id.as_str(), course.kind.as_str()), ("yaw-rate-bias", "random-walk"), "{}", found.report.summary);
+    assert!((5e-4..2e-3).contains(&walk) && course.std.is_some_and(|std| std < walk), "{course:?}");
+    let text = found.model.text();
+    assert!(text.contains("course = { kind = \"random-walk\", parameter = \"bias\", per_sqrt_s = "), "{text}");
+    assert!(Model::parse(text).is_ok());
 }
 
 #[test]

@@ -169,16 +169,20 @@ impl Body {
         let Facing { forward, side, .. } = *facing;
         let (speed, turn) = self.asked_of_wheels(t);
         let centre = Plane::zeros();
-        let ground = self.axle_speed(speed);
+        let downhill = self.laws.downhill(facing.heading);
+        let ground = self.axle_speed(speed) + downhill;
         match self.tractor {
             Tractor::Unicycle => {
-                let yaw = turn * self.laws.yaw.0 + self.laws.yaw.1;
+                let (yaw_per_speed, speed_per_yaw) = self.laws.odometry;
+                let yaw = turn * self.laws.yaw.0 + self.laws.yaw.1 + yaw_per_speed * speed;
+                let ground = ground + speed_per_yaw * turn;
                 (Contact::new(centre, forward, ground), Contact::turning(yaw))
             }
             Tractor::DifferentialDrive => {
                 let rim = 0.5 * self.nominal.track_width * turn;
                 let (left, right) = self.laws.ground_speed(speed - rim, speed + rim);
                 let reach = side * (0.5 * self.nominal.track_width * self.laws.track);
+                let [left, right] = [left, right].map(|speed| speed + downhill);
                 (Contact::new(reach, forward, left), Contact::new(-reach, forward, right))
             }
             Tractor::Car | Tractor::FourWheelCar => {

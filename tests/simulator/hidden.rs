@@ -47,6 +47,14 @@ pub enum Hidden {
     Drift { vx: f64, vy: f64 },
     /// `v_t` gains `rate·sin(direction − heading)`, rate in m/s and direction in rad.
     SideSlope { rate: f64, direction: f64 },
+    /// True yaw rate = logged + k·speed, k in rad/m.
+    OdometryYawPerSpeed { k: f64 },
+    /// True speed = logged + k·yaw rate, k in m/rad.
+    OdometrySpeedPerYaw { k: f64 },
+    /// `v_l` gains `rate·cos(direction − heading)`, rate in m/s and direction in rad.
+    Grade { rate: f64, direction: f64 },
+    /// `v_t = −limit·tanh(c·v_l·yaw/limit)`, c in s and limit in m/s.
+    SaturatingCreep { c: f64, limit: f64 },
     /// The lateral speed of trailer `trailer` (1 = nearest) is e_tc times its own forward speed.
     TrailerTraverseCreep { trailer: usize, e_tc: f64 },
     /// True length of a trailer = nominal·(1 + scale).
@@ -89,6 +97,10 @@ impl Hidden {
             Hidden::LeverArm { .. } => "lever-arm",
             Hidden::Drift { .. } => "drift",
             Hidden::SideSlope { .. } => "side-slope",
+            Hidden::OdometryYawPerSpeed { .. } => "odometry-yaw-per-speed",
+            Hidden::OdometrySpeedPerYaw { .. } => "odometry-speed-per-yaw",
+            Hidden::Grade { .. } => "grade",
+            Hidden::SaturatingCreep { .. } => "saturating-creep",
             Hidden::TrailerTraverseCreep { .. } => "trailer-traverse-creep",
             Hidden::TrailerLength { .. } => "trailer-length",
             Hidden::HitchOffset { .. } => "hitch-offset",
@@ -127,7 +139,11 @@ impl Hidden {
             Hidden::InputDelay { delay } => vec![("delay", delay)],
             Hidden::LeverArm { a, b } => vec![("a", a), ("b", b)],
             Hidden::Drift { vx, vy } => vec![("vx", vx), ("vy", vy)],
-            Hidden::SideSlope { rate, direction } => vec![("rate", rate), ("direction", direction)],
+            Hidden::OdometryYawPerSpeed { k } | Hidden::OdometrySpeedPerYaw { k } => vec![("k", k)],
+            Hidden::SaturatingCreep { c, limit } => vec![("c", c), ("limit", limit)],
+            Hidden::SideSlope { rate, direction } | Hidden::Grade { rate, direction } => {
+                vec![("rate", rate), ("direction", direction)]
+            }
             Hidden::TrailerTraverseCreep { trailer, e_tc } => {
                 vec![("trailer", trailer as f64), ("e_tc", e_tc)]
             }

@@ -28,6 +28,12 @@ pub struct Laws {
     pub per_yaw_square: f64,
     /// Lateral slip per v_l·yaw in left turns, s.
     pub per_left_turn: f64,
+    /// Yaw rate per speed, rad/m, and speed per yaw rate, m/rad, behind a logged speed and yaw rate.
+    pub odometry: (f64, f64),
+    /// Slope along the way: rate (m/s) and direction (rad).
+    pub grade: (f64, f64),
+    /// Lateral slip per v_l·yaw (s), and the speed that it does not exceed (m/s).
+    pub saturating: Option<(f64, f64)>,
     /// Side slope: rate (m/s) and direction (rad).
     pub slope: (f64, f64),
     /// Ground velocity, m/s.
@@ -70,6 +76,9 @@ impl Laws {
             per_load: 0.0,
             per_yaw_square: 0.0,
             per_left_turn: 0.0,
+            odometry: (0.0, 0.0),
+            grade: (0.0, 0.0),
+            saturating: None,
             slope: (0.0, 0.0),
             drift: (0.0, 0.0),
             yaw: (1.0, 0.0),
@@ -102,6 +111,10 @@ impl Laws {
             Hidden::LoadDependentCreep { c } => self.per_load = c,
             Hidden::YawSquareSlip { q } => self.per_yaw_square = q,
             Hidden::LeftTurnSlip { q } => self.per_left_turn = q,
+            Hidden::OdometryYawPerSpeed { k } => self.odometry.0 = k,
+            Hidden::OdometrySpeedPerYaw { k } => self.odometry.1 = k,
+            Hidden::Grade { rate, direction } => self.grade = (rate, direction),
+            Hidden::SaturatingCreep { c, limit } => self.saturating = Some((c, limit)),
             Hidden::SideSlope { rate, direction } => self.slope = (rate, direction),
             Hidden::Drift { vx, vy } => self.drift = (vx, vy),
             Hidden::YawRateBias { bias } => self.yaw.1 = bias,
@@ -144,6 +157,12 @@ impl Laws {
         in_time.chain(in_length).fold(usual, f64::min)
     }
 
+    /// What gravity adds to the speed along a heading (rad), m/s.
+    pub fn downhill(&self, heading: f64) -> f64 {
+        let (rate, direction) = self.grade;
+        if rate == 0.0 { 0.0 } else { rate * (direction - heading).cos() }
+    }
+
     /// The true steering angle (rad) for the logged one.
     pub fn steered(&self, logged: f64) -> f64 {
         let (gain, offset, cubic) = self.steering;
@@ -154,7 +173,9 @@ impl Laws {
     pub fn slip(&self, v_l: f64, yaw: f64, heading: f64) -> f64 {
         let (rate, direction) = self.slope;
         let downhill = if rate == 0.0 { 0.0 } else { rate * (direction - heading).sin() };
+        let limited = self.saturating.map_or(0.0, |(c, limit)| limit * (c * v_l * yaw / limit).tanh());
         downhill
+            - limited
             - self.per_load * v_l * v_l * yaw
             - self.per_yaw_square * yaw * yaw.abs()
             - self.per_left_turn * v_l * yaw.max(0.0)

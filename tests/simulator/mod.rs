@@ -19,6 +19,7 @@ mod body;
 mod contact;
 mod gauss;
 mod hidden;
+mod input_log;
 mod lately;
 mod laws;
 mod log;
@@ -32,6 +33,7 @@ mod vehicle;
 
 pub use gauss::advance;
 pub use hidden::Hidden;
+pub use input_log::InputLog;
 pub use log::{Log, Truth};
 pub use profile::Profile;
 pub use scenario::{Scenario, Timing};

@@ -4,6 +4,7 @@ use super::body::{Body, HEADING, TRAILERS};
 use super::contact::Facing;
 use super::gauss::advance;
 use super::hidden::Hidden;
+use super::input_log::{InputLog, InputLogger};
 use super::lately::Lately;
 use super::laws::Laws;
 use super::log::{Log, Truth};
@@ -32,6 +33,8 @@ pub struct Scenario {
     pub parameters: Parameters,
     /// What it really does beyond the ideal.
     pub hidden: Vec<Hidden>,
+    /// When what is hidden holds, [from, to) in s; always where there is none. For laws without a state of their own.
+    pub span: Option<[f64; 2]>,
     /// Speed and turn over time.
     pub profile: Profile,
     /// Whether inputs are samples or means.
@@ -52,6 +55,8 @@ pub struct Scenario {
     pub noise: Noise,
     /// Gross errors of the measured position.
     pub outliers: Outliers,
+    /// Steps and noise of the inputs.
+    pub inputs: InputLog,
     /// Spans [from, to) in s without rows.
     pub gaps: Vec<(f64, f64)>,
     /// Share of single rows lost, 0 to 1.
@@ -80,6 +85,7 @@ impl Scenario {
         Scenario {
             parameters: Parameters::usual(vehicle.tractor()),
             hidden: vec![],
+            span: None,
             profile,
             timing: Timing::Sample,
             logs_speed: false,
@@ -90,6 +96,7 @@ impl Scenario {
             mounting: Mounting::default(),
             noise: Noise::default(),
             outliers: Outliers::default(),
+            inputs: InputLog::default(),
             gaps: vec![],
             dropouts: 0.0,
             jitter: 0.0,
@@ -118,28 +125,27 @@ impl Scenario {
 
     /// Drives and logs.
     pub fn run(&self) -> Log {
-        let body = self.body();
+        let body = self.body(&self.hidden);
         let times = self.times();
         let truth = self.drive(&body, &times);
         let channels = self.channels();
         let mut random = stream(self.seed, 2);
+        let mut of_inputs = stream(self.seed, 3);
+        let mut logger = InputLogger::new(&channels, self.inputs, &mut of_inputs);
         let mut before = -1.0 / self.rate;
         let mut rows = Vec::with_capacity(truth.len());
         for truth in &truth {
             let mut row = self.measured(&body, truth, &mut random);
-            row.extend(channels.iter().map(|channel| match self.timing {
-                Timing::Sample => channel.signal.value(truth.t),
-                Timing::IntervalMean => channel.signal.mean(before, truth.t),
-            }));
+            row.extend(logger.row([before, truth.t], self.timing == Timing::IntervalMean, &mut of_inputs));
             before = truth.t;
             rows.push(row);
         }
         Log { columns: self.columns(), rows, truth }
     }
 
-    /// The vehicle with its true dimensions and laws.
-    fn body(&self) -> Body {
-        let laws = Laws::new(&self.hidden, self.vehicle.trailers());
+    /// The vehicle with its true dimensions and some laws.
+    fn body(&self, hidden: &[Hidden]) -> Body {
+        let laws = Laws::new(hidden, self.vehicle.trailers());
         let trailers = match &self.vehicle {
             Vehicle::Alone(_) => vec![],
             Vehicle::NTrailer { lengths, hitch_offsets, .. } => (0..lengths.len())
@@ -182,7 +188,21 @@ impl Scenario {
 
     /// The true motion at the given times: a lead-in, a move to the start, then the run.
     fn drive(&self, body: &Body, times: &[f64]) -> Vec<Truth> {
-        let rates = |t: f64, state: &[f64]| body.rates(t, state);
+        let plain = self.body(&[]);
+        let [from, to] = self.span.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+        let acting = |t: f64| if (from..to).contains(&t) { body } else { &plain };
+        // From one edge to the next one law holds, and the scheme keeps its order.
+        let advanced = |mut state: Vec<f64>, since: f64, until: f64, step: f64| {
+            let mut now = since;
+            for end in [from, to, until] {
+                if end > now && end <= until {
+                    let of = acting(0.5 * (now + end));
+                    state = advance(&|t, state: &[f64]| of.rates(t, state), state, now, end, step);
+                    now = end;
+                }
+            }
+            state
+        };
         let mut behind = self.start[2];
         let headings: Vec<f64> = self
             .articulation
@@ -193,15 +213,15 @@ impl Scenario {
             })
             .collect();
         let step = body.laws.longest_step(self.step);
-        let began = body.at_rest_in(-self.lead_in, self.start, &headings);
-        let arrived = advance(&rates, began, -self.lead_in, 0.0, step);
+        let began = acting(-self.lead_in).at_rest_in(-self.lead_in, self.start, &headings);
+        let arrived = advanced(began, -self.lead_in, 0.0, step);
         let mut state = body.moved_to(&arrived, self.start);
         let mut now = 0.0;
         let mut truth = Vec::with_capacity(times.len());
         for &t in times {
-            state = advance(&rates, state, now, t, step);
+            state = advanced(state, now, t, step);
             now = t;
-            let pace = body.pace(t, &state);
+            let pace = acting(t).pace(t, &state);
             truth.push(Truth {
                 t,
                 x: state[0],

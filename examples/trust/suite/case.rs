@@ -2,7 +2,7 @@
 
 use super::drive::Drive;
 use super::logging;
-use super::make::{MAKES, Make, PAIRINGS, TARGETS, Target};
+use super::make::{MAKES, Make, PAIRINGS, TARGETS, Target, WITHOUT_STATE};
 use super::power::{Power, powers};
 use super::secret;
 use crate::simulator::{Hidden, Scenario};
@@ -20,11 +20,13 @@ pub enum Kind {
     Pair,
     /// How long it takes: 60 s at 50 Hz.
     Timed,
+    /// Whether one effect that begins, or holds for a time, is named with its time.
+    InPart,
 }
 
 impl Kind {
     /// All kinds; the place of one is the digit that stands for it in a seed.
-    pub const ALL: [Kind; 4] = [Kind::Nothing, Kind::Single, Kind::Pair, Kind::Timed];
+    pub const ALL: [Kind; 5] = [Kind::Nothing, Kind::Single, Kind::Pair, Kind::Timed, Kind::InPart];
 
     /// The name in tables.
     pub fn name(self) -> &'static str {
@@ -33,6 +35,7 @@ impl Kind {
             Kind::Single => "single",
             Kind::Pair => "pair",
             Kind::Timed => "timed",
+            Kind::InPart => "in part",
         }
     }
 }
@@ -77,6 +80,11 @@ impl Case {
             Kind::Nothing => (kind, index % MAKES.len(), vec![]),
             Kind::Timed if index.is_multiple_of(3) => (kind, index / 3 % MAKES.len(), vec![]),
             Kind::Single | Kind::Timed => (kind, make, vec![target]),
+            Kind::InPart => {
+                let some = &*WITHOUT_STATE;
+                let (make, target) = some[index * 89 % some.len()];
+                (kind, make, vec![target])
+            }
             Kind::Pair => {
                 let targets = &TARGETS[make];
                 let mut random = stream(seed, 1);
@@ -131,6 +139,14 @@ impl Case {
         };
         logging::draw(&mut scenario, kind == Kind::Timed, &mut random);
         let tells_noise = random.random_bool(0.2);
+        match kind {
+            Kind::Nothing => logging::draw_inputs(&mut scenario, &make, &mut random),
+            Kind::InPart => {
+                scenario.duration = scenario.duration.max(logging::LONG);
+                scenario.span = Some(logging::span(&scenario, &mut random));
+            }
+            _ => {}
+        }
         (Case { seed, kind, make, drive, scenario, tells_noise, powers: vec![] }, &TARGETS[index])
     }
 

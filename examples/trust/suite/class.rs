@@ -43,7 +43,9 @@ pub fn converted(id: &str, name: &str, value: f64) -> (&'static str, f64, f64) {
 
 /// The parameters of the contract by their lasting names.
 fn plain(name: &str) -> &'static str {
-    const NAMES: [&str; 18] = [
+    const NAMES: [&str; 20] = [
+        "k",
+        "limit",
         "e_rc",
         "e_tc",
         "e_left",

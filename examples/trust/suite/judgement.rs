@@ -56,6 +56,8 @@ pub struct Judgement {
     pub unnamed: bool,
     /// Whether verdict and names are all right.
     pub right: bool,
+    /// What the answer is to its reader; wrong where there is none.
+    pub answer: Option<Answer>,
     /// Whether the data excuse a wrong answer: they do not show the effect, or not apart from what was named.
     pub excused: bool,
     /// Parameters of the effects named by the right name.
@@ -81,11 +83,16 @@ fn judged(case: &Case, report: &Report) -> Judgement {
     let named: Vec<Target> = report.effects.iter().map(target).collect();
     let mut left: Vec<usize> = (0..named.len()).collect();
     let mut parameters = Vec::new();
+    let mut by_class = false;
     let mut found = Vec::new();
+    let in_time = |named: &Named| case.scenario.span.is_none_or(|span| begins(named, span));
     for hidden in &case.scenario.hidden {
         let wanted = secret::target(hidden);
-        let by_name = left.iter().position(|i| class::same(named[*i], wanted));
-        let hit = by_name.or_else(|| left.iter().position(|i| listed(&report.effects[*i], wanted)));
+        let timed = |i: &usize| in_time(&report.effects[*i]);
+        let by_name = left.iter().position(|i| class::same(named[*i], wanted) && timed(i));
+        let by_rival = || left.iter().position(|i| listed(&report.effects[*i], wanted) && timed(i));
+        let hit = by_name.or_else(by_rival);
+        by_class |= hit.is_some() && by_name.is_none();
         found.push(hit.is_some());
         let hit = hit.map(|at| left.remove(at));
         if let Some(hit) = hit.filter(|_| by_name.is_some()) {
@@ -107,6 +114,13 @@ fn judged(case: &Case, report: &Report) -> Judgement {
     };
     let right = fits && extra.is_empty() && found.iter().all(|f| *f);
     let excused = !right && excused(case, &found, &extra);
+    let is_silent = report.verdict == Verdict::NoMissingEffect && !nothing;
+    let answer = match right {
+        true if by_class => Answer::Class,
+        true => Answer::Right,
+        false if extra.is_empty() && !is_silent && !(nothing && unnamed) => Answer::HonestRest,
+        false => Answer::Wrong,
+    };
     let ratio = |pick: fn(&Gap) -> Option<f64>| [1.0, 5.0].map(|h| at(report, h).and_then(pick));
     Judgement {
         verdict: verdict(report.verdict).into(),
@@ -115,11 +129,51 @@ fn judged(case: &Case, report: &Report) -> Judgement {
         extra,
         unnamed,
         right,
+        answer: Some(answer),
         excused,
         parameters,
         gap_over_floor: ratio(|g| Some(g.held_out?.position_rms_after / g.noise_floor.position_rms)),
         gap_before: ratio(|g| Some(g.held_out?.position_rms_before / g.noise_floor.position_rms)),
     }
+}
+
+/// Seconds by which a beginning or an end may be off.
+const OFF: f64 = 3.0;
+
+/// Whether a named effect begins when the hidden one does, and ends then.
+fn begins(named: &Named, [from, to]: [f64; 2]) -> bool {
+    let near = |found: Option<f64>, truth: f64| match found {
+        Some(t) => (t - truth).abs() < OFF,
+        None => truth.is_infinite(),
+    };
+    let one = |begin: Option<f64>, end: Option<f64>| near(begin, from) && near(end, to);
+    named.scope.as_ref().is_some_and(|s| match &s.intervals[..] {
+        [] => one(s.from, s.until),
+        all => all.iter().any(|[begin, end]| one(Some(*begin), Some(*end).filter(|t| t.is_finite()))),
+    })
+}
+
+/// What an answer is to its reader.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+pub enum Answer {
+    /// All that is hidden is named, and nothing else.
+    Right,
+    /// A name of the same class stands in the list of what is not told from it.
+    Class,
+    /// Nothing that is not there is named; something remains or is left open.
+    HonestRest,
+    /// Something is named, or called a law, that is not there; or nothing is said though something is there.
+    Wrong,
+}
+
+impl Answer {
+    /// All, as columns of a table.
+    pub const ALL: [(Answer, &'static str); 4] = [
+        (Answer::Right, "right"),
+        (Answer::Class, "class"),
+        (Answer::HonestRest, "honest rest"),
+        (Answer::Wrong, "wrong"),
+    ];
 }
 
 /// The library's own name of a verdict.

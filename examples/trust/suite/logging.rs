@@ -1,6 +1,7 @@
 //! How a run is logged: rate, noise, gaps, jitter, wrapped angles, gross errors.
 
-use crate::simulator::{Mounting, Noise, Outliers, Scenario, Timing};
+use super::make::Make;
+use crate::simulator::{InputLog, Mounting, Noise, Outliers, Scenario, Timing, Tractor};
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 
@@ -9,6 +10,10 @@ const POSITION: (f64, f64) = (1e-4, 5e-2);
 const HEADING: (f64, f64) = (1e-4, 2e-2);
 /// Rows per second, Hz.
 const RATE: (f64, f64) = (10.0, 100.0);
+/// The share of a run that is fitted.
+const FITTED: f64 = 0.75;
+/// Length of a run, s; of one in which something begins it is half as long at least.
+pub const LONG: f64 = 60.0;
 /// Length of a run, s.
 const DURATION: (f64, f64) = (20.0, 120.0);
 
@@ -29,6 +34,44 @@ pub fn draw(scenario: &mut Scenario, timed: bool, random: &mut ChaCha8Rng) {
         let mut some = |most: f64| random.random_range(-most..most);
         scenario.mounting = Mounting { lever_arm: [some(0.3), some(0.2)], heading_offset: some(0.2) };
     }
+}
+
+/// Ticks of a wheel's encoder for each turn.
+const TICKS: (f64, f64) = (20.0, 4000.0);
+/// Steps and noise of a steering angle, rad, and of a gyroscope, rad/s.
+const STEERING_STEP: (f64, f64) = (1e-3, 3e-2);
+const STEERING_NOISE: (f64, f64) = (1e-4, 5e-3);
+const GYRO_STEP: (f64, f64) = (1e-4, 2e-2);
+const GYRO_NOISE: (f64, f64) = (1e-4, 2e-2);
+
+/// Draws inputs that come in steps or with noise, for one run in three.
+pub fn draw_inputs(scenario: &mut Scenario, make: &Make, random: &mut ChaCha8Rng) {
+    if !random.random_bool(1.0 / 3.0) {
+        return;
+    }
+    let turns_by_wheels = make.tractor == Tractor::DifferentialDrive;
+    let (step, noise) =
+        if make.tractor.is_steered() { (STEERING_STEP, STEERING_NOISE) } else { (GYRO_STEP, GYRO_NOISE) };
+    // An encoder counts between rows; whoever logs its counts says so.
+    if turns_by_wheels || !make.by_speed && random.random_bool(0.5) {
+        scenario.inputs.tick = std::f64::consts::TAU / octaves(TICKS, random);
+        scenario.timing = Timing::IntervalMean;
+    }
+    if turns_by_wheels || scenario.inputs != InputLog::default() && random.random_bool(0.5) {
+        return;
+    }
+    match random.random_bool(0.5) {
+        true => scenario.inputs.step = octaves(step, random),
+        false => scenario.inputs.noise = octaves(noise, random),
+    }
+}
+
+/// When what is hidden begins, or between which times it holds.
+pub fn span(scenario: &Scenario, random: &mut ChaCha8Rng) -> [f64; 2] {
+    let fitted = FITTED * scenario.duration;
+    let begins = fitted * random.random_range(0.25..0.6);
+    let ends = if random.random_bool(0.5) { f64::INFINITY } else { begins + fitted * random.random_range(0.25..0.35) };
+    [begins, ends]
 }
 
 /// One or two stretches of 0.7 to 4 s without rows, well inside the run.

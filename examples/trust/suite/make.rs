@@ -93,7 +93,9 @@ impl Make {
         let first = model.applicable(effects::all()).into_iter().filter(|(e, _)| e.limit.is_none());
         let applicable = first.map(|(e, trailer)| (e.id.as_str(), trailer));
         let simulated = applicable.filter(|(id, _)| super::secret::has_law(id));
-        simulated.filter(|(id, _)| self.heading || !self.is_a_start_heading(id)).collect()
+        // Gravity along the way acts on what the rear axle rolls; a driven front wheel shares it with the steering.
+        let is_along = |id: &str| id == "grade" && self.tractor == Tractor::Tricycle;
+        simulated.filter(|(id, _)| (self.heading || !self.is_a_start_heading(id)) && !is_along(id)).collect()
     }
 
     /// Without a measured heading these effects are the same as another heading at the start.
@@ -108,4 +110,33 @@ pub static TARGETS: LazyLock<Vec<Vec<Target>>> = LazyLock::new(|| MAKES.iter().m
 /// Every make with every target.
 pub static PAIRINGS: LazyLock<Vec<(usize, Target)>> = LazyLock::new(|| {
     TARGETS.iter().enumerate().flat_map(|(m, targets)| targets.iter().map(move |t| (m, *t))).collect()
+});
+
+/// Effects that act at once, on the motion and not on what is measured: they can begin and end.
+const ACT_AT_ONCE: [&str; 19] = [
+    "odometry-yaw-per-speed",
+    "odometry-speed-per-yaw",
+    "grade",
+    "saturating-creep",
+    "rotation-creep",
+    "wheel-radius",
+    "traverse-creep",
+    "front-traverse-creep",
+    "load-dependent-creep",
+    "yaw-rate-bias",
+    "yaw-rate-scale",
+    "track-width",
+    "wheel-radius-mismatch",
+    "steering-offset",
+    "steering-gain",
+    "understeer",
+    "wheelbase",
+    "drift",
+    "side-slope",
+];
+
+/// Every make without trailers with every target that can begin and end.
+pub static WITHOUT_STATE: LazyLock<Vec<(usize, Target)>> = LazyLock::new(|| {
+    let some = PAIRINGS.iter().filter(|(make, (id, _))| MAKES[*make].trailers == 0 && ACT_AT_ONCE.contains(id));
+    some.copied().collect()
 });

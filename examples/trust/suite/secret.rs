@@ -39,6 +39,10 @@ pub fn made((id, trailer): Target, values: &[f64]) -> Hidden {
         "lever-arm" => Hidden::LeverArm { a: v, b: second },
         "drift" => Hidden::Drift { vx: v, vy: second },
         "side-slope" => Hidden::SideSlope { rate: v, direction: second },
+        "odometry-yaw-per-speed" => Hidden::OdometryYawPerSpeed { k: v },
+        "odometry-speed-per-yaw" => Hidden::OdometrySpeedPerYaw { k: v },
+        "grade" => Hidden::Grade { rate: v, direction: second },
+        "saturating-creep" => Hidden::SaturatingCreep { c: v, limit: second },
         "trailer-traverse-creep" => Hidden::TrailerTraverseCreep { trailer, e_tc: v },
         "trailer-length" => Hidden::TrailerLength { trailer, scale: v },
         "hitch-offset" => Hidden::HitchOffset { trailer, offset: v },
@@ -47,8 +51,7 @@ pub fn made((id, trailer): Target, values: &[f64]) -> Hidden {
 }
 
 /// Effects of the library that the simulator has no law for yet.
-const WITHOUT_LAW: [&str; 5] =
-    ["odometry-yaw-per-speed", "odometry-speed-per-yaw", "grade", "saturating-creep", "castor-swing"];
+const WITHOUT_LAW: [&str; 1] = ["castor-swing"];
 
 /// Whether the simulator can hide an effect.
 pub fn has_law(id: &str) -> bool {
@@ -115,7 +118,8 @@ pub fn probes(at: Target) -> Vec<Hidden> {
         // Their states follow at once or not at all; a plausible one is nearly linear, as it moves no heading.
         "traction-creep" | "cornering-creep" => vec![vec![sizes[0]]],
         "relaxation-length" => vec![vec![0.5 * sizes[0], SMALL * sizes[1]], vec![2.0 * sizes[0], SMALL * sizes[1]]],
-        "side-slope" => vec![vec![small, 0.0], vec![small, FRAC_PI_2]],
+        "saturating-creep" => vec![vec![small, sizes[1]]],
+        "side-slope" | "grade" => vec![vec![small, 0.0], vec![small, FRAC_PI_2]],
         _ if sizes.len() == 2 => vec![vec![small, 0.0], vec![0.0, SMALL * sizes[1]]],
         _ => vec![vec![small]],
     };

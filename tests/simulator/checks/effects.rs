@@ -52,6 +52,35 @@ fn every_lateral_effect_pushes_to_its_side() {
     let left = std::f64::consts::FRAC_PI_2;
     let slope = Hidden::SideSlope { rate: 0.1, direction: left };
     near(v_t(slope), 0.1, 1e-12);
+    near(v_t(Hidden::SaturatingCreep { c: 0.1, limit: 0.02 }), -0.02 * 2.5_f64.tanh(), 1e-12);
+}
+
+#[test]
+fn what_stands_behind_an_odometry_and_what_pulls_along_the_way() {
+    let scenario = Scenario { profile: Profile::constant(1.0, 0.5), ..short(Tractor::Unicycle, 15) };
+    let first = |hidden: Hidden| {
+        let log = hiding(&scenario, &[hidden]);
+        (log.truth[0].v_l, log.truth[0].yaw)
+    };
+    let (v, w) = first(Hidden::OdometryYawPerSpeed { k: 0.1 });
+    near(v, 1.0, 1e-12);
+    near(w, 0.6, 1e-12);
+    let (v, w) = first(Hidden::OdometrySpeedPerYaw { k: 0.1 });
+    near(v, 1.05, 1e-12);
+    near(w, 0.5, 1e-12);
+    let (v, _) = first(Hidden::Grade { rate: 0.1, direction: std::f64::consts::FRAC_PI_3 });
+    near(v, 1.05, 1e-12);
+}
+
+#[test]
+fn what_holds_for_a_time_holds_then_and_at_no_other() {
+    let scenario =
+        Scenario { span: Some([3.0, 5.0]), profile: Profile::constant(1.0, 0.0), ..short(Tractor::Unicycle, 15) };
+    let log = hiding(&scenario, &[Hidden::RotationCreep { e_rc: 0.1 }]);
+    for truth in &log.truth {
+        let slipped = 0.1 * (truth.t.clamp(3.0, 5.0) - 3.0);
+        near(truth.x, truth.t - slipped, 1e-9);
+    }
 }
 
 #[test]

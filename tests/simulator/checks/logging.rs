@@ -1,7 +1,7 @@
 //! What reaches the log: means, noise, lost rows, text.
 
 use super::{TRACTORS, last, near, short};
-use crate::simulator::{Hidden, Noise, Outliers, Profile, Scenario, Signal, Timing, Tractor};
+use crate::simulator::{Hidden, InputLog, Noise, Outliers, Profile, Scenario, Signal, Timing, Tractor};
 
 #[test]
 fn interval_means_add_up_to_the_distance_even_over_lost_rows() {
@@ -28,6 +28,29 @@ fn interval_means_add_up_to_the_distance_even_over_lost_rows() {
     let middle = to - from + middle * (phase(from) - phase(to));
     let turned = last(&log).heading - log.truth[0].heading;
     near(rolled, middle - 0.2 * turned, 1e-9);
+}
+
+/// Counts add up to the angle within a tick, whatever the rows.
+#[test]
+fn ticks_lose_nothing_and_steps_are_steps() {
+    let tick = 0.3;
+    let inputs = InputLog { tick, step: 0.01, noise: 0.0 };
+    let exact = Scenario { timing: Timing::IntervalMean, jitter: 0.4, ..short(Tractor::Unicycle, 19) };
+    let coarse = Scenario { inputs, ..exact.clone() };
+    let (exact, coarse) = (exact.run(), coarse.run());
+    let t = exact.column("t");
+    let (fine, counted) = (exact.column("theta_dot"), coarse.column("theta_dot"));
+    let mut angles = [0.0; 2];
+    for i in 1..t.len() {
+        let dt = t[i] - t[i - 1];
+        angles = [angles[0] + fine[i] * dt, angles[1] + counted[i] * dt];
+        assert!((angles[0] - angles[1]).abs() < tick + 1e-9, "{angles:?}");
+        near((counted[i] * dt / tick).fract().abs().min(1.0 - (counted[i] * dt / tick).fract().abs()), 0.0, 1e-6);
+    }
+    for (a, b) in exact.column("phi_dot").iter().zip(coarse.column("phi_dot")) {
+        assert!((a - b).abs() < 0.005 + 1e-9);
+        near((b / 0.01).round() * 0.01, b, 1e-12);
+    }
 }
 
 #[test]

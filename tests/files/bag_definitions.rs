@@ -76,38 +76,50 @@ impl Written {
     }
 }
 
-/// A bag whose wheels are recorded at every tenth of a second, and whose frames are told in messages of their own.
-fn bag(wheels: &str) -> Vec<u8> {
-    let mut bytes = std::io::Cursor::new(Vec::new());
-    let mut writer = mcap::Writer::new(&mut bytes).unwrap();
-    let mut channel = |topic: &str, (name, definition): (&str, &str)| {
-        let schema = writer.add_schema(name, "ros2msg", definition.as_bytes()).unwrap();
-        writer.add_channel(schema, topic, "cdr", &BTreeMap::new()).unwrap()
-    };
-    let (wheel, tf) = (channel("/wheels", (WHEELS.0, wheels)), channel("/tf", TF));
-    for i in 0..20u32 {
+/// What is recorded at every tenth of a second: topic (wheels, then frames), time in ns, message.
+fn recorded() -> Vec<(usize, u64, Vec<u8>)> {
+    let of_row = |i: u32| {
         let t = 0.1 * f64::from(i);
         let rates = Written::new().put([3]).put((t as f32).to_le_bytes()).put((0.5 * t as f32).to_le_bytes());
         let body = Written::new().u32(1).transform(i, "base_link", [t, 1.0 - t, 0.3 * t]);
         let arm = Written::new().u32(1).transform(i, "arm", [9.0; 3]);
-        for (channel_id, data) in [(wheel, rates.0), (tf, body.0), (tf, arm.0)] {
-            // What has no header was recorded when it happened, and frames a little later.
-            let log_time = 100_000_000 * u64::from(i) + if channel_id == tf { 30_000_000 } else { 0 };
-            let header = mcap::records::MessageHeader { channel_id, sequence: 0, log_time, publish_time: 0 };
-            writer.write_to_known_channel(&header, &data).unwrap();
-        }
+        // What has no header was recorded when it happened, and frames a little later.
+        let time = 100_000_000 * u64::from(i);
+        [(0, time, rates.0), (1, time + 30_000_000, body.0), (1, time + 30_000_000, arm.0)]
+    };
+    (0..20).flat_map(of_row).collect()
+}
+
+/// Topics of the messages, with the type and the definition of each.
+fn topics(wheels: &str) -> [(&'static str, &'static str, String); 2] {
+    [("/wheels", WHEELS.0, wheels.into()), ("/tf", TF.0, TF.1.into())]
+}
+
+/// A bag whose wheels are recorded at every tenth of a second, and whose frames are told in messages of their own.
+fn bag(wheels: &str) -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let mut writer = mcap::Writer::new(&mut bytes).unwrap();
+    let channels = topics(wheels).map(|(topic, name, definition)| {
+        let schema = writer.add_schema(name, "ros2msg", definition.as_bytes()).unwrap();
+        writer.add_channel(schema, topic, "cdr", &BTreeMap::new()).unwrap()
+    });
+    for (topic, log_time, data) in recorded() {
+        let header =
+            mcap::records::MessageHeader { channel_id: channels[topic], sequence: 0, log_time, publish_time: 0 };
+        writer.write_to_known_channel(&header, &data).unwrap();
     }
     writer.finish().unwrap();
     drop(writer);
     bytes.into_inner()
 }
 
+const MODEL: &str = "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 0.1\n[columns]\ntime = \"stamp\"\n\
+    x = \"/tf:base_link.transform.translation.x\"\ny = \"/tf:base_link.transform.translation.y\"\n\
+    heading = \"/tf:base_link.transform.rotation.yaw\"\n\
+    wheel_rate = \"/wheels:rates[0]\"\nyaw_rate = \"/wheels:rates[1]\"\n";
+
 fn read(wheels: &str) -> Result<Run> {
-    let text = "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 0.1\n[columns]\ntime = \"stamp\"\n\
-        x = \"/tf:base_link.transform.translation.x\"\ny = \"/tf:base_link.transform.translation.y\"\n\
-        heading = \"/tf:base_link.transform.rotation.yaw\"\n\
-        wheel_rate = \"/wheels:rates[0]\"\nyaw_rate = \"/wheels:rates[1]\"\n";
-    let model = ModelFile::parse(text, "model.toml", &model::known(effects::all())).unwrap();
+    let model = ModelFile::parse(MODEL, "model.toml", &model::known(effects::all())).unwrap();
     read_under_two_names("run.mcap", &bag(wheels), &model)
 }
 
@@ -131,5 +143,70 @@ fn a_definition_that_does_not_hold_leaves_its_topic_out() {
     for wrong in ["float64[9] rates\n", "wstring name\n", "Unknown rates\n", ""] {
         let error = read(wrong).unwrap_err().to_string();
         assert!(error.contains("column \"/wheels:rates[0]\""), "{wrong}: {error}");
+    }
+}
+
+/// The bag that recordings before MCAP are, with or without the table of definitions.
+#[cfg(feature = "db3")]
+mod in_sqlite {
+    use super::*;
+    use rusqlite::{Connection, params};
+
+    /// The bytes of a bag in SQLite.
+    fn bag(with_definitions: bool) -> Vec<u8> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run_0.db3");
+        let bag = Connection::open(&path).unwrap();
+        bag.execute_batch(
+            "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL,
+                serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL);
+             CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp INTEGER NOT NULL,
+                data BLOB NOT NULL);",
+        )
+        .unwrap();
+        if with_definitions {
+            bag.execute_batch(
+                "CREATE TABLE message_definitions(id INTEGER PRIMARY KEY, topic_type TEXT NOT NULL, encoding TEXT NOT NULL,
+                    encoded_message_definition TEXT NOT NULL, type_description_hash TEXT NOT NULL);",
+            )
+            .unwrap();
+        }
+        for (i, (topic, kind, definition)) in topics(WHEELS.1).into_iter().enumerate() {
+            let id = i as i64 + 1;
+            bag.execute("INSERT INTO topics VALUES (?1, ?2, ?3, 'cdr', '')", params![id, topic, kind]).unwrap();
+            if with_definitions {
+                let one = "INSERT INTO message_definitions VALUES (?1, ?2, 'ros2msg', ?3, '')";
+                bag.execute(one, params![id, kind, definition]).unwrap();
+            }
+        }
+        // Written in another order than that of their times.
+        for (topic, time, data) in recorded().into_iter().rev() {
+            let one = "INSERT INTO messages(topic_id, timestamp, data) VALUES (?1, ?2, ?3)";
+            bag.execute(one, params![topic as i64 + 1, time as i64, data]).unwrap();
+        }
+        drop(bag);
+        std::fs::read(path).unwrap()
+    }
+
+    fn read(bytes: &[u8]) -> Result<Run> {
+        let model = ModelFile::parse(MODEL, "model.toml", &model::known(effects::all())).unwrap();
+        read_under_two_names("run.db3", bytes, &model)
+    }
+
+    #[test]
+    fn a_bag_in_sqlite_is_read_as_one_in_mcap() {
+        let (here, there) = (read(&bag(true)).unwrap(), super::read(WHEELS.1).unwrap());
+        assert_eq!((&here.time, &here.x, &here.y, &here.heading), (&there.time, &there.x, &there.y, &there.heading));
+        assert_eq!(here.inputs, there.inputs);
+    }
+
+    #[test]
+    fn a_bag_without_definitions_says_what_it_has_and_a_broken_one_that_it_is_broken() {
+        let error = read(&bag(false)).unwrap_err().to_string();
+        assert!(error.contains("/wheels (own_msgs/msg/Wheels)") && error.contains("nav_msgs/Odometry"), "{error}");
+        let mut cut = bag(true);
+        cut.truncate(5000);
+        let error = read(&cut).unwrap_err().to_string();
+        assert!(error.contains("SQLite") && error.contains("reindex"), "{error}");
     }
 }

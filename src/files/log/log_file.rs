@@ -3,7 +3,7 @@
 use super::csv_table::{Numbers, Sheet};
 use super::folder::Folder;
 #[cfg(feature = "mcap")]
-use super::mcap::bag::Bag;
+use super::mcap::{bag::Bag, sqlite};
 #[cfg(feature = "parquet")]
 use super::parquet::ParquetLog;
 use super::place::Place;
@@ -20,7 +20,7 @@ pub(crate) enum Log {
     /// Apache Parquet.
     #[cfg(feature = "parquet")]
     Parquet(Box<ParquetLog>),
-    /// A bag of ROS 2 messages in an MCAP file.
+    /// A bag of ROS 2 messages.
     #[cfg(feature = "mcap")]
     Bag(Bag),
     /// Tables of text in a folder.
@@ -32,7 +32,7 @@ pub(crate) enum Log {
 enum Format {
     Csv,
     Parquet,
-    Mcap,
+    Bag,
     Folder,
 }
 
@@ -46,7 +46,7 @@ impl Log {
         match format(path)? {
             Format::Csv => Ok(Self::Csv(Box::new(Sheet::open(path)?))),
             Format::Parquet => parquet(path),
-            Format::Mcap => bag(path),
+            Format::Bag => bag(path),
             Format::Folder => match Folder::open(path)? {
                 Some(folder) => Ok(Self::Folder(Box::new(folder))),
                 None => Err(is_folder(path)),
@@ -129,7 +129,9 @@ fn format(path: &Path) -> Result<Format> {
     let ends = |name: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(name));
     Ok(match () {
         () if begins(PARQUET) || ends("parquet") => Format::Parquet,
-        () if begins(MCAP) || ends("mcap") => Format::Mcap,
+        () if begins(MCAP) || ends("mcap") => Format::Bag,
+        #[cfg(feature = "mcap")]
+        () if sqlite::is_one(path) => Format::Bag,
         () => Format::Csv,
     })
 }

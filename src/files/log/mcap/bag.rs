@@ -1,6 +1,7 @@
-//! An MCAP file of ROS 2 messages as a log: its topics looked through once, its columns read in a second pass.
+//! A bag of ROS 2 messages as a log: its topics looked through once, its columns read in a second pass.
 
 use super::messages::Layouts;
+use super::recorded::{Recorded, each};
 use super::{cdr, messages};
 use crate::error::{Error, Result};
 use crate::files::log::csv_table::Numbers;
@@ -9,23 +10,15 @@ use crate::files::log::row_order;
 use crate::files::log::time_stamp::Origin;
 use crate::files::log::usable_rows::{hash, usable};
 use crate::files::toml::suggestions;
-use crate::files::toml::text::open;
-use mcap::io::MessageReader;
-use mcap::sans_io::LinearReaderOptions;
-use mcap::{McapError, Message};
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 /// Names of the times of a message: of its header, and of its recording.
 const TIMES: [&str; 3] = ["time", "stamp", "log_time"];
-/// The largest record, in bytes, of a file that is smaller than this; that of a larger one is as large as the file.
-const MAX_RECORD_BYTES: u64 = 64 << 20;
 /// The most columns: a file with more of them is no log.
 const MAX_COLUMNS: usize = 20_000;
 
-/// An MCAP file whose topics are known.
+/// A bag whose topics are known.
 pub(crate) struct Bag {
     pub path: PathBuf,
     pub header: Vec<String>,
@@ -39,26 +32,25 @@ impl Bag {
         let mut known: BTreeMap<String, Vec<String>> = BTreeMap::new();
         let mut others: BTreeMap<String, String> = BTreeMap::new();
         let (mut columns, mut layouts) = (0, Layouts::default());
-        for (n, message) in messages(path)?.enumerate() {
-            let message = message.map_err(|e| unreadable(path, n, &e))?;
-            let Some(layout) = layouts.of(&message.channel) else {
-                others.entry(message.channel.topic.clone()).or_insert_with(|| kind(&message));
-                continue;
+        each(path, &mut |n, message| {
+            let topic = &message.source.topic;
+            let Some(layout) = layouts.of(message.source) else {
+                others.entry(topic.clone()).or_insert_with(|| kind(message));
+                return Ok(());
             };
-            let is_new = !known.contains_key(&message.channel.topic);
-            if !is_new && !layout.varies() {
-                continue;
+            if known.contains_key(topic) && !layout.varies() {
+                return Ok(());
             }
-            let names = match layout.fields(&message.data) {
+            let names = match layout.fields(message.data) {
                 Ok(names) => names,
                 // What a definition says wrongly of a topic that nobody may ask for is no reason to refuse the bag.
                 Err(_) if layout.is_defined() => {
-                    others.entry(message.channel.topic.clone()).or_insert_with(|| kind(&message));
-                    continue;
+                    others.entry(topic.clone()).or_insert_with(|| kind(message));
+                    return Ok(());
                 }
-                Err(e) => return Err(malformed(path, &message, n, e)),
+                Err(e) => return Err(malformed(path, message, n, e)),
             };
-            let fields = known.entry(message.channel.topic.clone()).or_default();
+            let fields = known.entry(topic.clone()).or_default();
             for name in names {
                 if !fields.contains(&name) {
                     fields.push(name);
@@ -68,7 +60,8 @@ impl Bag {
             if columns > MAX_COLUMNS {
                 return Err(Error::input("has too many fields").at_file(path).help("give a bag with fewer joints"));
             }
-        }
+            Ok(())
+        })?;
         if known.is_empty() {
             let there: Vec<String> = others.iter().map(|(topic, kind)| format!("{topic} ({kind})")).collect();
             let there: Vec<&str> = there.iter().map(String::as_str).collect();
@@ -129,47 +122,33 @@ impl Bag {
             found.entry(topic.clone()).or_insert_with(|| vec![vec![]; of(topic).len() + 1]);
         }
         let mut layouts = Layouts::default();
-        for (n, message) in messages(&self.path)?.enumerate() {
-            let message = message.map_err(|e| unreadable(&self.path, n, &e))?;
-            let Some(columns) = found.get_mut(&message.channel.topic) else { continue };
-            let Some(layout) = layouts.of(&message.channel) else { continue };
-            let fields = of(&message.channel.topic);
+        each(&self.path, &mut |n, message| {
+            let topic = &message.source.topic;
+            let Some(columns) = found.get_mut(topic) else { return Ok(()) };
+            let Some(layout) = layouts.of(message.source) else { return Ok(()) };
             let (stamp, values) =
-                layout.values(&message.data, &fields).map_err(|e| malformed(&self.path, &message, n, e))?;
+                layout.values(message.data, &of(topic)).map_err(|e| malformed(&self.path, message, n, e))?;
             // A message of other frames says nothing of the one that is asked for.
             if layout.is_defined() && values.iter().all(|v| v.is_nan()) {
-                continue;
+                return Ok(());
             }
             let logged = message.log_time as f64 * 1e-9;
             let without = layout.is_defined() && stamp.is_nan();
             columns[0].push(if by_stamp && !without { stamp } else { logged });
             columns[1..].iter_mut().zip(values).for_each(|(c, v)| c.push(v));
-        }
+            Ok(())
+        })?;
         Ok(found)
     }
 }
 
-fn messages(path: &Path) -> Result<MessageReader<BufReader<File>>> {
-    let file = open(path)?;
-    let size = file.metadata().map_or(0, |m| m.len());
-    let limit = usize::try_from(size.max(MAX_RECORD_BYTES)).unwrap_or(usize::MAX);
-    let options = LinearReaderOptions::default().with_record_length_limit(limit);
-    Ok(MessageReader::new_with_options(BufReader::new(file), options))
+fn kind(message: &Recorded) -> String {
+    let source = message.source;
+    if source.kind.is_empty() { source.encoding.clone() } else { source.kind.clone() }
 }
 
-fn kind(message: &Message) -> String {
-    message.channel.schema.as_ref().map_or_else(|| message.channel.message_encoding.clone(), |s| s.name.clone())
-}
-
-fn unreadable(path: &Path, n: usize, e: &McapError) -> Error {
-    let why: String = e.to_string().chars().map(|c| if c.is_control() { ' ' } else { c }).take(200).collect();
-    Error::input(format!("cannot be read as MCAP behind message {n}: {why}"))
-        .at_file(path)
-        .help("the recording may be cut off; `mcap recover` saves what is whole")
-}
-
-fn malformed(path: &Path, message: &Message, n: usize, why: cdr::Malformed) -> Error {
-    let topic = suggestions::shown(&message.channel.topic);
+fn malformed(path: &Path, message: &Recorded, n: usize, why: cdr::Malformed) -> Error {
+    let topic = suggestions::shown(&message.source.topic);
     Error::input(format!("message {} on {topic} is no {} in CDR: {why}", n + 1, suggestions::shown(&kind(message))))
         .at_file(path)
         .help("check the bag's schema; its messages may be of another type than it says")

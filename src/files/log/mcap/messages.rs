@@ -2,8 +2,8 @@
 
 use super::cdr::{Cdr, Read};
 use super::definition::Form;
+use super::recorded::Source;
 use crate::files::log::quaternion::yaw;
-use mcap::Channel;
 use std::collections::BTreeMap;
 
 /// A piece of a message.
@@ -32,14 +32,14 @@ pub(crate) enum Layout {
     Defined(Form),
 }
 
-/// The layouts of the channels of a bag.
+/// The layouts of the sources of a bag.
 #[derive(Default)]
-pub(crate) struct Layouts(BTreeMap<u16, Option<Layout>>);
+pub(crate) struct Layouts(BTreeMap<u64, Option<Layout>>);
 
 impl Layouts {
-    /// The layout of a channel's messages, if it is known or defined.
-    pub fn of(&mut self, channel: &Channel) -> Option<&Layout> {
-        self.0.entry(channel.id).or_insert_with(|| Layout::of(channel)).as_ref()
+    /// The layout of a source's messages, if it is known or defined.
+    pub fn of(&mut self, source: &Source) -> Option<&Layout> {
+        self.0.entry(source.id).or_insert_with(|| Layout::of(source)).as_ref()
     }
 }
 
@@ -95,12 +95,13 @@ pub(crate) const NAMES: [&str; 5] = [
 const JOINT: [&str; 3] = ["position", "velocity", "effort"];
 
 impl Layout {
-    fn of(channel: &Channel) -> Option<Self> {
-        let schema = channel.schema.as_ref().filter(|_| channel.message_encoding == "cdr")?;
-        let name = schema.name.replace("/msg/", "/");
+    fn of(source: &Source) -> Option<Self> {
+        if source.encoding != "cdr" {
+            return None;
+        }
+        let name = source.kind.replace("/msg/", "/");
         let Some(known) = NAMES.iter().position(|n| *n == name) else {
-            let text = std::str::from_utf8(&schema.data).ok().filter(|_| schema.encoding == "ros2msg")?;
-            return Form::of(&schema.name, text).map(Self::Defined);
+            return Form::of(&source.kind, source.definition.as_ref()?).map(Self::Defined);
         };
         Some(match known {
             0 => Self::Parts(ODOMETRY),

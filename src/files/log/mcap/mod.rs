@@ -1,4 +1,4 @@
-//! Bags of ROS 2 messages in MCAP files: a column for every number of a message.
+//! Bags of ROS 2 messages, in MCAP files or in SQLite: a column for every number of a message.
 //!
 //! Five types are known by heart, whether the bag defines them or not; all others are read by the definition that the bag
 //! carries.
@@ -10,3 +10,5 @@ pub(crate) mod bag;
 mod cdr;
 mod definition;
 mod messages;
+mod recorded;
+pub(crate) mod sqlite;

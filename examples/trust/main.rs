@@ -34,6 +34,9 @@ struct Arguments {
     /// Runs with something hidden; one in six hides a pair
     #[arg(long, default_value_t = 900)]
     effects: u64,
+    /// Runs with nothing hidden whose inputs come in steps or with noise
+    #[arg(long, default_value_t = 500)]
+    coarse: u64,
     /// Runs in which one effect begins at a time, or holds for a time
     #[arg(long, default_value_t = 200)]
     in_part: u64,
@@ -66,7 +69,7 @@ fn main() -> std::io::Result<()> {
     let seeds: Vec<u64> =
         [(Kind::Nothing, arguments.null), pairs_apart(arguments.effects, false), pairs_apart(arguments.effects, true)]
             .into_iter()
-            .chain([(Kind::InPart, arguments.in_part)])
+            .chain([(Kind::InPart, arguments.in_part), (Kind::Coarse, arguments.coarse)])
             .flat_map(|(kind, n)| chosen(&arguments, kind, n))
             .collect();
     let mut outcomes = workers::all(&seeds, arguments.threads, &|done| say(done, seeds.len()));

@@ -12,6 +12,7 @@ pub fn text(tally: &Tally, outcomes: &[Outcome]) -> String {
     let mut out = String::from("Shares with the 95 % interval of Clopper and Pearson.\n\n");
     let mut line = |what: &str, share: &Share| writeln!(out, "{what:34} {}", share.text()).unwrap_or_default();
     line("false alarms", &tally.false_alarms);
+    line("the same, coarse or noisy inputs", &tally.false_alarms_coarse);
     line("one effect, named rightly", &tally.singles);
     line("two effects, both named rightly", &tally.pairs);
     line("one in part, named with its time", &tally.in_part);

@@ -24,7 +24,9 @@ pub const UNNAMED: &str = "(unnamed)";
 pub struct Tally {
     /// Something claimed where nothing is hidden.
     pub false_alarms: Share,
-    /// The same by vehicle, drive, noise and gross errors.
+    /// The same where the inputs come in steps or with noise.
+    pub false_alarms_coarse: Share,
+    /// Both by vehicle, drive, noise, gross errors and inputs.
     pub false_alarms_by: Groups,
     /// All names right where the data determine them, singles.
     pub singles: Share,
@@ -116,7 +118,10 @@ impl Tally {
 
     fn nothing_hidden(&mut self, o: &Outcome) {
         let alarm = !o.judgement.right;
-        self.false_alarms.count(alarm);
+        match o.case.kind {
+            Kind::Coarse => self.false_alarms_coarse.count(alarm),
+            _ => self.false_alarms.count(alarm),
+        }
         groups(o).into_iter().for_each(|g| count(&mut self.false_alarms_by, g, alarm));
     }
 

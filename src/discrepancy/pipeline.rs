@@ -99,8 +99,13 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
     };
     begin(progress, Stage::HeldOut)?;
     let horizons = horizons(request);
-    let judge =
-        Judge { records: &data.held_out, horizons: &horizons, noise: selected.after.noise(), seed: request.seed };
+    let judge = Judge {
+        records: &data.held_out,
+        are_own_runs: !request.held_out.is_empty(),
+        horizons: &horizons,
+        noise: selected.after.noise(),
+        seed: request.seed,
+    };
     let selected = refute(&problem, request.library, selected, &judge, progress)?;
     let noise = selected.after.noise();
     let before = problem.violations(&model, &noise)?;

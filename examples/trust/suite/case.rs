@@ -22,11 +22,13 @@ pub enum Kind {
     Timed,
     /// Whether one effect that begins, or holds for a time, is named with its time.
     InPart,
+    /// Whether nothing is named where nothing is hidden and the inputs come in steps or with noise.
+    Coarse,
 }
 
 impl Kind {
     /// All kinds; the place of one is the digit that stands for it in a seed.
-    pub const ALL: [Kind; 5] = [Kind::Nothing, Kind::Single, Kind::Pair, Kind::Timed, Kind::InPart];
+    pub const ALL: [Kind; 6] = [Kind::Nothing, Kind::Single, Kind::Pair, Kind::Timed, Kind::InPart, Kind::Coarse];
 
     /// The name in tables.
     pub fn name(self) -> &'static str {
@@ -36,6 +38,7 @@ impl Kind {
             Kind::Pair => "pair",
             Kind::Timed => "timed",
             Kind::InPart => "in part",
+            Kind::Coarse => "coarse",
         }
     }
 }
@@ -77,7 +80,7 @@ impl Case {
         // The step is prime to the number of pairings: every one has its turn before any has a second.
         let (make, target) = PAIRINGS[index * 89 % PAIRINGS.len()];
         match kind {
-            Kind::Nothing => (kind, index % MAKES.len(), vec![]),
+            Kind::Nothing | Kind::Coarse => (kind, index % MAKES.len(), vec![]),
             Kind::Timed if index.is_multiple_of(3) => (kind, index / 3 % MAKES.len(), vec![]),
             Kind::Single | Kind::Timed => (kind, make, vec![target]),
             Kind::InPart => {
@@ -140,7 +143,7 @@ impl Case {
         logging::draw(&mut scenario, kind == Kind::Timed, &mut random);
         let tells_noise = random.random_bool(0.2);
         match kind {
-            Kind::Nothing => logging::draw_inputs(&mut scenario, &make, &mut random),
+            Kind::Coarse => logging::draw_inputs(&mut scenario, &make, &mut random),
             Kind::InPart => {
                 scenario.duration = scenario.duration.max(logging::LONG);
                 scenario.span = Some(logging::span(&scenario, &mut random));

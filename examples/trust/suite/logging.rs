@@ -44,11 +44,8 @@ const STEERING_NOISE: (f64, f64) = (1e-4, 5e-3);
 const GYRO_STEP: (f64, f64) = (1e-4, 2e-2);
 const GYRO_NOISE: (f64, f64) = (1e-4, 2e-2);
 
-/// Draws inputs that come in steps or with noise, for one run in three.
+/// Draws inputs that come in steps or with noise.
 pub fn draw_inputs(scenario: &mut Scenario, make: &Make, random: &mut ChaCha8Rng) {
-    if !random.random_bool(1.0 / 3.0) {
-        return;
-    }
     let turns_by_wheels = make.tractor == Tractor::DifferentialDrive;
     let (step, noise) =
         if make.tractor.is_steered() { (STEERING_STEP, STEERING_NOISE) } else { (GYRO_STEP, GYRO_NOISE) };

@@ -19,6 +19,8 @@ pub(crate) fn refuted(selected: &Selected) -> impl Iterator<Item = Warning> {
 /// Held-out runs that judge models.
 pub(crate) struct Judge<'a> {
     pub records: &'a [Record],
+    /// Whether they are drives of their own, and not the ends of those fitted.
+    pub are_own_runs: bool,
     pub horizons: &'a [f64],
     pub noise: Noise,
     pub seed: u64,
@@ -28,6 +30,10 @@ impl HeldOut for Judge<'_> {
     /// Without a heading each window's start is fitted to it by either model, and the gaps are not of one start.
     fn can_judge(&self) -> bool {
         !self.records.is_empty() && self.records.iter().all(|r| r.has_heading())
+    }
+
+    fn are_own_runs(&self) -> bool {
+        self.are_own_runs
     }
 
     fn gaps(&self, with: &Model, without: &Model) -> Result<Vec<Growth>> {

@@ -77,8 +77,8 @@ impl Problem {
         let of_effect = |effect: &Applied| {
             let own = at..at + effect.values.len();
             at = own.end;
-            // What holds in part has its regime.
-            if is_term(effect) || effect.effect.scope.is_some() {
+            // What holds in part has its regime, and what walks has many values.
+            if is_term(effect) || effect.effect.scope.is_some() || effect.effect.walk.is_some() {
                 return None;
             }
             let each = regimes.iter().filter_map(|(r, inside)| difference(fit, &linear, *r, inside, own.clone()));

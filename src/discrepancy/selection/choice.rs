@@ -21,6 +21,12 @@ pub struct SelectedEffect {
     pub rivals: Vec<Applied>,
 }
 
+/// A chosen effect, and the fit without it.
+pub(crate) struct Weighed {
+    pub effect: SelectedEffect,
+    pub without: Fit,
+}
+
 /// Why an effect that the fit asks for is not named.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {

@@ -18,3 +18,4 @@ pub(crate) mod stability;
 pub(crate) mod stepwise;
 pub(crate) mod transients;
 pub mod unnamed_terms;
+pub(crate) mod walks;

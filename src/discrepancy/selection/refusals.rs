@@ -2,13 +2,12 @@
 
 use super::input_noise;
 use super::search::{Search, SearchState, find, first_of, forget};
-use super::select::Weighed;
 use crate::discrepancy::estimation::bounds::is_possible;
 use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::estimation::unexplained::remaining;
 use crate::discrepancy::evidence::jackknife::Jackknife;
 use crate::discrepancy::evidence::wald_test::neutral_at_zero;
-use crate::discrepancy::selection::choice::{Refusal, Refused, SelectedEffect};
+use crate::discrepancy::selection::choice::{Refusal, Refused, SelectedEffect, Weighed};
 use crate::effects::Applied;
 use crate::error::{Error, Result};
 use crate::model::effect_equation::is_term;

@@ -11,14 +11,17 @@ use crate::error::Result;
 use crate::model::Model;
 use crate::progress::OnProgress;
 
-/// Beside a rest an effect that not every vehicle has and that is worth less than so many times its price must help the
-/// held-out runs: it may imitate a part of the rest.
+/// Beside a rest an effect that not every vehicle has and that is worth less than so many times its price must help held-out
+/// runs of their own: it may imitate a part of the rest.
 const WEAK: f64 = 3.0;
 
 /// Held-out runs.
 pub(crate) trait HeldOut {
     /// Whether there are runs that can judge.
     fn can_judge(&self) -> bool;
+
+    /// Whether they are drives of their own.
+    fn are_own_runs(&self) -> bool;
 
     /// The gaps of position and heading with the first of two models in the place of the second.
     fn gaps(&self, with: &Model, without: &Model) -> Result<Vec<Growth>>;
@@ -77,7 +80,7 @@ fn next(
         let gaps = held_out.gaps(&fit.model, &smaller.model)?;
         let Some(growth) = most_grown(&gaps) else {
             let is_weak = !c.applied.effect.basic && c.delta_bic < WEAK * search.margin();
-            if is_weak && remains(fit) && !gaps.iter().any(Growth::shrinks) {
+            if is_weak && held_out.are_own_runs() && remains(fit) && !gaps.iter().any(Growth::shrinks) {
                 return Ok(Some((c.applied.clone(), Refusal::NotBorneOut, smaller)));
             }
             continue;

@@ -4,12 +4,12 @@ use super::candidates::FINALISTS;
 use super::input_sampling::{InputSampling, keep_sampled};
 use super::refusals::Standing;
 use super::scopes;
-use super::scopes::is_partial;
 use super::search::{MOST, Search, SearchState, find};
 use super::stability;
 use super::stability::Stable;
 use super::transients;
 use super::unnamed_terms;
+use super::walks;
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
@@ -19,12 +19,10 @@ use crate::discrepancy::evidence::heterogeneity::spreads;
 use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
 use crate::discrepancy::evidence::jackknife::Jackknife;
 use crate::discrepancy::evidence::parametric_bootstrap;
-use crate::discrepancy::evidence::random_walk::Walk;
-use crate::discrepancy::selection::choice::{Refusal, Selected, SelectedEffect};
-use crate::effects::{Applied, Effect, RandomWalk};
+use crate::discrepancy::selection::choice::{Refusal, Selected, SelectedEffect, Weighed};
+use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use crate::model::Model;
-use crate::model::effect_equation::is_term;
 use crate::progress::{OnProgress, Stage, begin, tell};
 
 pub use super::search::Candidate;
@@ -72,6 +70,7 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &O
     };
     let Stable { mut grown, inconsistent, scatter } = stability::search(&selection, grown, progress)?;
     let InputSampling { dropped: mut sampling_sensitive, missed } = keep_sampled(&selection, &mut grown, progress)?;
+    walks::let_walk(&selection, &mut grown.fit)?;
     // Where something went, the values no longer stand where they stood.
     let scatter = scatter.filter(|_| sampling_sensitive.is_empty());
     let Standing { mut chosen, mut refused, mut missed } =
@@ -89,15 +88,8 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &O
         refused.extend(again.refused);
         (chosen, missed) = (again.chosen, again.missed);
     }
-    selection.let_walk(&mut grown.fit, &mut chosen)?;
     let SearchState { fit: after, steps, candidates, .. } = grown;
     Ok(Some(Selected { before, after, chosen, steps, candidates, inconsistent, sampling_sensitive, refused, missed }))
-}
-
-/// A chosen effect, and the fit without it.
-pub(crate) struct Weighed {
-    pub effect: SelectedEffect,
-    pub without: Fit,
 }
 
 impl Search<'_> {
@@ -147,26 +139,6 @@ impl Search<'_> {
             Ok(SelectedEffect { p_value, rivals, ..effect })
         };
         weighed.into_iter().map(one).collect()
-    }
-
-    /// Lets the parameter walk at random whose walk explains most of what a fit leaves, where that pays.
-    fn let_walk(&self, fit: &mut Fit, chosen: &mut [SelectedEffect]) -> Result<()> {
-        let price = self.margin() + fit.sample_size.ln();
-        let mut best: Option<(usize, Walk)> = None;
-        for (i, c) in chosen.iter().enumerate().filter(|(_, c)| !is_term(&c.applied) && !is_partial(&c.applied)) {
-            let walk = self.problem.walk(fit, &c.applied)?;
-            let walk = walk.filter(|w| w.gain / fit.noise_correlation_time > price);
-            if walk.is_some_and(|w| best.as_ref().is_none_or(|(_, b)| w.gain > b.gain)) {
-                best = walk.map(|w| (i, w));
-            }
-        }
-        let Some((i, walk)) = best else { return Ok(()) };
-        let applied = &mut chosen[i].applied;
-        let parameter = applied.effect.parameters.keys().next().cloned().unwrap_or_default();
-        applied.effect.walk = Some(RandomWalk { parameter, per_sqrt_s: walk.per_sqrt_s, std: Some(walk.std) });
-        let own = fit.model.effects.iter_mut().filter(|e| e.free && e.same_as(applied));
-        own.for_each(|e| e.effect.walk.clone_from(&applied.effect.walk));
-        Ok(())
     }
 
     /// Probability of such a gain by chance; where χ² does not hold, from data drawn without the effect.

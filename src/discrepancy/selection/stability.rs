@@ -6,7 +6,6 @@
 use super::scopes::is_partial;
 use super::search::{Search, SearchState};
 use super::unnamed_terms;
-use super::walks::{set, walking};
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::unexplained::remains;
 use crate::discrepancy::evidence::jackknife::Jackknife;
@@ -62,11 +61,6 @@ impl Stable {
             self.scatter = Jackknife::of(selection.problem, &self.grown.fit, progress)?;
             let worst = self.scatter.as_ref().and_then(|s| least_shared(&self.grown.fit, s));
             let Some(worst) = worst else { break };
-            // What walks has another value in every part.
-            if let Some((walk, _)) = walking(selection, &self.grown.fit, &worst)? {
-                set(&mut self.grown.fit, &worst, walk);
-                continue;
-            }
             let Some(smaller) = selection.without(&self.grown.fit, &worst)? else { break };
             self.inconsistent.push(worst);
             self.grown.go_back_to(smaller);
@@ -94,10 +88,7 @@ impl Stable {
 /// The effect that stands out least, of those that do not stand out; one without a name before one that has one.
 fn least_shared(fit: &Fit, scatter: &Jackknife) -> Option<Applied> {
     // What holds in part is told by that part; it has paid for being sought. A course is that of all runs.
-    let whole = fit
-        .model
-        .free_effects()
-        .filter(|e| e.effect.scope.is_none() && e.effect.walk.is_none() && (fit.runs > 1 || !is_partial(e)));
+    let whole = fit.model.free_effects().filter(|e| e.effect.scope.is_none() && (fit.runs > 1 || !is_partial(e)));
     let ranked = whole.map(|e| (!is_term(e), scatter.shows(fit, e), e));
     let inconsistent = ranked.filter(|(_, shows, _)| *shows < 1.0);
     inconsistent.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))).map(|(_, _, e)| e.clone())

@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::model::effect_equation::is_term;
 
 /// The walk of an effect's parameter, where it pays, and what it gains.
-pub(crate) fn walking(search: &Search, fit: &Fit, effect: &Applied) -> Result<Option<(RandomWalk, f64)>> {
+fn walking(search: &Search, fit: &Fit, effect: &Applied) -> Result<Option<(RandomWalk, f64)>> {
     if is_term(effect) || is_partial(effect) {
         return Ok(None);
     }
@@ -31,13 +31,8 @@ pub(crate) fn let_walk(search: &Search, fit: &mut Fit) -> Result<()> {
         }
     }
     if let Some((effect, walk, _)) = best {
-        set(fit, &effect, walk);
+        let own = fit.model.effects.iter_mut().filter(|e| e.free && e.same_as(&effect));
+        own.for_each(|e| e.effect.walk = Some(walk.clone()));
     }
     Ok(())
-}
-
-/// Writes a walk into the model of a fit.
-pub(crate) fn set(fit: &mut Fit, effect: &Applied, walk: RandomWalk) {
-    let own = fit.model.effects.iter_mut().filter(|e| e.free && e.same_as(effect));
-    own.for_each(|e| e.effect.walk = Some(walk.clone()));
 }

@@ -1,8 +1,8 @@
 //! A bag of ROS 2 messages as a log: its topics looked through once, its columns read in a second pass.
 
 use super::messages::Layouts;
-use super::recorded::{Recorded, each};
-use super::{cdr, messages};
+use super::recorded::Recorded;
+use super::{cdr, container, messages, sqlite};
 use crate::error::{Error, Result};
 use crate::files::log::csv_table::Numbers;
 use crate::files::log::own_times::at_times;
@@ -140,6 +140,11 @@ impl Bag {
         })?;
         Ok(found)
     }
+}
+
+/// Puts every message of a bag to a reader, with how many came before it.
+fn each(path: &Path, read: &mut dyn FnMut(usize, &Recorded) -> Result<()>) -> Result<()> {
+    if sqlite::is_one(path) { sqlite::each(path, read) } else { container::each(path, read) }
 }
 
 fn kind(message: &Recorded) -> String {

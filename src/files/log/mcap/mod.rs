@@ -8,6 +8,7 @@
 
 pub(crate) mod bag;
 mod cdr;
+mod container;
 mod definition;
 mod messages;
 mod recorded;

@@ -1,17 +1,4 @@
-//! Messages as bags hold them, one after another, whatever the file: MCAP, or the SQLite of older recordings.
-
-use super::sqlite;
-use crate::error::{Error, Result};
-use crate::files::toml::text::open;
-use mcap::io::MessageReader;
-use mcap::sans_io::LinearReaderOptions;
-use mcap::{McapError, Message};
-use std::collections::BTreeMap;
-use std::io::BufReader;
-use std::path::Path;
-
-/// The largest record, in bytes, of a file that is smaller than this; that of a larger one is as large as the file.
-const MAX_RECORD_BYTES: u64 = 64 << 20;
+//! Messages as bags hold them, whatever the file.
 
 /// Where messages of one kind come from, and how they are laid out.
 #[derive(Clone, Debug, Default)]
@@ -35,45 +22,7 @@ pub(crate) struct Recorded<'a> {
     pub data: &'a [u8],
 }
 
-/// Puts every message of a bag to a reader, with how many came before it.
-pub(crate) fn each(path: &Path, read: &mut dyn FnMut(usize, &Recorded) -> Result<()>) -> Result<()> {
-    if sqlite::is_one(path) { sqlite::each(path, read) } else { of_mcap(path, read) }
-}
-
-fn of_mcap(path: &Path, read: &mut dyn FnMut(usize, &Recorded) -> Result<()>) -> Result<()> {
-    let file = open(path)?;
-    let size = file.metadata().map_or(0, |m| m.len());
-    let limit = usize::try_from(size.max(MAX_RECORD_BYTES)).unwrap_or(usize::MAX);
-    let options = LinearReaderOptions::default().with_record_length_limit(limit);
-    let mut sources: BTreeMap<u16, Source> = BTreeMap::new();
-    for (n, message) in MessageReader::new_with_options(BufReader::new(file), options).enumerate() {
-        let message = message.map_err(|e| unreadable(path, n, &e))?;
-        let source = sources.entry(message.channel.id).or_insert_with(|| source(&message));
-        read(n, &Recorded { source, log_time: message.log_time, data: &message.data })?;
-    }
-    Ok(())
-}
-
-fn source(message: &Message) -> Source {
-    let channel = &message.channel;
-    let schema = channel.schema.as_ref();
-    let definition = schema.filter(|s| s.encoding == "ros2msg").and_then(|s| std::str::from_utf8(&s.data).ok());
-    Source {
-        id: u64::from(channel.id),
-        topic: channel.topic.clone(),
-        kind: schema.map_or_else(String::new, |s| s.name.clone()),
-        encoding: channel.message_encoding.clone(),
-        definition: definition.map(String::from),
-    }
-}
-
-fn unreadable(path: &Path, n: usize, e: &McapError) -> Error {
-    Error::input(format!("cannot be read as MCAP behind message {n}: {}", plain(&e.to_string())))
-        .at_file(path)
-        .help("the recording may be cut off; `mcap recover` saves what is whole")
-}
-
 /// A foreign message in one short line.
-pub(super) fn plain(text: &str) -> String {
+pub(crate) fn plain(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(200).collect()
 }

@@ -156,12 +156,13 @@ fn one_effect(effect: &Named) -> Vec<String> {
 
 /// The line of a parameter that moves with time.
 fn moving(name: &str, course: &CourseFound, unit: &str) -> String {
-    let (value, per) = match (course.per_s, course.per_sqrt_s) {
-        (Some(value), _) => (value, "s"),
-        (None, walk) => (walk.unwrap_or_default(), "√s"),
+    let (value, per, unit) = match (course.per_s, course.per_sqrt_s) {
+        (Some(value), _) => (value, "s", format!("{unit}/s")),
+        // The column is narrow, and the name says over what time.
+        (None, walk) => (walk.unwrap_or_default(), "√s", unit.to_string()),
     };
     let moving = Estimate { value, std: course.std, unit: String::new(), course: None };
-    row("", &format!("{name} per {per}"), &brief(&moving), &format!("{unit}/{per}"), "")
+    row("", &format!("{name} per {per}"), &brief(&moving), &unit, "")
 }
 
 /// A value and its deviation, that one as a power of ten where both are too long for their column.

@@ -54,6 +54,11 @@ impl Spread {
         Some(Self { mean, std, tau: between.sqrt(), q, p_value: tail(q, runs - 1), values })
     }
 
+    /// Whether every run that tells its value beyond its own deviation tells it in the direction of another.
+    pub fn is_along(&self, value: f64) -> bool {
+        self.values.iter().all(|v| v.value * value > 0.0 || v.value.abs() < v.variance.sqrt())
+    }
+
     /// Whether runs have values of their own.
     pub fn is_real(&self) -> bool {
         self.p_value < ALIKE

@@ -30,7 +30,8 @@ use crate::discrepancy::record::local_polynomial::median;
 use crate::discrepancy::shooting::window_integration::linearise;
 use crate::effects::Applied;
 use crate::error::Result;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use std::ops::Range;
 
 /// Shares of the unexplained motion that are tried beside a walk, for a part of it is the walk's.
 const SHARES: [f64; 8] = [1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 1e-3];
@@ -51,31 +52,63 @@ pub(crate) struct Walk {
 }
 
 /// Twice the negative log likelihood with noise of one size: without a walk, and what a walk adds to it.
+///
+/// With C = L·Lᵀ and the eigenvalues λ of Lᵀ·A·L all that q changes is a sum over λ.
 struct Likelihood {
     without: f64,
-    information: DMatrix<f64>,
+    /// The deviation of the value that the middle one of the blocks tells alone.
+    told_by_block: Option<f64>,
+    /// 1ᵀ·A·1 and 1ᵀ·g.
+    weight: f64,
+    slope: f64,
+    eigenvalues: DVector<f64>,
+    /// A·1 and g by the eigenvectors.
+    ones: DVector<f64>,
     gradient: DVector<f64>,
 }
 
 impl Likelihood {
-    /// The deviation of the value that the middle one of the blocks tells alone.
-    fn told_by_block(&self) -> Option<f64> {
-        let mut each: Vec<f64> =
-            self.information.diagonal().iter().filter(|a| **a > 0.0).map(|a| a.sqrt().recip()).collect();
-        median(&mut each)
+    /// Of the information and the gradient of the blocks, L the factor of a walk's covariance at q = 1.
+    fn of(without: f64, a: &DMatrix<f64>, g: &DVector<f64>, l: &DMatrix<f64>) -> Self {
+        let SymmetricEigen { eigenvalues, eigenvectors } = (l.tr_mul(a) * l).symmetric_eigen();
+        let turned = |v: &DVector<f64>| eigenvectors.tr_mul(&l.tr_mul(v));
+        let mut told: Vec<f64> = a.diagonal().iter().filter(|a| **a > 0.0).map(|a| a.sqrt().recip()).collect();
+        Self {
+            without,
+            told_by_block: median(&mut told),
+            weight: a.sum(),
+            slope: g.sum(),
+            ones: turned(&a.column_sum()),
+            gradient: turned(g),
+            // By rounding alone they are less than nothing.
+            eigenvalues: eigenvalues.map(|lambda| lambda.max(0.0)),
+        }
     }
 
-    /// With a walk of that covariance.
-    fn at(&self, covariance: &DMatrix<f64>) -> f64 {
-        let n = self.gradient.len();
-        let (a, g) = (&self.information, &self.gradient);
-        let lu = (DMatrix::identity(n, n) + a * covariance).lu();
-        let (Some(h), Some(m)) = (lu.solve(g), lu.solve(a)) else { return f64::INFINITY };
-        let determinant = lu.u().diagonal().map(|x| x.abs().ln()).sum();
-        let mean = h.sum().powi(2) / m.sum() - g.sum().powi(2) / a.sum();
-        let added = determinant + (m.sum() / a.sum()).ln() - g.dot(&(covariance * &h)) - mean;
+    /// With a walk of that variance a second.
+    fn at(&self, q: f64) -> f64 {
+        let (mut determinant, mut walked) = (0.0, 0.0);
+        let (mut weight, mut slope) = (self.weight, self.slope);
+        for ((lambda, one), g) in self.eigenvalues.iter().zip(&self.ones).zip(&self.gradient) {
+            let share = q / (1.0 + q * lambda);
+            determinant += (q * lambda).ln_1p();
+            walked += share * g * g;
+            weight -= share * one * one;
+            slope -= share * one * g;
+        }
+        let mean = slope * slope / weight - self.slope * self.slope / self.weight;
+        let added = determinant + (weight / self.weight).ln() - walked - mean;
         if added.is_finite() { self.without + added } else { f64::INFINITY }
     }
+}
+
+/// What the search over the steps of a walk has reached.
+struct Reached {
+    deviance: f64,
+    share: f64,
+    /// The place of the step, and the deviance at all of them.
+    at: usize,
+    each: Vec<f64>,
 }
 
 impl Problem {
@@ -91,34 +124,37 @@ impl Problem {
         let equations = fit.model.free_equations()?;
         let linear = linearise(&equations, &fit.p, &self.records, &self.plan, &fit.window_states);
         let Some(linear) = linear else { return Ok(None) };
-        let windows: Vec<usize> = self.plan.iter().map(|s| s.windows.len()).collect();
-        let blocks = Blocks::of(&windows);
+        let blocks = Blocks::of_plan(&self.plan);
         let covariance = self.covariance_of_walk(&blocks);
         let duration = covariance.diagonal().max().max(1.0);
+        let Some(factor) = covariance.cholesky().map(|c| c.unpack()) else { return Ok(None) };
         let size = effect.effect.parameters.values().next().map_or(1.0, |p| p.size);
         let step =
             |k: usize| size / duration.sqrt() * 10f64.powf(DECADES * (2.0 * k as f64 / (STEPS - 1) as f64 - 1.0));
-        let mut best: Option<(f64, f64, usize, Vec<f64>)> = None;
+        let mut best: Option<Reached> = None;
+        let mut told = None;
         for share in SHARES {
             let v = with_share(&fit.variances, &left, share);
-            let Some(likelihood) = self.likelihood(fit, effect, &linear, &blocks, &v) else { continue };
-            let each: Vec<f64> = (0..STEPS).map(|k| likelihood.at(&(&covariance * step(k).powi(2)))).collect();
-            let Some(k) = (0..STEPS).min_by(|a, b| each[*a].total_cmp(&each[*b])) else { continue };
-            if best.as_ref().is_none_or(|(reached, ..)| each[k] < *reached) {
-                best = Some((each[k], share, k, each));
+            let Some(likelihood) = self.likelihood(fit, effect, &linear, &blocks, &v, &factor) else { continue };
+            if share == 1.0 {
+                told = likelihood.told_by_block;
+            }
+            let each: Vec<f64> = (0..STEPS).map(|k| likelihood.at(step(k).powi(2))).collect();
+            let Some(at) = (0..STEPS).min_by(|a, b| each[*a].total_cmp(&each[*b])) else { continue };
+            if best.as_ref().is_none_or(|b| each[at] < b.deviance) {
+                best = Some(Reached { deviance: each[at], share, at, each });
             }
         }
-        let Some((reached, share, k, each)) = best else { return Ok(None) };
+        let Some(Reached { deviance, share, at: k, each }) = best else { return Ok(None) };
         let is_slow = |told: f64| step(k) * (duration / blocks.count as f64).sqrt() < told;
-        let told = self.likelihood(fit, effect, &linear, &blocks, &fit.variances).and_then(|l| l.told_by_block());
         if share > LEFT || k == 0 || k + 1 == STEPS || !told.is_some_and(is_slow) {
             return Ok(None);
         }
         // The curvature in ln √q at the lowest of the points.
         let width = 2.0 * DECADES * 10f64.ln() / (STEPS - 1) as f64;
         let curvature = (each[k - 1] - 2.0 * each[k] + each[k + 1]) / (width * width);
-        let walk = |share: f64| Walk { per_sqrt_s: step(k), std: step(k) * share, gain: fit.deviance - reached };
-        Ok((curvature > 0.0).then(|| walk((2.0 / curvature).sqrt())))
+        let std = step(k) * (2.0 / curvature).sqrt();
+        Ok((curvature > 0.0).then_some(Walk { per_sqrt_s: step(k), std, gain: fit.deviance - deviance }))
     }
 
     fn likelihood(
@@ -128,25 +164,23 @@ impl Problem {
         linear: &Along,
         blocks: &Blocks,
         v: &NoiseModel,
+        factor: &DMatrix<f64>,
     ) -> Option<Likelihood> {
         let (own, _) = *neutral_at_zero(fit, effect).first()?;
         let kept: Vec<usize> = (0..fit.p.len()).filter(|i| *i != own).collect();
         let scores = BlockScores::of(linear, blocks, v, fit.p.len(), &kept, &[own])?;
         let all = eliminate(linear, v, fit.p.len())?;
-        let BlockScores { information, gradient, .. } = scores;
-        Some(Likelihood { without: deviance(linear, v, &all), information, gradient })
+        Some(Likelihood::of(deviance(linear, v, &all), &scores.information, &scores.gradient, factor))
     }
 
     /// min(t, t') from the beginning of each run on, between the blocks.
     fn covariance_of_walk(&self, blocks: &Blocks) -> DMatrix<f64> {
-        let middle = |(segment, windows): &(usize, std::ops::Range<usize>)| {
-            let segment = &self.plan[*segment];
-            let record = &self.records[segment.record];
-            let rows = segment.windows[windows.start].start..segment.windows[windows.end - 1].end;
+        let middle = |(run, rows): &(usize, Range<usize>)| {
+            let record = &self.records[*run];
             let last = rows.end.min(record.time.len() - 1);
-            (segment.record, 0.5 * (record.time[rows.start] + record.time[last]) - record.time[record.rows.start])
+            (*run, 0.5 * (record.time[rows.start] + record.time[last]) - record.time[record.rows.start])
         };
-        let times: Vec<(usize, f64)> = blocks.windows().iter().map(middle).collect();
+        let times: Vec<(usize, f64)> = blocks.rows(&self.plan).iter().map(middle).collect();
         let between = |a: (usize, f64), b: (usize, f64)| if a.0 == b.0 { a.1.min(b.1) } else { 0.0 };
         DMatrix::from_fn(times.len(), times.len(), |i, j| between(times[i], times[j]))
     }
@@ -169,7 +203,9 @@ mod tests {
     fn the_likelihood_is_that_of_measured_values_with_a_covariance() {
         let n = 6;
         let measured = DVector::from_vec(vec![0.3, -0.2, 0.9, 1.4, 1.1, 2.0]);
-        let likelihood = Likelihood { without: 0.0, information: DMatrix::identity(n, n), gradient: measured.clone() };
+        let walk = |i: usize, j: usize| i.min(j) as f64 + 0.5;
+        let factor = DMatrix::from_fn(n, n, walk).cholesky().unwrap().unpack();
+        let likelihood = Likelihood::of(0.0, &DMatrix::identity(n, n), &measured, &factor);
         let direct = |k: &DMatrix<f64>| {
             let inverse = (DMatrix::identity(n, n) + k).try_inverse().unwrap();
             let ones = DVector::from_element(n, 1.0);
@@ -178,12 +214,12 @@ mod tests {
             let rest = measured.add_scalar(-mean);
             weight.ln() - inverse.determinant().ln() + rest.dot(&(&inverse * &rest))
         };
-        let k = |q: f64| DMatrix::from_fn(n, n, |i, j| q * (i.min(j) as f64 + 0.5));
+        let k = |q: f64| DMatrix::from_fn(n, n, |i, j| q * walk(i, j));
         let none = k(0.0);
         for q in [0.01, 0.1, 1.0] {
             let by_direct = direct(&k(q)) - direct(&none);
-            assert!((likelihood.at(&k(q)) - likelihood.at(&none) - by_direct).abs() < 1e-9, "{q}");
+            assert!((likelihood.at(q) - likelihood.at(0.0) - by_direct).abs() < 1e-9, "{q}");
         }
-        assert!(likelihood.at(&none).abs() < 1e-12);
+        assert!(likelihood.at(0.0).abs() < 1e-12);
     }
 }

@@ -9,6 +9,7 @@ use super::cross_validation::Along;
 use crate::discrepancy::estimation::elimination::{InformationFilter, ReducedForm};
 use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
+use crate::discrepancy::shooting::windows::Segment;
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
 
@@ -39,8 +40,22 @@ impl Blocks {
         Self { of_window, count }
     }
 
+    /// Of the windows of a plan.
+    pub fn of_plan(plan: &[Segment]) -> Self {
+        Self::of(&plan.iter().map(|s| s.windows.len()).collect::<Vec<_>>())
+    }
+
+    /// The run and the rows of every block.
+    pub fn rows(&self, plan: &[Segment]) -> Vec<(usize, Range<usize>)> {
+        let of = |(segment, own): (usize, Range<usize>)| {
+            let Segment { record, windows } = &plan[segment];
+            (*record, windows[own.start].start..windows[own.end - 1].end)
+        };
+        self.windows().into_iter().map(of).collect()
+    }
+
     /// The windows of every block: segment, and places of the windows within it.
-    pub fn windows(&self) -> Vec<(usize, Range<usize>)> {
+    fn windows(&self) -> Vec<(usize, Range<usize>)> {
         let mut found: Vec<(usize, Range<usize>)> = vec![(0, 0..0); self.count];
         for (segment, blocks) in self.of_window.iter().enumerate() {
             for (window, block) in blocks.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! What a fit says of its effects: how far from neutral, how alike in all runs, how likely by chance.
 
-use super::heterogeneity::{RunValue, spreads};
+use super::heterogeneity::spreads;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::effects::Applied;
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
@@ -72,8 +72,7 @@ pub(crate) fn is_one_way(fit: &Fit, effect: &Applied) -> bool {
     let far = |(i, v): &(usize, f64)| v * v / c[(*i, *i)];
     let most = neutral_at_zero(fit, effect).into_iter().max_by(|a, b| far(a).total_cmp(&far(b)));
     let Some((i, value)) = most else { return false };
-    let is_along = |v: &RunValue| v.value * value > 0.0 || v.value.abs() < v.variance.sqrt();
-    spreads(fit)[i].as_ref().is_some_and(|s| s.values.len() == fit.runs && s.values.iter().all(is_along))
+    spreads(fit)[i].as_ref().is_some_and(|s| s.values.len() == fit.runs && s.is_along(value))
 }
 
 #[cfg(test)]

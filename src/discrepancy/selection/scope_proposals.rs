@@ -55,10 +55,9 @@ impl BlockRows {
         let [speed, growth, yaw] = model.reference_speeds()?;
         let mut found = Self { rows: vec![], times: vec![], runs: vec![] };
         let values = model.fixed().values();
-        for (block, (segment, windows)) in blocks.windows().into_iter().enumerate() {
-            let segment = &problem.plan[segment];
-            let record = &problem.records[segment.record];
-            let rows = segment.windows[windows.start].start..segment.windows[windows.end - 1].end;
+        let mut before = None;
+        for (block, (run, rows)) in blocks.rows(&problem.plan).into_iter().enumerate() {
+            let record = &problem.records[run];
             let channels = record.signals.channels();
             let (mut u, mut slope) = (vec![0.0; channels], vec![0.0; channels]);
             let mut row = |i: usize| {
@@ -75,10 +74,11 @@ impl BlockRows {
             };
             found.rows.push(rows.clone().map(&mut row).collect());
             found.times.push([record.time[rows.start], record.time[rows.end.min(record.time.len() - 1)]]);
-            match found.runs.last_mut().filter(|_| block > 0 && same_run(problem, blocks, block)) {
-                Some(run) => run.end = block + 1,
+            match found.runs.last_mut().filter(|_| before == Some(run)) {
+                Some(blocks) => blocks.end = block + 1,
                 None => found.runs.push(block..block + 1),
             }
+            before = Some(run);
         }
         Ok(found)
     }
@@ -256,12 +256,6 @@ impl BlockRows {
         let at = |q: f64| all.get((q * all.len() as f64) as usize).copied();
         QUANTILES.into_iter().filter_map(at).collect()
     }
-}
-
-fn same_run(problem: &Problem, blocks: &Blocks, block: usize) -> bool {
-    let windows = blocks.windows();
-    let record = |b: usize| problem.plan[windows[b].0].record;
-    record(block) == record(block - 1)
 }
 
 fn best(tried: Vec<Proposal>) -> Vec<Proposal> {

@@ -185,8 +185,7 @@ impl Search<'_> {
             .into_iter()
             .filter(|(e, t)| score_test::is_regular(e, model, *t) && e.scope.is_none())
             .collect();
-        let windows: Vec<usize> = self.problem.plan.iter().map(|s| s.windows.len()).collect();
-        let blocks = Blocks::of(&windows);
+        let blocks = Blocks::of_plan(&self.problem.plan);
         let rows = BlockRows::of(self.problem, model, &blocks)?;
         let groups: Vec<&[(&Effect, Option<usize>)]> = open.chunks(TOGETHER).collect();
         let of_group = |group: &&[(&Effect, Option<usize>)]| self.scopes_of(base, group, &blocks, &rows);
@@ -255,9 +254,8 @@ fn moves_alike(fit: &Fit, effect: &Applied) -> bool {
     let Some(rate) = effect.effect.parameters.keys().position(|name| *name == course.rate()) else { return true };
     let each = &spreads(fit)[first_of(fit, effect) + rate];
     let Some(each) = each.as_ref().filter(|_| fit.runs > 1) else { return fit.runs < 2 };
-    let far = |v: &RunValue| v.value * v.value / v.variance;
-    let opposed = |v: &RunValue| v.value * effect.values[rate] < 0.0 && far(v) > 1.0;
-    each.values.iter().filter(|v| far(v) > BORNE_OUT).count() > 1 && !each.values.iter().any(opposed)
+    let bears_out = |v: &&RunValue| v.value * v.value / v.variance > BORNE_OUT;
+    each.values.iter().filter(bears_out).count() > 1 && each.is_along(effect.values[rate])
 }
 
 /// The most promising candidates, a few of each kind of scope.

@@ -128,8 +128,7 @@ impl Tally {
     fn something_hidden(&mut self, o: &Outcome) {
         let right = o.judgement.right;
         if o.case.determined() {
-            let answer = o.judgement.answer.unwrap_or(Answer::Wrong);
-            *self.answers.entry(o.case.kind.name().into()).or_default().entry(answer).or_default() += 1;
+            *self.answers.entry(o.case.kind.name().into()).or_default().entry(o.judgement.answer).or_default() += 1;
         }
         if !o.case.determined() {
             self.undetermined.count(right);

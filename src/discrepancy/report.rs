@@ -264,7 +264,7 @@ pub struct AboveSpeed {
 /// let warming: CourseFound = serde_json::from_str(text).unwrap();
 /// assert!(warming.std.zip(warming.per_s).is_some_and(|(std, per_s)| per_s > 3.0 * std));
 /// ```
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CourseFound {
     /// `linear` or `random-walk`.
     pub kind: String,

@@ -77,7 +77,6 @@ impl Model {
 
     /// What an effect rewrites on this vehicle; `None` when it does not apply.
     pub(crate) fn targets(&self, e: &Effect, trailer: Option<usize>, names: &[Symbol]) -> Option<Vec<(Symbol, Expr)>> {
-        let logged = e.needs.iter().all(|role| self.vehicle.inputs.contains_key(role));
         let found = match &e.on {
             Some(role) if self.inputs.contains(role) => {
                 let own = [acting(role), delaying(role)];
@@ -87,9 +86,14 @@ impl Model {
             Some(_) => None,
             None => e.targets(names, trailer),
         };
-        let found = found.filter(|_| logged)?;
+        let found = found.filter(|_| self.has_inputs_of(e))?;
         let free = found.iter().all(|(name, _)| !self.vehicle.holds(name));
         (free && self.stranger(e, names).is_none()).then_some(found)
+    }
+
+    /// Whether the vehicle has all inputs that an effect needs.
+    fn has_inputs_of(&self, e: &Effect) -> bool {
+        e.needs.iter().all(|role| self.vehicle.inputs.contains_key(role))
     }
 
     /// The first name in an effect's formulas that means nothing in this model.
@@ -129,8 +133,8 @@ impl Model {
             let targets = self.targets(&applied.effect, applied.trailer, &names);
             let targets = targets.ok_or_else(|| {
                 let (label, vehicle) = (applied.label(), &self.vehicle.id);
-                let has_all = applied.effect.needs.iter().all(|role| self.vehicle.inputs.contains_key(role));
-                let is_aimed = has_all && applied.effect.targets(&names, applied.trailer).is_some();
+                let is_aimed =
+                    self.has_inputs_of(&applied.effect) && applied.effect.targets(&names, applied.trailer).is_some();
                 Error::input(match self.stranger(&applied.effect, &names).filter(|_| is_aimed) {
                     Some(name) => format!("the effect {label} speaks of {name}, which this {vehicle} has not"),
                     None => format!("the effect {label} does not apply to the vehicle {vehicle}"),

@@ -56,8 +56,8 @@ pub struct Judgement {
     pub unnamed: bool,
     /// Whether verdict and names are all right.
     pub right: bool,
-    /// What the answer is to its reader; wrong where there is none.
-    pub answer: Option<Answer>,
+    /// What the answer is to its reader.
+    pub answer: Answer,
     /// Whether the data excuse a wrong answer: they do not show the effect, or not apart from what was named.
     pub excused: bool,
     /// Parameters of the effects named by the right name.
@@ -129,7 +129,7 @@ fn judged(case: &Case, report: &Report) -> Judgement {
         extra,
         unnamed,
         right,
-        answer: Some(answer),
+        answer,
         excused,
         parameters,
         gap_over_floor: ratio(|g| Some(g.held_out?.position_rms_after / g.noise_floor.position_rms)),
@@ -154,7 +154,7 @@ fn begins(named: &Named, [from, to]: [f64; 2]) -> bool {
 }
 
 /// What an answer is to its reader.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 pub enum Answer {
     /// All that is hidden is named, and nothing else.
     Right,
@@ -162,7 +162,9 @@ pub enum Answer {
     Class,
     /// Nothing that is not there is named; something remains or is left open.
     HonestRest,
-    /// Something is named, or called a law, that is not there; or nothing is said though something is there.
+    /// Something is named, or called a law, that is not there; or nothing is said though something is there. So is no
+    /// answer at all.
+    #[default]
     Wrong,
 }
 

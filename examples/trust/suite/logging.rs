@@ -1,6 +1,7 @@
 //! How a run is logged: rate, noise, gaps, jitter, wrapped angles, gross errors.
 
 use super::make::Make;
+use super::power::FITTED;
 use crate::simulator::{InputLog, Mounting, Noise, Outliers, Scenario, Timing, Tractor};
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
@@ -10,12 +11,10 @@ const POSITION: (f64, f64) = (1e-4, 5e-2);
 const HEADING: (f64, f64) = (1e-4, 2e-2);
 /// Rows per second, Hz.
 const RATE: (f64, f64) = (10.0, 100.0);
-/// The share of a run that is fitted.
-const FITTED: f64 = 0.75;
-/// Length of a run, s; of one in which something begins it is half as long at least.
-pub const LONG: f64 = 60.0;
 /// Length of a run, s.
 const DURATION: (f64, f64) = (20.0, 120.0);
+/// A run in which something begins lasts as long as this at least, s.
+pub const LONG: f64 = 60.0;
 
 /// Draws how a scenario is logged; a run whose time is measured has 60 s at 50 Hz.
 pub fn draw(scenario: &mut Scenario, timed: bool, random: &mut ChaCha8Rng) {

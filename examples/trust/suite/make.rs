@@ -93,9 +93,13 @@ impl Make {
         let first = model.applicable(effects::all()).into_iter().filter(|(e, _)| e.limit.is_none());
         let applicable = first.map(|(e, trailer)| (e.id.as_str(), trailer));
         let simulated = applicable.filter(|(id, _)| super::secret::has_law(id));
-        // Gravity along the way acts on what the rear axle rolls; a driven front wheel shares it with the steering.
-        let is_along = |id: &str| id == "grade" && self.tractor == Tractor::Tricycle;
-        simulated.filter(|(id, _)| (self.heading || !self.is_a_start_heading(id)) && !is_along(id)).collect()
+        let is_told = |id: &str| (self.heading || !self.is_a_start_heading(id)) && !self.is_shared_with_steering(id);
+        simulated.filter(|(id, _)| is_told(id)).collect()
+    }
+
+    /// Gravity along the way acts on what the rear axle rolls; a driven front wheel shares it with the steering.
+    fn is_shared_with_steering(&self, id: &str) -> bool {
+        id == "grade" && self.tractor == Tractor::Tricycle
     }
 
     /// Without a measured heading these effects are the same as another heading at the start.

@@ -20,7 +20,7 @@ const THINNED: f64 = 4.0;
 /// Steps of the integration that are short enough for how a log changes, s: of order six, they are off by less than 10⁻¹⁰.
 const COARSE: f64 = 0.05;
 /// Share of a run that is fitted.
-const FITTED: f64 = 0.75;
+pub const FITTED: f64 = 0.75;
 
 /// How well a case's data show one hidden effect.
 #[derive(Clone, Debug)]

@@ -30,19 +30,18 @@ pub(crate) fn estimates(a: &Applied, std: &[Option<f64>]) -> BTreeMap<String, Es
         let moving = moving.map(|m| CourseFound {
             kind: LINEAR.into(),
             per_s: Some(m.value),
-            per_sqrt_s: None,
             std: m.std,
             since: Some(course.since),
+            ..CourseFound::default()
         });
         parameters.entry(course.parameter.clone()).and_modify(|p| p.course = moving);
     }
     if let Some(walk) = &a.effect.walk {
         let walking = CourseFound {
             kind: RANDOM_WALK.into(),
-            per_s: None,
             per_sqrt_s: Some(walk.per_sqrt_s),
             std: walk.std,
-            since: None,
+            ..CourseFound::default()
         };
         parameters.entry(walk.parameter.clone()).and_modify(|p| p.course = Some(walking));
     }

@@ -93,8 +93,9 @@ mod tests {
             "traverse-creep is −0.020 at large wheel_rate and 0.10 elsewhere, so that is not named"
         );
         let reasons = [Refusal::Impossible, Refusal::NoDeviation, Refusal::BelowBar, Refusal::LeansOnLaw];
-        let others = [Refusal::InputNoise, Refusal::Ridge(applied("lever-arm").into())];
-        for why in reasons.into_iter().chain(others) {
+        let others = [Refusal::InputNoise, Refusal::Ridge(applied("lever-arm").into()), Refusal::NotBorneOut];
+        let imitated = [Refusal::Imitation(applied("lever-arm").into())];
+        for why in reasons.into_iter().chain(others).chain(imitated) {
             let line = said(why);
             assert!(line.contains("traverse-creep") && line.ends_with("is not named"), "{line}");
         }

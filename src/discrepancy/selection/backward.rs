@@ -8,6 +8,7 @@ use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
 use crate::discrepancy::evidence::wald_test::wald;
 use crate::effects::Applied;
 use crate::error::Result;
+use crate::model::effect_equation::is_term;
 
 impl Search<'_> {
     /// The fit without an effect.
@@ -16,6 +17,13 @@ impl Search<'_> {
         // where the likelihood is flat.
         let smaller = without_effect(&fit.model, effect, &self.before.model);
         self.problem.fit(&smaller, &fit.window_states, &self.before.variances, Effort::FULL)
+    }
+
+    /// The fit without its terms.
+    pub fn without_terms(&self, fit: &Fit) -> Result<Option<Fit>> {
+        let mut bare = fit.model.clone();
+        bare.effects.retain(|e| !is_term(e));
+        self.problem.fit(&bare, &fit.window_states, &self.before.variances, Effort::FULL)
     }
 
     /// Drops what is no longer needed: what is worth no more than a bar beyond BIC.

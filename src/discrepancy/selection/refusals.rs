@@ -3,7 +3,7 @@
 use super::input_noise;
 use super::search::{Search, SearchState, find, first_of, forget};
 use crate::discrepancy::estimation::bounds::is_possible;
-use crate::discrepancy::estimation::fit::{Effort, Fit};
+use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::unexplained::remaining;
 use crate::discrepancy::evidence::jackknife::Jackknife;
 use crate::discrepancy::evidence::wald_test::neutral_at_zero;
@@ -124,9 +124,8 @@ impl Search<'_> {
                 let both = neither.deviance - fit.deviance;
                 let alone = [&a.without, &b.without].map(|with_other| neither.deviance - with_other.deviance);
                 if alone.iter().all(|gain| *gain > MOST_OF_BOTH * both) {
-                    let order = a.effect.delta_bic < b.effect.delta_bic;
-                    let [less, more] = if order { [a, b] } else { [b, a] };
-                    return Ok(Some([less, more].map(|w| w.effect.applied.clone())));
+                    let ordered = if a.effect.delta_bic < b.effect.delta_bic { [a, b] } else { [b, a] };
+                    return Ok(Some(ordered.map(|w| w.effect.applied.clone())));
                 }
             }
         }
@@ -149,11 +148,7 @@ impl Search<'_> {
         if !fit.model.free_effects().any(is_term) || fit.model.free_effects().all(is_term) {
             return Ok(None);
         }
-        let mut bare = fit.model.clone();
-        bare.effects.retain(|e| !is_term(e));
-        let Some(bare) = self.problem.fit(&bare, &fit.window_states, &self.before.variances, Effort::FULL)? else {
-            return Ok(None);
-        };
+        let Some(bare) = self.without_terms(fit)? else { return Ok(None) };
         let names = chosen.iter().filter(|c| !is_term(&c.applied));
         let moved = names.filter_map(|c| Some((moved(fit, &bare, &c.applied)?, &c.applied)));
         let most = moved.filter(|(by, _)| *by > LEANS).max_by(|a, b| a.0.total_cmp(&b.0));

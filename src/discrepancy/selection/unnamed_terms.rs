@@ -1,12 +1,12 @@
 //! Disagreement that no effect of the library explains: an equation for it, where one is repeatable.
 
 use super::search::{Search, SearchState};
-use crate::discrepancy::estimation::fit::{Effort, Fit};
+use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::unexplained::{is_wanted, remains};
 use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
 use crate::discrepancy::localisation::constraint_residuals::reduction;
 use crate::discrepancy::selection::search::still_open;
-use crate::effects::{Applied, Effect};
+use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::effect_equation::is_term;
 use crate::progress::{OnProgress, Stage, begin};
@@ -77,16 +77,10 @@ pub(crate) fn without_fallen(
     if !fallen.iter().any(|e| !is_term(e)) || !is_asked || !remains(fit) {
         return Ok(None);
     }
-    let mut bare = fit.model.clone();
-    bare.effects.retain(|e| !is_term(e));
-    let variances = &selection.before.variances;
-    let Some(bare) = selection.problem.fit(&bare, &fit.window_states, variances, Effort::FULL)? else {
-        return Ok(None);
-    };
+    let Some(bare) = selection.without_terms(fit)? else { return Ok(None) };
     let named = SearchState { candidates: standing.candidates.clone(), ..SearchState::from(&bare) };
     // Where names imitated a law it is that one which is asked for, and no other name.
-    let none: Vec<Effect> = vec![];
-    let selection = &Search { library: if imitated { &none } else { selection.library }, ..*selection };
+    let selection = &Search { library: if imitated { &[] } else { selection.library }, ..*selection };
     let found = search(selection, &named, fallen, progress)?;
     let n = found.as_ref().map_or(0.0, |f| f.fit.sample_size).max(fit.sample_size);
     Ok(found.filter(|found| bic(&found.fit, n) < bic(fit, n)))

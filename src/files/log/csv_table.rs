@@ -216,12 +216,13 @@ fn beginning(input: &mut Bytes) -> io::Result<(Beginning, Vec<u8>)> {
     }
 }
 
+/// What an SQLite database begins with.
+pub(crate) const SQLITE: &[u8; 16] = b"SQLite format 3\0";
+
 /// What is a bag of messages that is not read here, and how it becomes one that is.
 fn bag_of_another_kind(start: &[u8]) -> Option<Error> {
     let (what, how) = match () {
-        () if start.starts_with(b"SQLite format 3\0") => {
-            ("a ROS 2 bag in SQLite (.db3)", "mcap convert BAG.db3 BAG.mcap")
-        }
+        () if start.starts_with(SQLITE) => ("a ROS 2 bag in SQLite (.db3)", "mcap convert BAG.db3 BAG.mcap"),
         () if start.starts_with(b"#ROSBAG V2.0") => ("a ROS 1 bag", "mcap convert BAG.bag BAG.mcap"),
         () => return None,
     };

@@ -1,9 +1,9 @@
 //! A log of whatever format: columns by name, rows of numbers.
 
-use super::csv_table::{Numbers, Sheet};
+use super::csv_table::{Numbers, SQLITE, Sheet};
 use super::folder::Folder;
 #[cfg(feature = "mcap")]
-use super::mcap::{bag::Bag, sqlite};
+use super::mcap::bag::Bag;
 #[cfg(feature = "parquet")]
 use super::parquet::ParquetLog;
 use super::place::Place;
@@ -123,15 +123,14 @@ fn format(path: &Path) -> Result<Format> {
         return Ok(Format::Csv);
     }
     let mut file = open(path)?;
-    let mut start = [0; 5];
+    let mut start = [0; SQLITE.len()];
     let known = file.read(&mut start).unwrap_or(0);
     let begins = |magic: &[u8]| known >= magic.len() && start.starts_with(magic);
     let ends = |name: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(name));
     Ok(match () {
         () if begins(PARQUET) || ends("parquet") => Format::Parquet,
         () if begins(MCAP) || ends("mcap") => Format::Bag,
-        #[cfg(feature = "mcap")]
-        () if sqlite::is_one(path) => Format::Bag,
+        () if cfg!(feature = "db3") && begins(SQLITE) => Format::Bag,
         () => Format::Csv,
     })
 }

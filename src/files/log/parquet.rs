@@ -5,7 +5,7 @@ use super::place::{Form, Place};
 use super::time_stamp::{Origin, of_number};
 use super::usable_rows::{hash, usable};
 use crate::error::{Error, Result};
-use crate::files::toml::suggestions::shown;
+use crate::files::toml::suggestions::{reason, shown};
 use crate::files::toml::text::open;
 use parquet::basic::{ConvertedType, LogicalType, TimeUnit, Type};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
@@ -171,8 +171,7 @@ fn unreadable(path: &Path, e: &ParquetError) -> Error {
 }
 
 fn broken(path: &Path, why: &str) -> Error {
-    let why: String = why.chars().map(|c| if c.is_control() { ' ' } else { c }).take(200).collect();
-    Error::input(format!("cannot be read as Parquet: {why}"))
+    Error::input(format!("cannot be read as Parquet: {}", reason(why)))
         .at_file(path)
         .help("write the file again; it may be cut off")
 }

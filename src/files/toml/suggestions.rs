@@ -4,6 +4,9 @@
 const LISTED: usize = 16;
 /// The most characters a message shows of a name: it stays on one line of a terminal.
 const MAX_SHOWN_CHARACTERS: usize = 40;
+/// Characters of a library's reason that are shown.
+#[cfg(any(feature = "parquet", feature = "mcap"))]
+const MAX_REASON_CHARACTERS: usize = 200;
 /// The longest word that is compared, in characters: the distance takes quadratic time, and no id is longer.
 const MAX_COMPARED_CHARACTERS: usize = 64;
 
@@ -30,6 +33,12 @@ pub(crate) fn shown(text: &str) -> String {
     let mut chars = text.chars().map(|c| if c.is_control() { ' ' } else { c });
     let start: String = chars.by_ref().take(MAX_SHOWN_CHARACTERS).collect();
     if chars.next().is_some() { start + "…" } else { start }
+}
+
+/// Why a library cannot read a file, as a message may show it: one line, longer than a name.
+#[cfg(any(feature = "parquet", feature = "mcap"))]
+pub(crate) fn reason(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(MAX_REASON_CHARACTERS).collect()
 }
 
 /// The candidate nearest to `word`, if one is near enough to be meant.

@@ -2,7 +2,9 @@
 
 use super::messages::Layouts;
 use super::recorded::Recorded;
-use super::{cdr, container, messages, sqlite};
+#[cfg(feature = "db3")]
+use super::sqlite;
+use super::{cdr, container, messages};
 use crate::error::{Error, Result};
 use crate::files::log::csv_table::Numbers;
 use crate::files::log::own_times::at_times;
@@ -144,7 +146,11 @@ impl Bag {
 
 /// Puts every message of a bag to a reader, with how many came before it.
 fn each(path: &Path, read: &mut dyn FnMut(usize, &Recorded) -> Result<()>) -> Result<()> {
-    if sqlite::is_one(path) { sqlite::each(path, read) } else { container::each(path, read) }
+    #[cfg(feature = "db3")]
+    if sqlite::is_one(path) {
+        return sqlite::each(path, read);
+    }
+    container::each(path, read)
 }
 
 fn kind(message: &Recorded) -> String {

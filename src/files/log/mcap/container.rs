@@ -1,7 +1,8 @@
 //! The messages of an MCAP file, one after another.
 
-use super::recorded::{Recorded, Source, plain};
+use super::recorded::{Recorded, Source};
 use crate::error::{Error, Result};
+use crate::files::toml::suggestions;
 use crate::files::toml::text::open;
 use mcap::io::MessageReader;
 use mcap::sans_io::LinearReaderOptions;
@@ -42,7 +43,7 @@ fn source(message: &Message) -> Source {
 }
 
 fn unreadable(path: &Path, n: usize, e: &McapError) -> Error {
-    Error::input(format!("cannot be read as MCAP behind message {n}: {}", plain(&e.to_string())))
+    Error::input(format!("cannot be read as MCAP behind message {n}: {}", suggestions::reason(&e.to_string())))
         .at_file(path)
         .help("the recording may be cut off; `mcap recover` saves what is whole")
 }

@@ -12,4 +12,5 @@ mod container;
 mod definition;
 mod messages;
 mod recorded;
-pub(crate) mod sqlite;
+#[cfg(feature = "db3")]
+mod sqlite;

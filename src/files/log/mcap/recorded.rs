@@ -21,8 +21,3 @@ pub(crate) struct Recorded<'a> {
     pub log_time: u64,
     pub data: &'a [u8],
 }
-
-/// A foreign message in one short line.
-pub(crate) fn plain(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(200).collect()
-}

@@ -52,6 +52,8 @@ pub struct NoiseModel {
     jumps: Arc<[usize]>,
 }
 
+/// Errors at the ends of windows that are less than this share of the measurement noise do not show.
+const HIDDEN: f64 = 0.03;
 /// The smallest jump that is told from none, as a share of the measurement noise: below it the likelihood is flat.
 const LEAST_JUMP: f64 = 1e-3;
 
@@ -131,6 +133,13 @@ impl NoiseModel {
         self
     }
 
+    /// Whether errors of the nodes at the ends of windows, of these variances by component, are lost in the measurement noise.
+    pub fn hides(&self, variances: &[f64]) -> bool {
+        let hidden =
+            |(c, v): (usize, &f64)| self.noise_below(self.sensor + c).is_some_and(|noise| *v < HIDDEN * HIDDEN * noise);
+        variances.iter().enumerate().all(hidden)
+    }
+
     /// Knowing the variances of the process noise that the noise of the inputs makes.
     pub fn knowing(mut self, known: impl IntoIterator<Item = f64>) -> Self {
         self.process_mut().iter_mut().zip(known).for_each(|(jump, known)| jump.known = known);
@@ -194,6 +203,8 @@ mod tests {
         assert_eq!((calm.moved_by(6, -1.0), calm.moved_by(6, 1.0) == calm), (calm.clone(), false));
         assert!(calm.moved_by(0, -1.0).measurement()[0].variance < 1.5);
         assert_eq!(calm.with_jumps_of_noise(), noise);
+        // Of along, across and yaw: a hundredth of the noise they are told by, or a tenth.
+        assert!(noise.hides(&[4e-4, 4e-4, 1e-4, 0.0]) && !noise.hides(&[4e-4, 4e-4, 1e-2, 0.0]));
         assert!(noise.close_to(&noise.moved_by(5, 0.19)) && !noise.close_to(&noise.moved_by(5, 0.21)));
     }
 }

@@ -63,21 +63,26 @@ impl Problem {
 
     /// The same with what the noise of its inputs makes of a model's windows.
     pub(crate) fn knowing_its_inputs(self, model: &Model) -> Result<Self> {
-        if !self.records.iter().any(|r| r.input_noise.is_there()) {
+        if !self.has_noisy_inputs() {
             return Ok(self);
         }
         let (equations, starts) = (model.equations(&[])?, self.starts(model)?);
         let ends = |p: &Problem| linearise(&equations, &[], &p.records, &p.plan, &starts);
         let Some(quiet) = ends(&self) else { return Ok(self) };
         let mut squares = vec![0.0; self.variances.process().len()];
-        let mut time = 0.0;
+        let (mut time, mut windows) = (0.0, 0.0);
         for draw in 0..INPUT_DRAWS {
             let Some(noisy) = ends(&self.with_noisier_inputs(draw)) else { return Ok(self) };
             for (a, b) in quiet.iter().flatten().zip(noisy.iter().flatten()).filter(|(a, _)| !a.mismatch.is_empty()) {
                 time += a.duration;
+                windows += 1.0;
                 let pairs = a.mismatch.iter().zip(&b.mismatch).zip(&mut squares);
                 pairs.for_each(|((a, b), square)| *square += (a - b).powi(2));
             }
+        }
+        if self.variances.hides(&squares.iter().map(|square| square / f64::max(windows, 1.0)).collect::<Vec<f64>>()) {
+            let records = self.records.iter().map(Record::with_exact_inputs).collect();
+            return Ok(Self { records, ..self });
         }
         let known = squares.into_iter().map(|square| if time > 0.0 { square / time } else { 0.0 });
         Ok(Self { variances: self.variances.clone().knowing(known), ..self })
@@ -87,6 +92,17 @@ impl Problem {
     pub(crate) fn with_noisier_inputs(&self, seed: u64) -> Self {
         let noisier = |(i, r): (usize, &Record)| r.with_noisier_inputs(1000 * seed + i as u64);
         Self { records: self.records.iter().enumerate().map(noisier).collect(), ..self.clone() }
+    }
+
+    /// The same poses with inputs that a smoother has taken the noise from; `None` where they show none.
+    pub(crate) fn with_smoothed_inputs(&self) -> Option<Self> {
+        let records: Vec<Record> = self.records.iter().map(Record::with_smoothed_inputs).collect();
+        self.has_noisy_inputs().then(|| Self { records, ..self.clone() })
+    }
+
+    /// Whether the inputs of any run show noise.
+    pub(crate) fn has_noisy_inputs(&self) -> bool {
+        self.records.iter().any(|r| r.input_noise.is_there())
     }
 
     /// How many windows there are.

@@ -2,25 +2,27 @@
 //!
 //! | kind | its error |
 //! |---|---|
-//! | counted | the *integral* is off by itself at every row, by step²/12 where it is rounded: errors of neighbouring means cancel |
-//! | rounded | each value is rounded: off by step²/12 for as long as the value stays |
+//! | counted | the *integral* is off by what is missing to the next tick: errors of neighbouring means cancel |
+//! | rounded | each value is off by what is missing to the next step, as long as the signal stays within it |
 //! | white | each row by itself |
 //!
-//! Means over the time between rows are what counts give; samples are rounded or noisy by themselves.
+//! Noise like it is that of the same logger whose ticks and steps lie elsewhere: the signal is the smoothed one.
 
 use super::local_polynomial;
-use super::quantisation::step_of;
+use super::quantisation::{step_above, tick_of};
+use super::rauch_tung_striebel::smoothed;
 use crate::motion::{Signals, Timing};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
+use std::sync::OnceLock;
 
 /// The noise of one input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum ChannelNoise {
     /// Nothing that shows.
     None,
-    /// The deviation of a count at each row, over the time between rows, in units of the input.
+    /// The distance between two ticks, in units of the input times seconds.
     Counted(f64),
     /// A value's step.
     Rounded(f64),
@@ -32,14 +34,15 @@ pub(crate) enum ChannelNoise {
 #[derive(Clone, Debug)]
 pub(crate) struct InputNoise {
     time: Vec<f64>,
+    columns: Vec<Vec<f64>>,
     timings: Vec<Timing>,
     channels: Vec<ChannelNoise>,
-    /// Whether a rounded value is another than the row before.
-    changes: Vec<Vec<bool>>,
+    /// The signals without their noise, of what is counted the integral.
+    smooth: OnceLock<Vec<Vec<f64>>>,
 }
 
-/// Noise less than this share of an input, root mean square, is none.
-const LEAST: f64 = 0.01;
+/// Noise or a step less than this share of an input, root mean square, is none.
+const LEAST: f64 = 0.002;
 /// Of white noise the differences from the neighbours' cubic are correlated by −0.8 from row to row.
 const WHITE: f64 = -0.6;
 
@@ -47,8 +50,8 @@ impl InputNoise {
     /// The noise that columns of inputs show.
     pub fn of(time: &[f64], columns: &[Vec<f64>], timings: &[Timing]) -> Self {
         let channels = columns.iter().zip(timings).map(|(c, timing)| of_column(time, c, *timing)).collect();
-        let changes = columns.iter().map(|c| (0..c.len()).map(|i| i == 0 || c[i] != c[i - 1]).collect()).collect();
-        Self { time: time.to_vec(), timings: timings.to_vec(), channels, changes }
+        let (time, columns, timings) = (time.to_vec(), columns.to_vec(), timings.to_vec());
+        Self { time, columns, timings, channels, smooth: OnceLock::new() }
     }
 
     /// Whether any input shows noise.
@@ -56,52 +59,96 @@ impl InputNoise {
         self.channels.iter().any(|c| *c != ChannelNoise::None)
     }
 
+    /// What a smoother takes away from the inputs as noise, the other way round.
+    pub fn smoothing(&self) -> Signals {
+        self.signals(|channel, column, smooth| channel.smoothing(&self.time, column, smooth))
+    }
+
     /// Signals of noise like it, and nothing else.
     pub fn drawn(&self, seed: u64) -> Signals {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let columns: Vec<Vec<f64>> =
-            self.channels.iter().zip(&self.changes).map(|(c, changes)| c.drawn(changes, &mut random)).collect();
+        self.signals(|channel, _, smooth| channel.drawn(&self.time, smooth, &mut random))
+    }
+
+    /// Signals from each channel's noise, its column and its smoothed signal.
+    fn signals(&self, mut of: impl FnMut(ChannelNoise, &[f64], &[f64]) -> Vec<f64>) -> Signals {
+        let smooth = self.smooth.get_or_init(|| {
+            let each = self.channels.iter().zip(&self.columns);
+            each.map(|(channel, column)| channel.smoothed(&self.time, column)).collect()
+        });
+        let each = self.channels.iter().zip(&self.columns).zip(smooth);
+        let columns: Vec<Vec<f64>> = each.map(|((channel, column), smooth)| of(*channel, column, smooth)).collect();
         Signals::mixed(&self.time, &columns, &self.timings)
     }
 }
 
 impl ChannelNoise {
-    /// An error for each row, which is another value than the one before or not.
-    fn drawn(self, changes: &[bool], random: &mut ChaCha8Rng) -> Vec<f64> {
-        let mut last = 0.0;
-        let mut next = |changed: &bool| match self {
-            Self::None => 0.0,
-            Self::White(std) => std * normal(random),
-            Self::Counted(std) => {
-                let here = std * normal(random);
-                here - std::mem::replace(&mut last, here)
-            }
-            Self::Rounded(step) => {
-                if *changed {
-                    last = step * (random.random::<f64>() - 0.5);
-                }
-                last
-            }
+    /// The signal of a column without its noise; of what is counted the integral.
+    fn smoothed(self, time: &[f64], column: &[f64]) -> Vec<f64> {
+        match self {
+            Self::None => vec![0.0; column.len()],
+            Self::White(std) => smoothed(time, column, std * std),
+            Self::Rounded(step) => smoothed(time, column, step * step / 12.0),
+            Self::Counted(tick) => smoothed(time, &integral(time, column), tick * tick / 12.0),
+        }
+    }
+
+    /// What a smoother changes of a column.
+    fn smoothing(self, time: &[f64], column: &[f64], smooth: &[f64]) -> Vec<f64> {
+        let less = |rough: &[f64]| smooth.iter().zip(rough).map(|(s, r)| s - r).collect::<Vec<f64>>();
+        match self {
+            Self::None => vec![0.0; column.len()],
+            Self::White(_) | Self::Rounded(_) => less(column),
+            Self::Counted(_) => means(time, &less(&integral(time, column))),
+        }
+    }
+
+    /// An error for each row: that of the smoothed signal where ticks and steps lie elsewhere.
+    fn drawn(self, time: &[f64], smooth: &[f64], random: &mut ChaCha8Rng) -> Vec<f64> {
+        let elsewhere: f64 = random.random();
+        let missing = |step: f64| {
+            let to_next = |s: &f64| {
+                let steps = s / step + elsewhere;
+                step * (steps.round() - steps)
+            };
+            smooth.iter().map(to_next).collect::<Vec<f64>>()
         };
-        changes.iter().map(&mut next).collect()
+        match self {
+            Self::None => vec![0.0; smooth.len()],
+            Self::White(std) => smooth.iter().map(|_| std * random.sample::<f64, _>(StandardNormal)).collect(),
+            Self::Rounded(step) => missing(step),
+            Self::Counted(tick) => means(time, &missing(tick)),
+        }
     }
 }
 
-fn normal(random: &mut ChaCha8Rng) -> f64 {
-    random.sample(StandardNormal)
+/// What a column sums up to from the first row on.
+fn integral(time: &[f64], column: &[f64]) -> Vec<f64> {
+    let mut sum = 0.0;
+    let added = |i: usize| {
+        sum += if i == 0 { 0.0 } else { (time[i] - time[i - 1]) * column[i] };
+        sum
+    };
+    (0..column.len()).map(added).collect()
+}
+
+/// The means over the time between rows whose sums are an integral.
+fn means(time: &[f64], integral: &[f64]) -> Vec<f64> {
+    let mean = |i: usize| if i == 0 { 0.0 } else { (integral[i] - integral[i - 1]) / (time[i] - time[i - 1]) };
+    (0..integral.len()).map(mean).collect()
 }
 
 fn of_column(time: &[f64], column: &[f64], timing: Timing) -> ChannelNoise {
-    let is_mean = timing == Timing::IntervalMean;
-    if let Some(step) = step_of(column) {
-        return if is_mean { ChannelNoise::Counted(step / 12.0_f64.sqrt()) } else { ChannelNoise::Rounded(step) };
+    let tick = (timing == Timing::IntervalMean).then(|| tick_of(time, column)).flatten();
+    if let Some(tick) = tick {
+        return ChannelNoise::Counted(tick);
+    }
+    if let Some(step) = step_above(column, LEAST) {
+        return ChannelNoise::Rounded(step);
     }
     let size = (column.iter().map(|u| u * u).sum::<f64>() / column.len().max(1) as f64).sqrt();
     match local_polynomial::noise(time, column) {
-        Some(std) if std > LEAST * size && is_white(time, column) => match is_mean {
-            true => ChannelNoise::Counted(std / 2.0_f64.sqrt()),
-            false => ChannelNoise::White(std),
-        },
+        Some(std) if std > LEAST * size && is_white(time, column) => ChannelNoise::White(std),
         _ => ChannelNoise::None,
     }
 }
@@ -142,33 +189,59 @@ mod tests {
     #[test]
     fn noise_is_told_by_its_steps_and_by_its_timing() {
         let rounded = |t: f64| (wave(t) / 0.3).round() * 0.3;
-        assert!(matches!(kind(rounded, Timing::Sample), ChannelNoise::Rounded(step) if (step - 0.3).abs() < 1e-9));
-        let counted = kind(rounded, Timing::IntervalMean);
-        assert!(matches!(counted, ChannelNoise::Counted(std) if (std - 0.3 / 12.0_f64.sqrt()).abs() < 1e-9));
-        let noisy = |t: f64| wave(t) + 0.1 * (1e4 * t * t).sin();
-        assert!(matches!(kind(noisy, Timing::Sample), ChannelNoise::White(std) if (0.04..0.12).contains(&std)));
-        assert_eq!(kind(wave, Timing::Sample), ChannelNoise::None);
+        for timing in [Timing::Sample, Timing::IntervalMean] {
+            assert!(matches!(kind(rounded, timing), ChannelNoise::Rounded(step) if (step - 0.3).abs() < 1e-9));
+        }
+        let angle = |t: f64| ((4.0 * t - 1.5 / 1.3 * (1.3 * t).cos()) / 0.006).floor() * 0.006;
+        let counted = |t: f64| (angle(t) - angle(t - 0.02)) / 0.02;
+        let found = kind(counted, Timing::IntervalMean);
+        assert!(matches!(found, ChannelNoise::Counted(tick) if (tick / 0.006 - 1.0).abs() < 1e-6), "{found:?}");
+        for timing in [Timing::Sample, Timing::IntervalMean] {
+            let noisy = |t: f64| wave(t) + 0.1 * (1e4 * t * t).sin();
+            assert!(matches!(kind(noisy, timing), ChannelNoise::White(std) if (0.04..0.12).contains(&std)));
+            assert_eq!(kind(wave, timing), ChannelNoise::None);
+        }
     }
 
-    /// The sum of what is counted stays where it is, that of white noise walks.
+    /// Noise like that of a logger is as large as its own, and cancels where its own does.
     #[test]
-    fn what_is_counted_cancels() {
-        let changes = vec![true; 20_000];
-        let way = |noise: ChannelNoise| {
-            let drawn = noise.drawn(&changes, &mut ChaCha8Rng::seed_from_u64(1));
-            let rms = (drawn.iter().map(|e| e * e).sum::<f64>() / drawn.len() as f64).sqrt();
-            let sums = drawn.iter().scan(0.0, |sum, e| {
-                *sum += e;
-                Some(*sum)
-            });
-            (rms, sums.map(f64::abs).fold(0.0, f64::max))
+    fn noise_like_it_is_as_large_and_cancels_as_it_does() {
+        let time = time();
+        let exact: Vec<f64> = time.iter().map(|t| wave(*t)).collect();
+        let rms = |of: &[f64]| (of.iter().map(|e| e * e).sum::<f64>() / of.len() as f64).sqrt();
+        let sizes = |noise: ChannelNoise, error: &dyn Fn(&[f64]) -> Vec<f64>| {
+            let column: Vec<f64> = exact.iter().zip(error(&exact)).map(|(s, e)| s + e).collect();
+            let smooth = noise.smoothed(&time, &column);
+            let drawn = noise.drawn(&time, &smooth, &mut ChaCha8Rng::seed_from_u64(1));
+            [error(&exact), drawn].map(|e| [rms(&e), rms(&integral(&time, &e))])
         };
-        let (rms, most) = way(ChannelNoise::Counted(0.5));
-        assert!((rms / 0.5 / 2.0_f64.sqrt() - 1.0).abs() < 0.02 && most < 3.0, "{rms} {most}");
-        let (rms, most) = way(ChannelNoise::White(0.5));
-        assert!((rms / 0.5 - 1.0).abs() < 0.02 && most > 10.0, "{rms} {most}");
-        let held = ChannelNoise::Rounded(0.2).drawn(&[true, false, false, true], &mut ChaCha8Rng::seed_from_u64(1));
-        assert!(held[0] == held[1] && held[1] == held[2] && held[2] != held[3] && held.iter().all(|e| e.abs() <= 0.1));
-        assert_eq!(ChannelNoise::None.drawn(&[true; 3], &mut ChaCha8Rng::seed_from_u64(1)), [0.0; 3]);
+        let rounding = |s: &[f64]| s.iter().map(|s| (s / 0.3).round() * 0.3 - s).collect::<Vec<f64>>();
+        let counting = |s: &[f64]| {
+            let angle = integral(&time, s);
+            means(&time, &angle.iter().map(|a| (a / 0.05).round() * 0.05 - a).collect::<Vec<f64>>())
+        };
+        let kinds: [(ChannelNoise, &dyn Fn(&[f64]) -> Vec<f64>); 2] =
+            [(ChannelNoise::Rounded(0.3), &rounding), (ChannelNoise::Counted(0.05), &counting)];
+        for (noise, error) in kinds {
+            let [[of_rows, of_sums], [drawn, drawn_sums]] = sizes(noise, error);
+            assert!((drawn / of_rows - 1.0).abs() < 0.1, "{noise:?}: {of_rows} {drawn}");
+            assert!((0.3..3.0).contains(&(drawn_sums / of_sums)), "{noise:?}: {of_sums} {drawn_sums}");
+        }
+        assert_eq!(ChannelNoise::None.drawn(&time, &exact, &mut ChaCha8Rng::seed_from_u64(1)), vec![0.0; time.len()]);
+    }
+
+    /// What a smoother takes away is most of what the logger added.
+    #[test]
+    fn smoothing_takes_the_noise_away() {
+        let (time, exact) = (time(), time().iter().map(|t| wave(*t)).collect::<Vec<f64>>());
+        let counts: Vec<f64> = integral(&time, &exact).iter().map(|a| (a / 0.05).floor() * 0.05).collect();
+        let counted = means(&time, &counts);
+        let noise = InputNoise::of(&time, std::slice::from_ref(&counted), &[Timing::IntervalMean]);
+        assert!(matches!(noise.channels[..], [ChannelNoise::Counted(_)]), "{:?}", noise.channels);
+        let channel = noise.channels[0];
+        let by = channel.smoothing(&time, &counted, &channel.smoothed(&time, &counted));
+        let rms = |e: &dyn Fn(usize) -> f64| (1..time.len()).map(|i| e(i).powi(2)).sum::<f64>().sqrt();
+        let (rough, smooth) = (rms(&|i| counted[i] - exact[i]), rms(&|i| counted[i] + by[i] - exact[i]));
+        assert!(smooth < 0.2 * rough, "{rough} {smooth}");
     }
 }

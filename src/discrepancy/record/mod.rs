@@ -4,6 +4,7 @@ pub mod angle;
 pub(crate) mod input_noise;
 pub mod local_polynomial;
 pub(crate) mod quantisation;
+pub(crate) mod rauch_tung_striebel;
 pub mod row_weights;
 pub mod run_record;
 pub mod sensor_noise;

@@ -106,6 +106,16 @@ impl Record {
         Record { signals: self.signals.plus(&self.input_noise.drawn(seed)), ..self.clone() }
     }
 
+    /// The run with inputs that show no noise.
+    pub(crate) fn with_exact_inputs(&self) -> Record {
+        Record { input_noise: InputNoise::of(&[], &[], &[]).into(), ..self.clone() }
+    }
+
+    /// The run with inputs that a smoother has taken the noise from.
+    pub(crate) fn with_smoothed_inputs(&self) -> Record {
+        Record { signals: self.signals.plus(&self.input_noise.smoothing()), ..self.clone() }
+    }
+
     /// The run without the rows that are not kept.
     pub(crate) fn keeping(&self, kept: impl Fn(usize) -> bool) -> Record {
         let pick = |column: &[f64]| (0..column.len()).filter(|i| kept(*i)).map(|i| column[i]).collect::<Vec<f64>>();

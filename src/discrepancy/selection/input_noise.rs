@@ -1,23 +1,44 @@
-//! Effects asked of inputs with their own noise once more: simulation and extrapolation (Cook & Stefanski, 1994).
+//! Effects asked of inputs with less noise and with more.
 //!
-//! Noise of the inputs moves the values of a fit by a bias that grows with its variance. With noise of the same kind
-//! added once more the bias is twice as large; what a value grows by then is what the noise makes of nothing.
+//! Less: a Rauch–Tung–Striebel smoother takes the noise away. An effect that is a low-pass filter of the inputs, or two
+//! that are one together, explains noisy inputs better although nothing is hidden; of smoothed ones it explains nothing.
+//!
+//! More: simulation and extrapolation (Cook & Stefanski, 1994). Noise of the inputs moves the values of a fit by a bias
+//! that grows with its variance. With noise of the same kind added once more the bias is twice as large; what a value
+//! grows by then is what the noise makes of nothing.
 
 use super::search::Search;
 use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::evidence::wald_test::neutral_at_zero;
 use crate::effects::Applied;
 use crate::error::Result;
+use crate::progress::OnProgress;
 
 /// An effect of which more than this share may be what noise makes of nothing is none.
 const MOST: f64 = 0.5;
 /// Times noise is added.
 const DRAWS: u64 = 3;
 
+impl Search<'_> {
+    /// The effect that does not stand where the noise of the inputs is smoothed away; of several the one worth least.
+    pub(crate) fn smoothed_away(&self, fit: &Fit, progress: &OnProgress) -> Result<Option<Applied>> {
+        if fit.p.is_empty() {
+            return Ok(None);
+        }
+        let Some(smooth) = self.problem.with_smoothed_inputs() else { return Ok(None) };
+        let Some(again) = smooth.fit(&fit.model, &fit.window_states, &fit.variances, Effort::FULL)? else {
+            return Ok(None);
+        };
+        let weighed = Search { problem: &smooth, ..*self }.weighed(&again, None, &[], progress)?;
+        let chosen: Vec<_> = weighed.into_iter().map(|w| w.effect).collect();
+        Ok(self.fallen_by_value(&again, &chosen).map(|(applied, _)| applied))
+    }
+}
+
 /// The effect of which the noise of the inputs makes most, where that is more than its share.
 pub(crate) fn made_up(selection: &Search, fit: &Fit) -> Result<Option<Applied>> {
     let problem = selection.problem;
-    if fit.p.is_empty() || !problem.records.iter().any(|r| r.input_noise.is_there()) {
+    if fit.p.is_empty() || !problem.has_noisy_inputs() {
         return Ok(None);
     }
     let mut grown = vec![0.0; fit.p.len()];

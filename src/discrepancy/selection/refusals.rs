@@ -53,7 +53,7 @@ impl Search<'_> {
             }
             let fallen = match companion(&refused, &chosen) {
                 Some(fallen) => Some(fallen),
-                None => self.fallen(&grown.fit, &weighed, &chosen)?,
+                None => self.fallen(&grown.fit, &weighed, &chosen, progress)?,
             };
             let without = |(applied, why): (Applied, Refusal)| {
                 let smaller = self.without(&grown.fit, &applied)?;
@@ -70,7 +70,13 @@ impl Search<'_> {
     }
 
     /// The next effect that does not stand, the cheapest question first.
-    fn fallen(&self, fit: &Fit, weighed: &[Weighed], chosen: &[SelectedEffect]) -> Result<Option<(Applied, Refusal)>> {
+    fn fallen(
+        &self,
+        fit: &Fit,
+        weighed: &[Weighed],
+        chosen: &[SelectedEffect],
+        progress: &OnProgress,
+    ) -> Result<Option<(Applied, Refusal)>> {
         if let Some(fallen) = self.fallen_by_value(fit, chosen) {
             return Ok(Some(fallen));
         }
@@ -83,11 +89,14 @@ impl Search<'_> {
         if let Some(fallen) = self.changing(fit)? {
             return Ok(Some(fallen));
         }
+        if let Some(applied) = self.smoothed_away(fit, progress)? {
+            return Ok(Some((applied, Refusal::InputNoise)));
+        }
         Ok(input_noise::made_up(self, fit)?.map(|applied| (applied, Refusal::InputNoise)))
     }
 
     /// What falls by the values, deviations and evidence that are known: of several the one that is worth least.
-    fn fallen_by_value(&self, fit: &Fit, chosen: &[SelectedEffect]) -> Option<(Applied, Refusal)> {
+    pub(super) fn fallen_by_value(&self, fit: &Fit, chosen: &[SelectedEffect]) -> Option<(Applied, Refusal)> {
         let worst = |of: &dyn Fn(&SelectedEffect) -> bool| {
             let all = chosen.iter().filter(|c| of(c));
             all.min_by(|a, b| a.delta_bic.total_cmp(&b.delta_bic)).map(|c| c.applied.clone())

@@ -2,6 +2,7 @@
 
 pub mod angle;
 pub(crate) mod input_noise;
+pub(crate) mod level_crossings;
 pub mod local_polynomial;
 pub(crate) mod quantisation;
 pub(crate) mod rauch_tung_striebel;

@@ -16,10 +16,12 @@ const WHOLE: f64 = 0.01;
 
 /// The step of a rounded column; `None` where its values are as good as continuous, or commands.
 pub(crate) fn step_of(column: &[f64]) -> Option<f64> {
-    step_above(column, COARSE)
+    let changes = column.windows(2).filter(|w| w[0] != w[1]).count();
+    step_above(column, COARSE).filter(|_| changes as f64 >= BUSY * column.len() as f64)
 }
 
-/// The step of a rounded column, if it is larger than a share of the column, root mean square.
+/// The step of a rounded column, if it is larger than a share of the column, root mean square; of a staircase, too, which is
+/// a slow signal rounded, or commands that look like one.
 ///
 /// Every change of a rounded signal is a whole number of steps, and where it is sampled often most are a single one.
 pub(crate) fn step_above(column: &[f64], share: f64) -> Option<f64> {
@@ -145,7 +147,8 @@ mod tests {
         let rare = |most: u32| -> Vec<f64> {
             (0..20_000).map(|i| 5.0 + f64::from(most) * (1e-3 * f64::from(i)).sin()).map(f64::round).collect()
         };
-        assert_eq!([step_of(&rare(1)), step_of(&rare(4))], [None, Some(1.0)]);
+        assert_eq!([1, 4].map(|most| step_above(&rare(most), COARSE)), [None, Some(1.0)]);
+        assert_eq!(step_of(&rare(4)), None);
         // A fiftieth of the size, root mean square.
         assert_eq!([20.0, 48.0, 100.0].map(|from| step_of(&staircase(100, 3, from))), [Some(1.0), None, None]);
         assert_eq!(step_of(&staircase(100, 3, -60.0)), Some(1.0));

@@ -135,7 +135,7 @@ fn mecanum() -> Claim {
     let [all, across, about] = [[1, 1, 1, 1], [-1, 1, 1, -1], [-1, 1, -1, 1]].map(wheel);
     let (ahead, sideways) = (format!("r*(1 - e_rc)*({all})/4"), format!("r*(1 - e_rc)*({across})/4"));
     let yaw = format!("r*(1 - e_rc)*({about})/(2*(a + b))");
-    base("mecanum-R3", "four wheels with rollers at 45° move the body by least squares, and three coefficients realise it", "corrected theorem (b)")
+    base("mecanum-least-squares", "four wheels with rollers at 45° move the body by least squares", "corrected theorem (b)")
         .under("rollers at ±45° in the usual order; one coefficient for the four wheels; a the track, b the distance of the axles")
         .remark(
             "A Swedish wheel rolls along the axis of its roller alone (Campion, Bastin and d'Andréa-Novel 1996; Lynch and Park \

@@ -305,6 +305,22 @@ fn four_mecanum_wheels_move_the_body_by_least_squares() {
     assert_eq!(["v_l", "v_t", "phi'"].map(|n| get(&m, n)), [0.0; 3]);
 }
 
+#[test]
+fn three_omni_wheels_move_the_body_anywhere() {
+    let all = creepage::extensions::vehicles_with_own("examples/omni/omni.toml").unwrap();
+    let own = all.iter().find(|v| v.id == "three-omni").unwrap();
+    let model = Model::of(own, &[("wheel_radius", 0.05), ("circle_radius", 0.2)]).unwrap();
+    check(300, prop::array::uniform3(-9.0..9.0f64), |rates| {
+        let names = ["wheel_rate_front_right", "wheel_rate_front_left", "wheel_rate_rear"];
+        let inputs: Vec<(&str, f64)> = names.into_iter().zip(rates).collect();
+        let m = motion(&model, &inputs);
+        let [right, left, rear] = rates.map(|rate| 0.05 * rate);
+        near(get(&m, "v_l"), (right - left) / 3f64.sqrt())?;
+        near(get(&m, "v_t"), (right + left - 2.0 * rear) / 3.0)?;
+        near(get(&m, "phi'"), (right + left + rear) / 0.6)
+    });
+}
+
 /// A car with one more wheel.
 fn car_with(wheel: Wheel) -> Model {
     let mut model = vehicle("car", &[0.3, 2.6]);

@@ -128,7 +128,8 @@ fn wheel(model: &Model, symbol: &Symbol) -> Option<(Kind, String, String)> {
         ),
     ];
     table.into_iter().find_map(|(test, kind, unit, means)| {
-        let names: Vec<&str> = model.vehicle.wheels.iter().filter(|w| test(w)).map(|w| w.name.as_str()).collect();
+        let wheels = model.vehicle.wheels.iter().chain(&model.vehicle.followers);
+        let names: Vec<&str> = wheels.filter(|w| test(w)).map(|w| w.name.as_str()).collect();
         (!names.is_empty()).then(|| (kind, unit.into(), format!("{means} {}", names.join(", "))))
     })
 }

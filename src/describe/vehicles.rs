@@ -60,7 +60,7 @@ pub fn vehicles_text(vehicles: &[Vehicle]) -> Result<String> {
     page.entry("parameter hitch_offsets (m, optional): hitch behind the axle ahead of it");
     for vehicle in tractors(vehicles) {
         let [r, t] = letters(vehicle)?;
-        page.entry(&format!("signature of N trailers behind {}: {}T^(N+{t})", vehicle.id, power('R', r)));
+        page.entry(&format!("signature of N trailers behind {}: {}T^{}", vehicle.id, power('R', r), exponent(t)));
     }
     let all = sample_train(&first())?;
     let constraints = all.constraints();
@@ -148,13 +148,17 @@ fn constraint(model: &Model, c: &Constraint) -> Value {
     })
 }
 
+/// How many traverse coefficients a vehicle with N trailers has, as an exponent.
+fn exponent(t: usize) -> String {
+    if t == 0 { "N".into() } else { format!("(N+{t})") }
+}
+
 fn train(vehicles: &[Vehicle]) -> Result<Value> {
     let parameter = |name: &str, meaning: &str, optional: bool| json!({ "name": name, "unit": "m", "meaning": meaning, "optional": optional });
     let tractor = |v: &Vehicle| -> Result<Value> {
         let [r, t] = letters(v)?;
-        Ok(
-            json!({ "id": v.id, "signature": { "r": r, "t": format!("N+{t}"), "text": format!("{}T^(N+{t})", power('R', r)) } }),
-        )
+        let text = format!("{}T^{}", power('R', r), exponent(t));
+        Ok(json!({ "id": v.id, "signature": { "r": r, "t": exponent(t).trim_matches(['(', ')']), "text": text } }))
     };
     let model = sample_train(&first())?;
     let constraints = model.constraints();

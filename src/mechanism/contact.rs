@@ -53,6 +53,30 @@ impl Rolling {
         Self { pi: contact.along(heading), sigma, rate: rate.clone() }
     }
 
+    /// The same with rollers on the rim, a Swedish wheel: the contact is free across the axis of the roller it stands on,
+    /// and what is left is its speed along that axis, π̇·cos γ = (v cos γ + w sin γ) = r(1 − e)·θ̇·cos γ.
+    ///
+    /// | symbol | unit | meaning |
+    /// |---|---|---|
+    /// | v, w | m/s | speed of the contact along the wheel and to its left |
+    /// | γ | rad | angle from the wheel's heading to the axis of the roller |
+    /// | π̇ | m/s | v + w·tan γ, the quasi-velocity |
+    ///
+    /// At γ = 0 the rolling of any wheel; undefined for γ = ±π/2, where a wheel drives nothing. Source: Campion, Bastin and
+    /// d'Andréa-Novel 1996, the Swedish wheel; Lynch and Park 2017, chapter 13, omnidirectional wheels.
+    ///
+    /// ```
+    /// use creepage::formula::Expr;
+    /// use creepage::mechanism::{Heading, Rolling, Velocity};
+    /// let (body, contact) = (Heading::along("phi"), Velocity::in_body("v", "w", &Heading::along("phi")));
+    /// let wheel = Rolling::new(&contact, &body, &Expr::sym("r"), &"theta'".into(), &Expr::sym("e"));
+    /// let mecanum = wheel.over_rollers(&contact, &body, &Expr::parse("-pi/4").unwrap());
+    /// assert_eq!(mecanum.pi.to_string(), "v - w");
+    /// ```
+    pub fn over_rollers(self, contact: &Velocity, heading: &Heading, angle: &Expr) -> Self {
+        Self { pi: self.pi.plus(&tangent(angle), &contact.along(&heading.left())), ..self }
+    }
+
     /// The constraint of this form.
     pub fn constraint(self, name: &str, creep: &Symbol) -> Constraint {
         let mut row = self.pi.clone();
@@ -97,6 +121,22 @@ fn filled<const N: usize>(id: &str, slots: [(&str, Part); N], row: Row, name: &s
     let form = ConstraintType::named(id).and_then(|kind| Form::with_row(&kind, &slots, creep, row));
     // The slots are those of the catalogue, which is part of the program; every vehicle goes through here.
     Constraint { name: name.into(), form: form.unwrap_or_else(|e| unreachable!("{e}")), creep: creep.clone() }
+}
+
+/// The symbol that stands for the half of a whole turn in the angle of a roller.
+const PI: &str = "pi";
+/// A tangent this near to -1, 0 or 1 is that number: angles are sums of parts of π, rounded once.
+const ROUNDING: f64 = 1e-12;
+
+/// The tangent of an angle: -1, 0 or 1 where it is that, and π as 4·arctan 1, for which formulas have no name.
+pub(crate) fn tangent(angle: &Expr) -> Expr {
+    let pi = &Expr::int(4) * &Expr::call(Fun::Atan, &Expr::int(1));
+    let angle = angle.substitute(&|s| (s.as_str() == PI).then(|| pi.clone()));
+    let value = angle.eval(&|_| f64::NAN).map(f64::tan);
+    match value.filter(|t| t.abs() < 1.0 + ROUNDING && (t - t.round()).abs() < ROUNDING) {
+        Some(t) => Expr::int(t.round() as i64),
+        None => Expr::call(Fun::Tan, &angle),
+    }
 }
 
 /// cot(ψ + arctan e), the closed form of σ off its singular set (E2).

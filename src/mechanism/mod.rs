@@ -45,6 +45,7 @@ pub use constraint_type::{ConstraintType, constraint_types};
 #[doc(hidden)]
 pub use constraint_type::{Printed, Regimes, Slot};
 #[doc(hidden)]
+pub(crate) use contact::tangent;
 pub use contact::{Direction, Rolling, sigma_closed_form};
 #[doc(hidden)]
 pub use definitions::Definitions;

@@ -2,7 +2,7 @@
 
 use super::build::moving;
 use super::constraints::{
-    bodies, direction, rolling, section_heading, trailer_creep, trailer_direction, trailer_lengths,
+    bodies, direction, rolling, section_heading, sideways, trailer_creep, trailer_direction, trailer_lengths,
 };
 use super::trailer::trailer_heading;
 use super::vehicle_model::Model;
@@ -184,6 +184,23 @@ impl Model {
             let t = direction(wheel, &reference, &body).filter(|_| castor);
             let rows: Vec<_> = t.into_iter().chain(rolling(wheel, &reference, &body)).map(|c| c.row()).collect();
             let solved = solve::together(&rows, &unknown);
+            let solved = solved.ok_or_else(|| self.unmoved(&format!("do not say what the {} does", wheel.name)))?;
+            solved.into_iter().for_each(|(name, f)| d.define(name, f));
+        }
+        Ok(())
+    }
+
+    /// The rates of the wheels that only follow, and their coefficients of traverse creep, from the motion as it is.
+    pub(super) fn solve_followers(&self, d: &mut Definitions) -> Result<()> {
+        for wheel in &self.vehicle.followers {
+            let i = self.vehicle.section_of(wheel);
+            let (reference, body) = (moving(i), section_heading(i));
+            if let Some(creep) = &wheel.traverse_creep {
+                d.define(creep.clone(), sideways(wheel, &reference, &body));
+            }
+            let rate = wheel.rate.clone().filter(|rate| self.vehicle.is_free(rate));
+            let Some((rolls, rate)) = rolling(wheel, &reference, &body).zip(rate) else { continue };
+            let solved = solve::together(&[rolls.row()], &[rate]);
             let solved = solved.ok_or_else(|| self.unmoved(&format!("do not say what the {} does", wheel.name)))?;
             solved.into_iter().for_each(|(name, f)| d.define(name, f));
         }

@@ -204,6 +204,7 @@ impl Model {
         self.solve_front(d)?;
         self.check(d, &self.all_rows())?;
         self.solve_passive(d)?;
+        self.solve_followers(d)?;
         (self.vehicle.trailers.len() + 1..=self.trailer_count()).try_for_each(|i| self.solve_trailer(i, d))
     }
 

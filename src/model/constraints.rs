@@ -2,7 +2,7 @@
 
 use super::trailer::trailer_heading;
 use super::vehicle_model::Model;
-use crate::formula::{Expr, Symbol};
+use crate::formula::{Expr, Fun, Symbol};
 use crate::mechanism::{Constraint, Direction, Heading, Mechanism, Rolling, Velocity};
 use crate::vehicles::{Vehicle, Wheel};
 
@@ -26,7 +26,13 @@ pub(super) fn rolling(wheel: &Wheel, reference: &Velocity, body: &Heading) -> Op
     let contact = contact(wheel, reference, body);
     let heading = wheel_heading(wheel, body);
     let rolling = Rolling::new(&contact, &heading, &Expr::sym(radius.clone()), rate, &Expr::sym(creep.clone()));
-    Some(rolling.constraint(&format!("{}, rolling", wheel.name), creep))
+    Some(match &wheel.roller {
+        None => rolling.constraint(&format!("{}, rolling", wheel.name), creep),
+        Some(angle) => {
+            let name = format!("{}, rolling, its rollers at {angle}", wheel.name);
+            rolling.over_rollers(&contact, &heading, angle).constraint(&name, creep)
+        }
+    })
 }
 
 /// The direction constraint of a wheel, if it has one.
@@ -35,6 +41,16 @@ pub(super) fn direction(wheel: &Wheel, reference: &Velocity, body: &Heading) -> 
     let contact = contact(wheel, reference, body);
     let direction = Direction::new(&contact, &wheel_heading(wheel, body), &Expr::sym(creep.clone()));
     Some(direction.constraint(&format!("{}, direction", wheel.name), creep))
+}
+
+/// The coefficient of traverse creep of a wheel on a moving body: how far its contact goes to the left of the wheel for
+/// each metre ahead, with the tangent of its angle in place of sine and cosine.
+pub(super) fn sideways(wheel: &Wheel, reference: &Velocity, body: &Heading) -> Expr {
+    let contact = contact(wheel, reference, body);
+    let (ahead, left) = (contact.along(body).expr(), contact.along(&body.left()).expr());
+    let Some(angle) = &wheel.steering else { return &left / &ahead };
+    let tangent = Expr::call(Fun::Tan, &Expr::sym(angle.clone()));
+    &(&left - &(&tangent * &ahead)) / &(&ahead + &(&tangent * &left))
 }
 
 /// The coefficient of traverse creep of a trailer.

@@ -14,10 +14,14 @@ pub enum Moves {
     LeftWheel,
     /// The rate of a right wheel, of radius r on an axle of track a: (v + a·w/2)/r, rad/s.
     RightWheel,
+    /// The rate of a wheel of a platform that moves sideways, too: by the wheel's place, heading and rollers, rad/s.
+    OmniWheel,
     /// It is the yaw rate w, rad/s.
     Yaw,
     /// A steering angle, rad.
     Steering,
+    /// The angle of a rear axle that is steered, too, rad: it turns the body the other way.
+    RearSteering,
     /// It changes the shape: it neither drives nor turns the body.
     Shape,
 }
@@ -25,12 +29,12 @@ pub enum Moves {
 impl Moves {
     /// Whether it is the rate of a wheel.
     pub fn is_wheel(self) -> bool {
-        matches!(self, Self::Wheel | Self::LeftWheel | Self::RightWheel)
+        matches!(self, Self::Wheel | Self::LeftWheel | Self::RightWheel | Self::OmniWheel)
     }
 
     /// Whether it says how the body turns and nothing else.
     pub fn is_turning(self) -> bool {
-        matches!(self, Self::Yaw | Self::Steering)
+        matches!(self, Self::Yaw | Self::Steering | Self::RearSteering)
     }
 
     /// What an input of a usual name does, of a vehicle that does not declare it.

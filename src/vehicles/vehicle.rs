@@ -34,6 +34,10 @@ pub struct Vehicle {
     /// Its wheels.
     #[serde(default)]
     pub wheels: Vec<Wheel>,
+    /// Wheels that only follow: they constrain nothing that the others do not, and the motion gives the rate of each that
+    /// rolls and the coefficient of traverse creep of each that has a direction.
+    #[serde(default)]
+    pub followers: Vec<Wheel>,
     /// Its constraints beside those of wheels: of any type, in rates of its coordinates.
     #[serde(default)]
     pub constraints: Vec<Constraint>,
@@ -70,10 +74,12 @@ impl Vehicle {
         self.moves() && !self.line && self.coordinates.is_empty()
     }
 
-    /// The coefficients of creep of its wheels and other constraints; one that several share comes once for each.
+    /// The coefficients of creep of its wheels and other constraints; one that several share comes once for each. The
+    /// traverse creep of a wheel that follows is none to choose.
     pub fn creeps(&self) -> impl Iterator<Item = &Symbol> {
         let wheels = self.wheels.iter().flat_map(|w| [&w.rotation_creep, &w.traverse_creep]).flatten();
-        wheels.chain(self.constraints.iter().map(|c| &c.creep))
+        let following = self.followers.iter().filter_map(|w| w.rotation_creep.as_ref());
+        wheels.chain(self.constraints.iter().map(|c| &c.creep)).chain(following)
     }
 
     /// What a logged input does to the body, an input or a column in the place of one: as it is declared, else by its
@@ -261,6 +267,10 @@ pub struct Wheel {
     /// Distance from the axis of steering back to the contact along the wheel, m; of a castor, its trail.
     #[serde(default = "zero")]
     pub trail: Expr,
+    /// Angle from the wheel's heading to the axis of the roller that stands on the ground, rad, of a Swedish wheel (mecanum):
+    /// the contact is free across that axis. An omni wheel's is 0, which is the same as none for a wheel without a direction.
+    /// `pi` may stand in it.
+    pub roller: Option<Expr>,
     /// Rolling radius, m.
     pub radius: Option<Symbol>,
     /// Its rate: then it rolls (type R). With a definition it is measured; without one the wheel is passive.

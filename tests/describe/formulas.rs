@@ -241,6 +241,9 @@ fn signatures_are_those_of_the_theory() {
             ("tricycle", 1, 2),
             ("differential-drive-castor", 3, 2),
             ("synchro-drive", 3, 3),
+            ("four-wheel-steering", 1, 2),
+            ("tracked", 2, 1),
+            ("mecanum", 4, 0),
         ] {
             let d = Description::of(&models::vehicle(id, &[1.0]).with_trailers(&trailers)).unwrap();
             assert_eq!((d.signature.count('R'), d.signature.count('T')), (r, t + n), "{id} + {n}");
@@ -276,7 +279,8 @@ fn the_catalogues_parse_and_hold_these_entries() {
     let ids: Vec<&str> = vehicles::all().iter().map(|v| v.id.as_str()).collect();
     let first = ["unicycle", "differential-drive", "car", "four-wheel-car", "tricycle"];
     let later = ["disk", "sleigh", "hopper", "differential-drive-castor", "synchro-drive", "skid-steer"];
-    assert_eq!(ids, first.into_iter().chain(later).collect::<Vec<_>>());
+    let latest = ["four-wheel-steering", "tracked", "mecanum"];
+    assert_eq!(ids, first.into_iter().chain(later).chain(latest).collect::<Vec<_>>());
     let ids: Vec<&str> = effects::all().iter().map(|e| e.id.as_str()).collect();
     let expected = [
         "rotation-creep",

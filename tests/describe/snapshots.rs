@@ -85,13 +85,14 @@ fn the_list_of_effects() {
         entry["vehicles"].as_array().unwrap().iter().map(|v| v.as_str().unwrap().to_string()).collect::<Vec<_>>()
     };
     assert_eq!(applies("yaw-rate-bias"), ["unicycle", "n-trailer"]);
-    assert_eq!(applies("track-width"), ["differential-drive", "differential-drive-castor", "n-trailer"]);
-    let pairs = ["differential-drive", "differential-drive-castor", "n-trailer"];
+    let wide = ["differential-drive", "differential-drive-castor", "skid-steer", "tracked", "mecanum", "n-trailer"];
+    assert_eq!(applies("track-width"), wide);
+    let pairs = ["differential-drive", "differential-drive-castor", "tracked", "n-trailer"];
     assert_eq!(applies("unequal-rotation-creep"), pairs);
     assert_eq!(applies("wheel-radius-mismatch"), pairs);
     // Where nothing yaws every point of the body moves alike.
     let held = |id: &str| ["disk", "synchro-drive"].map(|v| applies(id).contains(&v.to_string()));
     assert_eq!((held("drift"), held("lever-arm"), held("rotation-creep")), ([false, true], [false; 2], [true; 2]));
     assert_eq!(applies("hitch-offset"), ["n-trailer"]);
-    assert_eq!(applies("understeer"), ["car", "four-wheel-car", "tricycle", "n-trailer"]);
+    assert_eq!(applies("understeer"), ["car", "four-wheel-car", "tricycle", "four-wheel-steering", "n-trailer"]);
 }

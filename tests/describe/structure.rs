@@ -31,7 +31,7 @@ fn on_axle(count: usize) -> Vec<Trailer> {
 type Row = (&'static str, usize, &'static [usize], usize, usize, &'static [&'static str]);
 
 /// Known from the table of growth vectors, the disk and the sleigh by hand.
-const VEHICLES: [Row; 11] = [
+const VEHICLES: [Row; 14] = [
     ("unicycle", 4, &[2, 3, 4], 0, 2, &[]),
     ("differential-drive", 5, &[2, 3, 4], 1, 2, &["r_1*theta_1 - r_2*theta_2 - a*phi"]),
     ("car", 5, &[2, 3, 4, 5], 0, 3, &[]),
@@ -58,6 +58,11 @@ const VEHICLES: [Row; 11] = [
             "x - r*theta_1*cos(phi)",
         ],
     ),
+    // Two angles and a drive; each angle turns the rear wheel or the body, and a bracket of the drive frees its own rate.
+    ("four-wheel-steering", 6, &[3, 5, 6], 0, 3, &[]),
+    ("tracked", 5, &[2, 3, 4], 1, 2, &["r_1*theta_1 - r_2*theta_2 - a*phi"]),
+    // Ahead, sideways and about, and the two translations without the wheels: five of seven.
+    ("mecanum", 7, &[3, 5], 2, 2, &["r*theta_2 - r*theta_3 + a*phi + b*phi", "theta_1 + theta_2 - theta_3 - theta_4"]),
 ];
 
 #[test]
@@ -77,7 +82,7 @@ fn every_vehicle_has_the_numbers_of_the_table() {
 /// id, signature, canonical set, number of other sets, passive coefficients.
 type Set = (&'static str, &'static str, &'static [&'static str], usize, &'static [&'static str]);
 
-const SETS: [Set; 8] = [
+const SETS: [Set; 10] = [
     ("unicycle", "R T", &["e_rc", "e_tc"], 0, &[]),
     ("differential-drive", "R^2 T", &["e_rc_1", "e_rc_2", "e_tc"], 0, &[]),
     ("car", "R T^2", &["e_rc", "e_tc", "e_f"], 0, &[]),
@@ -88,6 +93,8 @@ const SETS: [Set; 8] = [
     ("differential-drive-castor", "R^2 T^2", &["e_rc_1", "e_rc_2", "e_tc", "e_tc_c"], 0, &[]),
     // By hand: two sides and an axle, 2·2·2 sets, or a side and both axles, 4 sets.
     ("skid-steer", "R^2 T", &["e_rc_1", "e_rc_2", "e_front"], 11, &["e_rc_3", "e_rc_4", "e_rear"]),
+    ("four-wheel-steering", "R T^2", &["e_rc", "e_tc", "e_f"], 0, &[]),
+    ("tracked", "R^2 T", &["e_rc_1", "e_rc_2", "e_tc"], 0, &[]),
 ];
 
 #[test]
@@ -167,13 +174,16 @@ fn trains_of_up_to_three_trailers_have_the_numbers_of_the_table() {
                 "car" | "four-wheel-car" => assert_eq!(found.growth, car[n], "{label}"),
                 // A single wheel with the body as its first trailer.
                 "tricycle" => assert_eq!(found.growth, wheel[n + 1], "{label}"),
+                "four-wheel-steering" => assert_eq!(found.growth[..2], [3, 5], "{label}"),
+                // The first trailer turns by a bracket of the translations.
+                "mecanum" => assert_eq!(found.growth[..2], [3, 5 + n.min(1)], "{label}"),
                 _ => assert_eq!(found.growth[..2], [2, 3], "{label}"),
             }
             let rolling = match v.id.as_str() {
                 "unicycle" => (1, 1),
-                "differential-drive" => (2, 1),
+                "differential-drive" | "tracked" => (2, 1),
                 "differential-drive-castor" => (2, 2),
-                "synchro-drive" => continue,
+                "synchro-drive" | "mecanum" => continue,
                 _ => (1, 2),
             };
             let by_ranks = realised(&model);

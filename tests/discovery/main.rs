@@ -15,6 +15,7 @@ mod gross_errors;
 mod laws;
 mod names;
 mod next_experiment;
+mod other_vehicles;
 mod places_alone;
 #[path = "../support/read_back.rs"]
 mod read_back;

@@ -69,6 +69,7 @@ fn the_pair_is_that_of_the_heading_of_the_wheel() {
                 "castor" => read("phi") + read("gamma"),
                 name if r.model.vehicle.id == "synchro-drive" && name.ends_with("wheel") => read("phi") + read("delta"),
                 "front axle" if r.model.vehicle.id == "skid-steer" => read("phi"),
+                "rear axle" if r.model.vehicle.id == "four-wheel-steering" => read("phi") + read("delta_r"),
                 name if name.starts_with("front") => read("phi") + read("delta"),
                 name if name.starts_with("trailer") => read(&name.replace("trailer ", "phi_")),
                 _ => read("phi"),

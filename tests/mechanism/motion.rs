@@ -28,8 +28,12 @@ fn annihilated(model: &Model, values: &Values) -> Outcome {
     Ok(())
 }
 
-/// What the inputs set: a differential drive and a unicycle have two rates, a steered one and a disk the wheel's alone.
+/// What the inputs set: a differential drive and a unicycle have two rates, a steered one and a disk the wheel's alone;
+/// wheels with rollers leave all three velocities.
 fn degrees_of_freedom(model: &Model) -> usize {
+    if model.vehicle.id == "mecanum" {
+        return 3;
+    }
     if model.vehicle.line || model.inputs.iter().any(|i| i == "steering_angle") { 1 } else { 2 }
 }
 

@@ -31,13 +31,16 @@ fn power(letter: char, n: usize) -> String {
 #[test]
 fn bodies_have_the_signatures_of_the_corrected_theorem() {
     let at = general().with("r_1", Exact::ratio(1, 2)).with("r_2", Exact::ratio(1, 2));
+    let at = at.with("delta_r", toward(15, 8)).with("b", Exact::ratio(1, 5)).with("h", Exact::ratio(2, 7));
     let named = |id: &str| mechanism(vehicles::named(id).unwrap(), 0);
-    let cases: [(&str, &[&str], &str); 5] = [
+    let cases: [(&str, &[&str], &str); 7] = [
         ("unicycle", &["theta'", "phi'"], "RT"),
         ("differential-drive", &["theta_1'", "theta_2'"], "R^2T"),
         ("car", &["theta'"], "RT^2"),
         ("four-wheel-car", &["theta'"], "RT^2"),
         ("tricycle", &["theta'"], "RT^2"),
+        ("four-wheel-steering", &["theta'"], "RT^2"),
+        ("tracked", &["theta_1'", "theta_2'"], "R^2T"),
     ];
     for (id, measured, signature) in cases {
         let found = realised(&named(id), measured, &at);

@@ -186,6 +186,9 @@ fn mechanisms_have_the_coordinates_and_the_rank_of_the_theory() {
         ("differential-drive-castor", "x y phi gamma theta_1 theta_2 theta_c", 5, 5),
         ("synchro-drive", "x y phi delta theta_1 theta_2 theta_3", 6, 5),
         ("skid-steer", "x y phi theta_1 theta_2 theta_3 theta_4", 6, 6),
+        ("four-wheel-car", "x y phi delta theta", 3, 3),
+        ("tracked", "x y phi theta_1 theta_2", 3, 3),
+        ("mecanum", "x y phi theta_1 theta_2 theta_3 theta_4", 4, 4),
     ] {
         let m = mechanism(vehicles::named(id).unwrap(), 0);
         let names: Vec<&str> = m.coordinates.iter().map(Symbol::as_str).collect();
@@ -202,6 +205,120 @@ fn mechanisms_have_the_coordinates_and_the_rank_of_the_theory() {
             assert_eq!(matrix.rank(1e-9), independent, "{id} at {delta}");
         }
     }
+}
+
+#[test]
+fn the_front_wheels_of_a_car_stand_at_ackermanns_angles() {
+    let numbers = (-0.7..0.7f64, -5.0..5.0f64, -0.2..0.2f64, -0.2..0.2f64, -0.2..0.2f64);
+    check(500, numbers, |(delta, rate, e_f, e_r, e_rc)| {
+        let creeps = [("front-traverse-creep", e_f), ("traverse-creep", e_r), ("rotation-creep", e_rc)];
+        let bare = Model::new("four-wheel-car", &[("wheel_radius", 0.3), ("wheelbase", 2.6), ("track_width", 1.5)]);
+        let model = creeps.into_iter().fold(bare.unwrap(), |m, (id, e)| m.with_effect(effect(id, None, &[e])));
+        let m = motion(&model, &[("wheel_rate", rate), ("steering_angle", delta)]);
+        let (v_l, v_t, turn) = (get(&m, "v_l"), get(&m, "v_t"), get(&m, "phi'"));
+        for (side, angle, creep, front, rear) in
+            [(-0.75, "delta_fr", "e_fr", "theta_3'", "theta_1'"), (0.75, "delta_fl", "e_fl", "theta_4'", "theta_2'")]
+        {
+            // The line of the rear axle and that of the wheel meet above the centre of turning.
+            near(get(&m, angle), (2.6 * delta.sin()).atan2(2.6 * delta.cos() - side * delta.sin()))?;
+            let (ahead, left) = (v_l - side * turn, v_t + 2.6 * turn);
+            let (sin, cos) = get(&m, angle).sin_cos();
+            near(get(&m, front), (ahead * cos + left * sin) / 0.3)?;
+            near(get(&m, rear), ahead / (0.3 * (1.0 - e_rc)))?;
+            if rate.abs() > 0.1 {
+                near(get(&m, creep), (left * cos - ahead * sin) / (ahead * cos + left * sin))?;
+                prop_assert!(e_f != 0.0 || e_r != 0.0 || get(&m, creep).abs() < 1e-12);
+            }
+        }
+        Ok(())
+    });
+    // Where the track is not given the motion is the same, to the last bit that of a car, and the wheels have no angles.
+    let turning = [("wheel_rate", 4.0), ("steering_angle", 0.3)];
+    let plain = motion(&Model::new("four-wheel-car", &[("wheel_radius", 0.3), ("wheelbase", 2.6)]).unwrap(), &turning);
+    let car = motion(&vehicle("car", &[0.3, 2.6]), &turning);
+    assert!(get(&plain, "delta_fr").is_nan());
+    assert_eq!(["x'", "y'", "phi'"].map(|n| get(&plain, n)), ["x'", "y'", "phi'"].map(|n| get(&car, n)));
+}
+
+#[test]
+fn both_axles_of_a_car_steer() {
+    check(500, (-0.7..0.7f64, -0.7..0.7f64, -5.0..5.0f64, -0.2..0.2f64), |(front, rear, rate, e)| {
+        let model = Model::new("four-wheel-steering", &[("wheel_radius", 0.3), ("wheelbase", 2.6)]).unwrap();
+        let model = model.with_effect(effect("traverse-creep", None, &[e]));
+        let inputs = [("wheel_rate", rate), ("steering_angle", front), ("steering_angle_rear", rear)];
+        let m = motion(&model, &inputs);
+        let course = rear + e.atan();
+        let speed = 0.3 * rate / e.atan().cos();
+        near(get(&m, "v_l"), speed * course.cos())?;
+        near(get(&m, "v_t"), speed * course.sin())?;
+        near(get(&m, "phi'"), speed * (front - course).sin() / (2.6 * front.cos()))
+    });
+}
+
+#[test]
+fn tracks_roll_at_their_centres_of_rotation() {
+    let centres = (-0.2..0.2f64, -0.2..0.2f64);
+    check(500, (-5.0..5.0f64, -5.0..5.0f64, centres), |(right, left, (icr_forward_offset, icr_left_offset))| {
+        let lengths = [
+            ("wheel_radius", 0.1),
+            ("track_width", 0.8),
+            ("icr_forward_offset", icr_forward_offset),
+            ("icr_left_offset", icr_left_offset),
+        ];
+        let m = motion(
+            &Model::new("tracked", &lengths).unwrap(),
+            &[("wheel_rate_right", right), ("wheel_rate_left", left)],
+        );
+        // Martinez and others: v_x = (V_r*y_l - V_l*y_r)/(y_l - y_r), v_y = (V_l - V_r)*x/(y_l - y_r).
+        let (v_r, v_l, y_l, y_r) = (0.1 * right, 0.1 * left, icr_left_offset + 0.4, icr_left_offset - 0.4);
+        near(get(&m, "v_l"), (v_r * y_l - v_l * y_r) / (y_l - y_r))?;
+        near(get(&m, "v_t"), (v_l - v_r) * icr_forward_offset / (y_l - y_r))?;
+        near(get(&m, "phi'"), (v_r - v_l) / (y_l - y_r))
+    });
+}
+
+#[test]
+fn four_mecanum_wheels_move_the_body_by_least_squares() {
+    check(500, (prop::array::uniform4(-9.0..9.0f64), -0.3..0.3f64), |(rates, e)| {
+        let lengths = [("wheel_radius", 0.05), ("track_width", 0.4), ("wheelbase", 0.3)];
+        let model = Model::new("mecanum", &lengths).unwrap().with_effect(effect("rotation-creep", None, &[e]));
+        let names = ["front_right", "front_left", "rear_right", "rear_left"].map(|n| format!("wheel_rate_{n}"));
+        let inputs: Vec<(&str, f64)> = names.iter().map(String::as_str).zip(rates).collect();
+        let m = motion(&model, &inputs);
+        // Row by row: place ahead and to the left, tangent of the roller's angle.
+        let wheels = [(0.15, -0.2, 1.0), (0.15, 0.2, -1.0), (-0.15, -0.2, -1.0), (-0.15, 0.2, 1.0)];
+        let rows = nalgebra::DMatrix::from_fn(4, 3, |i, j| {
+            let (ahead, left, tan): (f64, f64, f64) = wheels[i];
+            [1.0, tan, tan * ahead - left][j]
+        });
+        let speeds = nalgebra::DVector::from_iterator(4, rates.iter().map(|rate| 0.05 * (1.0 - e) * rate));
+        let least = rows.svd(true, true).solve(&speeds, 1e-12).unwrap();
+        near(get(&m, "v_l"), least[0])?;
+        near(get(&m, "v_t"), least[1])?;
+        near(get(&m, "phi'"), least[2])
+    });
+    // What skids is no motion.
+    let lengths = [("wheel_radius", 0.05), ("track_width", 0.4), ("wheelbase", 0.3)];
+    let names = [("wheel_rate_front_right", 1.0), ("wheel_rate_front_left", 1.0), ("wheel_rate_rear_right", -1.0)];
+    let m =
+        motion(&Model::new("mecanum", &lengths).unwrap(), &[&names[..], &[("wheel_rate_rear_left", -1.0)]].concat());
+    assert_eq!(["v_l", "v_t", "phi'"].map(|n| get(&m, n)), [0.0; 3]);
+}
+
+#[test]
+fn three_omni_wheels_move_the_body_anywhere() {
+    let all = creepage::extensions::vehicles_with_own("examples/omni/omni.toml").unwrap();
+    let own = all.iter().find(|v| v.id == "three-omni").unwrap();
+    let model = Model::of(own, &[("wheel_radius", 0.05), ("circle_radius", 0.2)]).unwrap();
+    check(300, prop::array::uniform3(-9.0..9.0f64), |rates| {
+        let names = ["wheel_rate_front_right", "wheel_rate_front_left", "wheel_rate_rear"];
+        let inputs: Vec<(&str, f64)> = names.into_iter().zip(rates).collect();
+        let m = motion(&model, &inputs);
+        let [right, left, rear] = rates.map(|rate| 0.05 * rate);
+        near(get(&m, "v_l"), (right - left) / 3f64.sqrt())?;
+        near(get(&m, "v_t"), (right + left - 2.0 * rear) / 3.0)?;
+        near(get(&m, "phi'"), (right + left + rear) / 0.6)
+    });
 }
 
 /// A car with one more wheel.

@@ -78,6 +78,8 @@ pub fn reviewed_as_text() -> Vec<(&'static str, Model)> {
     ];
     let sleigh = [("mass", 2.0), ("inertia", 0.5), ("mass_offset", 0.1)];
     let skid = [("wheel_radius", 0.1), ("track_width", 0.5), ("wheelbase", 0.4)];
+    let tracked =
+        [("wheel_radius", 0.1), ("track_width", 0.8), ("icr_forward_offset", 0.05), ("icr_left_offset", -0.02)];
     let model = |id: &'static str, p: &[(&str, f64)]| (id, Model::new(id, p).unwrap());
     vec![
         model("disk", &[("wheel_radius", 0.3)]),
@@ -87,6 +89,9 @@ pub fn reviewed_as_text() -> Vec<(&'static str, Model)> {
         model("differential-drive-castor", &castor),
         model("synchro-drive", &[("wheel_radius", 0.1)]),
         model("skid-steer", &skid),
+        model("four-wheel-steering", &[("wheel_radius", 0.3), ("wheelbase", 2.6)]),
+        model("tracked", &tracked),
+        model("mecanum", &[("wheel_radius", 0.05), ("track_width", 0.4), ("wheelbase", 0.3)]),
     ]
 }
 
@@ -166,7 +171,7 @@ pub fn situation(model: &Model, numbers: &[f64]) -> Values {
         values.insert(s, 3.2 * number());
     }
     for s in inputs {
-        let size = if s.as_str() == "steering_angle" { 0.9 } else { 4.0 };
+        let size = if s.as_str().starts_with("steering_angle") { 0.9 } else { 4.0 };
         values.insert(s, size * number());
     }
     // The angle of a castor is no state: nothing depends on it.

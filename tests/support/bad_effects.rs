@@ -140,7 +140,7 @@ pub const BAD_FILES: &[Case] = &[
     case(
         "unknown input",
         &[("[\"wheel_rate\"]", "[\"wheel_rat\"]")],
-        "5:10: no vehicle has the input \"wheel_rat\"; did you mean \"wheel_rate\"? inputs: wheel_rate, steering_angle, wheel_rate_left, wheel_rate_right, yaw_rate, leg_angle_rate, leg_length, wheel_rate_front_left, wheel_rate_front_right, wheel_rate_rear_left, wheel_rate_rear_right",
+        "5:10: no vehicle has the input \"wheel_rat\"; did you mean \"wheel_rate\"? inputs: wheel_rate, steering_angle, wheel_rate_left, wheel_rate_right, wheel_rate_front_left, wheel_rate_front_right, wheel_rate_rear_left, wheel_rate_rear_right, yaw_rate, steering_angle_rear, leg_angle_rate, leg_length",
     ),
     case(
         "unit that is none",

@@ -151,7 +151,7 @@ pub const BAD_FORMULAS: &[Case] = &[
     case(
         "no vehicle",
         &[("v_t = \"it - u\"", "v_t = \"it - u\"\ndelta = \"it + q*phi'/v_l/tau\"")],
-        "2:6: the effect \"my-slip\" applies to no vehicle: formulas that use each other in a circle on car, car logged by speed, four-wheel-car and 6 more; no input wheel_rate on differential-drive, sleigh, hopper and 4 more; no definition of delta on unicycle, unicycle logged by speed, disk and 2 more; change only names that one vehicle defines, in formulas of names it knows; see `creepage vehicles`",
+        "2:6: the effect \"my-slip\" applies to no vehicle: formulas that use each other in a circle on car, car logged by speed, four-wheel-car and 8 more; no input wheel_rate on differential-drive, sleigh, hopper and 8 more; no definition of delta on unicycle, unicycle logged by speed, disk and 2 more; change only names that one vehicle defines, in formulas of names it knows; see `creepage vehicles`",
     ),
     case(
         "not neutral",
@@ -201,17 +201,17 @@ pub const BAD_FORMULAS: &[Case] = &[
     case(
         "circle",
         &[("it - u\"", "it - u + q*x'/tau/v_l*phi'*tau\"")],
-        "2:6: the effect \"my-slip\" applies to no vehicle: formulas that use each other in a circle on unicycle, unicycle logged by speed, car and 9 more; no input wheel_rate on differential-drive, sleigh, hopper and 4 more; v_t cannot change on disk, disk logged by speed, synchro-drive and 2 more; change only names that one vehicle defines, in formulas of names it knows; see `creepage vehicles`",
+        "2:6: the effect \"my-slip\" applies to no vehicle: formulas that use each other in a circle on unicycle, unicycle logged by speed, car and 11 more; no input wheel_rate on differential-drive, sleigh, hopper and 8 more; v_t cannot change on disk, disk logged by speed, synchro-drive and 2 more; change only names that one vehicle defines, in formulas of names it knows; see `creepage vehicles`",
     ),
     case(
         "no influence",
         &[("[\"wheel_rate\"]", "[\"wheel_rate_left\"]"), ("v_t = \"it - u\"", "\"theta_c'\" = \"it + u/r_c\"")],
-        "2:6: the effect \"my-slip\" applies to no vehicle: no input wheel_rate_left on unicycle, unicycle logged by speed, car and 17 more; no definition of theta_c' on differential-drive, n-trailer behind differential-drive; no influence on motion and sensor on differential-drive-castor, n-trailer behind differential-drive-castor; change only names that one vehicle defines, in formulas of names it knows; see `creepage vehicles`",
+        "2:6: the effect \"my-slip\" applies to no vehicle: no input wheel_rate_left on unicycle, unicycle logged by speed, car and 21 more; no definition of theta_c' on differential-drive, tracked, n-trailer behind differential-drive and 1 more; no influence on motion and sensor on differential-drive-castor, n-trailer behind differential-drive-castor; change only names that one vehicle defines, in formulas of names it knows; see `creepage vehicles`",
     ),
     case(
         "no vehicle has both",
         &[("it - u", "it - u*a/L")],
-        "2:6: the effect \"my-slip\" applies to no vehicle: no a on car, car logged by speed, four-wheel-car and 6 more; no input wheel_rate on differential-drive, sleigh, hopper and 4 more; v_t cannot change on disk, disk logged by speed, synchro-drive and 2 more; change only names that one vehicle defines, in formulas of names it knows; see `creepage vehicles`",
+        "2:6: the effect \"my-slip\" applies to no vehicle: no a on car, car logged by speed, four-wheel-car and 8 more; no input wheel_rate on differential-drive, sleigh, hopper and 8 more; v_t cannot change on disk, disk logged by speed, synchro-drive and 2 more; change only names that one vehicle defines, in formulas of names it knows; see `creepage vehicles`",
     ),
     case(
         "long formula",

@@ -98,7 +98,7 @@ pub const BAD_VEHICLES: &[Case] = &[
     case(
         "unknown key",
         &[("title =", "tittle =")],
-        "3:1: unknown key \"tittle\" in [[vehicle]]; did you mean \"title\"? known keys: id, title, parameters, inputs, define, wheels, trailers, line, held, instead, coordinates, heading, constraints",
+        "3:1: unknown key \"tittle\" in [[vehicle]]; did you mean \"title\"? known keys: id, title, parameters, inputs, define, wheels, followers, trailers, line, held, instead, coordinates, heading, constraints",
     ),
     case(
         "no title",
@@ -219,7 +219,7 @@ pub const BAD_VEHICLES: &[Case] = &[
     case(
         "moves what",
         &[("meaning = \"steering angle\"", "meaning = \"steering angle\"\nmoves = \"sideways\"")],
-        "21:9: moves: unknown variant `sideways`, expected one of `forward`, `wheel`, `left-wheel`, `right-wheel`, `yaw`, `steering`, `shape`",
+        "21:9: moves: unknown variant `sideways`, expected one of `forward`, `wheel`, `left-wheel`, `right-wheel`, `omni-wheel`, `yaw`, `steering`, `rear-steering`, `shape`",
     ),
     case(
         "instead not table",
@@ -346,7 +346,7 @@ pub const BAD_VEHICLES: &[Case] = &[
     case(
         "wheel key",
         &[("steering = \"delta\"", "stearing = \"delta\"")],
-        "35:1: unknown key \"stearing\" in [[vehicle.wheels]]; did you mean \"steering\"? known keys: name, on, forward, left, steering, trail, radius, rate, rotation_creep, traverse_creep",
+        "35:1: unknown key \"stearing\" in [[vehicle.wheels]]; did you mean \"steering\"? known keys: name, on, forward, left, steering, trail, roller, radius, rate, rotation_creep, traverse_creep",
     ),
     case(
         "wheel no name",
@@ -372,6 +372,21 @@ pub const BAD_VEHICLES: &[Case] = &[
         "wheel no rate",
         &[("rate = \"theta'\"\n", "")],
         "27:8: the wheel \"rear axle\" has a radius but no rate; a wheel that rolls has radius, rate and rotation_creep: write rate = \"theta'\"",
+    ),
+    case(
+        "rollers and a direction",
+        &[("radius = \"r\"\n", "radius = \"r\"\nroller = \"pi/4\"\n")],
+        "27:8: the wheel \"rear axle\" has rollers, but it keeps a direction; a wheel with rollers has radius, rate and rotation_creep, and no traverse_creep",
+    ),
+    case(
+        "rollers in no unit",
+        &[("radius = \"r\"\n", "radius = \"r\"\nroller = 0.5\n")],
+        "29:10: roller is a number without a unit; write a formula of an angle in rad: \"pi/4\"",
+    ),
+    case(
+        "rollers across",
+        &[("radius = \"r\"\n", "radius = \"r\"\nroller = \"pi/2\"\n")],
+        "29:10: a wheel with its rollers across it drives nothing; roller is the angle from the wheel's heading to the axis of the roller on the ground",
     ),
     case(
         "wheel nothing",
@@ -1070,12 +1085,12 @@ pub const BAD_MODELS: &[Case] = &[
     case(
         "unknown vehicle",
         &[("\"articulated-bus\"", "\"articulated-buss\"")],
-        "model.toml:1:11: unknown vehicle \"articulated-buss\"; if it is your own, give its file with --vehicles, or name it here: vehicles = \"FILE.toml\"; did you mean \"articulated-bus\"? known vehicles: unicycle, differential-drive, car, four-wheel-car, tricycle, disk, sleigh, hopper, differential-drive-castor, synchro-drive, skid-steer, articulated-bus, pusher-bus, n-trailer",
+        "model.toml:1:11: unknown vehicle \"articulated-buss\"; if it is your own, give its file with --vehicles, or name it here: vehicles = \"FILE.toml\"; did you mean \"articulated-bus\"? known vehicles: unicycle, differential-drive, car, four-wheel-car, tricycle, disk, sleigh, hopper, differential-drive-castor, synchro-drive, skid-steer, four-wheel-steering, tracked, mecanum, articulated-bus, pusher-bus, … (17 in all)",
     ),
     case(
         "no file named",
         &[("vehicles = \"bus.toml\"               # where it is described, from the folder of this file\n", "")],
-        "model.toml:1:11: unknown vehicle \"articulated-bus\"; if it is your own, give its file with --vehicles, or name it here: vehicles = \"FILE.toml\"; known vehicles: unicycle, differential-drive, car, four-wheel-car, tricycle, disk, sleigh, hopper, differential-drive-castor, synchro-drive, skid-steer, n-trailer",
+        "model.toml:1:11: unknown vehicle \"articulated-bus\"; if it is your own, give its file with --vehicles, or name it here: vehicles = \"FILE.toml\"; known vehicles: unicycle, differential-drive, car, four-wheel-car, tricycle, disk, sleigh, hopper, differential-drive-castor, synchro-drive, skid-steer, four-wheel-steering, tracked, mecanum, n-trailer",
     ),
     case(
         "no such file",
@@ -1135,7 +1150,7 @@ pub const BAD_MODELS: &[Case] = &[
     case(
         "key misspelt",
         &[("vehicles = ", "vehicle_file = ")],
-        "model.toml:1:11: unknown vehicle \"articulated-bus\"; if it is your own, give its file with --vehicles, or name it here: vehicles = \"FILE.toml\"; known vehicles: unicycle, differential-drive, car, four-wheel-car, tricycle, disk, sleigh, hopper, differential-drive-castor, synchro-drive, skid-steer, n-trailer",
+        "model.toml:1:11: unknown vehicle \"articulated-bus\"; if it is your own, give its file with --vehicles, or name it here: vehicles = \"FILE.toml\"; known vehicles: unicycle, differential-drive, car, four-wheel-car, tricycle, disk, sleigh, hopper, differential-drive-castor, synchro-drive, skid-steer, four-wheel-steering, tracked, mecanum, n-trailer",
     ),
     case(
         "column of no input",

@@ -44,6 +44,7 @@ impl Placed {
             left: number(&self.place[1]),
             steering: self.angle(),
             trail: if castor { number(&Exact::ratio(TRAIL.0, TRAIL.1)) } else { Expr::int(0) },
+            roller: None,
             radius: rolls(symbol("r", self.k)),
             rate: rolls(symbol("theta", self.k).rate()),
             rotation_creep: rolls(symbol("e_rc", self.k)),

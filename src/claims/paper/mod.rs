@@ -11,6 +11,7 @@ mod ideal_limit;
 mod introduction;
 mod laws;
 mod planning;
+mod platforms;
 mod power;
 mod realisation;
 mod regimes;
@@ -45,6 +46,7 @@ pub fn all() -> Vec<Claim> {
         simulation::claims(),
         single_body::claims(),
         structure::claims(),
+        platforms::claims(),
         theorems::claims(),
         realisation::claims(),
         trailers::claims(),

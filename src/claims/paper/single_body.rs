@@ -12,7 +12,7 @@ const BUILD: &str = "src/model/build.rs";
 const CONSTRAINTS: &str = "src/model/constraints.rs";
 
 /// The determinant of three velocities by three coefficients.
-fn determinant(derived: &DerivedFormulas, velocities: [&str; 3], coefficients: [&str; 3]) -> Expr {
+pub(super) fn determinant(derived: &DerivedFormulas, velocities: [&str; 3], coefficients: [&str; 3]) -> Expr {
     let rows = velocities.map(|v| {
         let v = derived.written_out(v);
         coefficients.map(|e| v.derivative(&Symbol::from(e)))

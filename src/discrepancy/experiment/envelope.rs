@@ -1,7 +1,8 @@
 //! How a vehicle was driven: what a new manoeuvre may ask of it.
 
 use crate::discrepancy::record::run_record::Record;
-use crate::model::Model;
+use crate::formula::Symbol;
+use crate::model::{Model, mechanism};
 use crate::vehicles::Moves;
 
 /// What a driver can change beside the speed.
@@ -97,10 +98,32 @@ fn input(model: &Model, role: &str) -> Option<Input> {
         Moves::Forward => Input { speed: 1.0, turn: 0.0 },
         Moves::Wheel => Input { speed: 1.0 / radius()?, turn: 0.0 },
         Moves::Yaw | Moves::Steering => Input { speed: 0.0, turn: 1.0 },
+        Moves::RearSteering => Input { speed: 0.0, turn: -1.0 },
         Moves::LeftWheel => Input { speed: 1.0 / radius()?, turn: -half_track()? / radius()? },
         Moves::RightWheel => Input { speed: 1.0 / radius()?, turn: half_track()? / radius()? },
+        Moves::OmniWheel => by_its_row(model, role)?,
         Moves::Shape => return None,
     })
+}
+
+/// The rate of a wheel at a speed ahead and a yaw rate, from the row of the wheel that an input is logged for.
+fn by_its_row(model: &Model, role: &str) -> Option<Input> {
+    let by = |rate: &Symbol| {
+        let formula = &model.vehicle.define.get(rate)?.formula;
+        formula.derivative(&Symbol::new(role)).eval(&|_| f64::NAN).map(f64::abs)
+    };
+    let rates = model.vehicle.wheels.iter().filter_map(|w| w.rate.as_ref());
+    let rate =
+        rates.filter(|r| by(r).is_some()).max_by(|a, b| by(a).unwrap_or(0.0).total_cmp(&by(b).unwrap_or(0.0)))?;
+    let given = model.values();
+    let ahead = |s: &Symbol| given.get(s).copied().or((s.as_str() == "phi").then_some(0.0));
+    let known = model.row_definitions().ok()?.evaluate(&ahead).ok()?;
+    let rows = mechanism(&model.vehicle, 0).ideal_rows();
+    let row = rows.iter().find(|row| row.rates().any(|r| r == rate))?;
+    let value = |s: &Symbol| ahead(s).or(known.get(s).copied()).unwrap_or(f64::NAN);
+    let of = |name: &str| row.coefficient(&name.into()).eval(&value);
+    let radius = -of(rate.as_str()).filter(|r| *r != 0.0)?;
+    Some(Input { speed: of("x'")? / radius, turn: of("phi'")? / radius })
 }
 
 /// Speed and turn at every row: the least squares solution of the inputs.
@@ -117,4 +140,29 @@ fn driven(record: &Record, inputs: &[Input]) -> Vec<[f64; 2]> {
         [share(along(&|i| i.speed), speeds), share(along(&|i| i.turn), turns)]
     };
     record.rows.clone().map(row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeMap;
+
+    /// What is to be logged at a speed and a turn moves the body so, on every vehicle whose turn is a yaw rate.
+    #[test]
+    fn the_inputs_of_a_speed_and_a_yaw_rate_give_both_back() {
+        let (speed, turn) = (0.7, -0.4);
+        let lengths = [("wheel_radius", 0.05), ("track_width", 0.4)];
+        let omni = [&lengths[..], &[("wheelbase", 0.3)]].concat();
+        for (id, parameters) in [("differential-drive", &lengths[..]), ("mecanum", &omni)] {
+            let model = Model::new(id, parameters).unwrap();
+            let mut given: BTreeMap<Symbol, f64> = model.values();
+            for role in &model.inputs {
+                let column = input(&model, role).unwrap();
+                given.insert(Symbol::new(role), column.speed * speed + column.turn * turn);
+            }
+            let found = model.definitions().unwrap().evaluate(&|s| given.get(s).copied()).unwrap();
+            let near = |name: &str, wanted: f64| (found[&Symbol::new(name)] - wanted).abs() < 1e-12;
+            assert!(near("v_l", speed) && near("phi'", turn) && near("v_t", 0.0), "{id}: {found:?}");
+        }
+    }
 }

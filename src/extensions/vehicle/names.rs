@@ -22,10 +22,13 @@ pub(crate) fn check(own: &UserVehicle) -> Result<()> {
     }
     own.wheels
         .iter()
+        .chain(&own.followers)
         .chain(&own.trailers)
-        .flat_map(|p| p.lengths.values())
-        .try_for_each(|f| formula(own, f, declared))?;
-    own.vehicle.wheels.iter().zip(&own.wheels).try_for_each(|(w, part)| symbols(own, w, part))?;
+        .flat_map(|p| &p.lengths)
+        .try_for_each(|(key, f)| formula(own, f, |s| declared(s) || *key == "roller" && s.as_str() == "pi"))?;
+    let following = own.vehicle.followers.iter().zip(&own.followers);
+    let mut all = own.vehicle.wheels.iter().zip(&own.wheels).chain(following);
+    all.try_for_each(|(w, part)| symbols(own, w, part))?;
     circle(own)
 }
 
@@ -102,7 +105,7 @@ fn coefficient(own: &UserVehicle, key: &str, symbol: &Symbol, spot: &Spot) -> Re
     if own.names.contains_key(symbol) {
         return refuse(format!("{symbol} is also a defined symbol"));
     }
-    let wheels = || own.vehicle.wheels.iter();
+    let wheels = || own.vehicle.wheels.iter().chain(&own.vehicle.followers);
     let is = |s: &Option<Symbol>| s.as_ref() == Some(symbol);
     let other = if key == "rotation_creep" { "traverse" } else { "rotation" };
     let clash = wheels().find(|w| is(if other == "traverse" { &w.traverse_creep } else { &w.rotation_creep }));

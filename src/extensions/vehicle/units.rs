@@ -21,11 +21,15 @@ pub(crate) fn check(own: &UserVehicle) -> Result<()> {
         let wanted = unit(&own.vehicle.inputs[role].unit);
         expect(formula, &wanted, &of, role).map_err(|e| e.help(CORRECT))?;
     }
-    for (key, formula) in own.wheels.iter().chain(&own.trailers).flat_map(|p| &p.lengths) {
-        expect(formula, &unit("m"), &of, key)
-            .map_err(|e| e.help("a length is a formula of parameters and defined symbols in m"))?;
+    for (key, formula) in own.wheels.iter().chain(&own.followers).chain(&own.trailers).flat_map(|p| &p.lengths) {
+        let (wanted, help) = match *key {
+            "roller" => ("rad", "the angle of rollers is a formula in rad: write roller = \"pi/4\""),
+            _ => ("m", "a length is a formula of parameters and defined symbols in m"),
+        };
+        expect(formula, &unit(wanted), &of, key).map_err(|e| e.help(help))?;
     }
-    for (part, wheel) in own.wheels.iter().zip(&own.vehicle.wheels) {
+    let following = own.followers.iter().zip(&own.vehicle.followers);
+    for (part, wheel) in own.wheels.iter().zip(&own.vehicle.wheels).chain(following) {
         let symbols = [&wheel.steering, &wheel.radius, &wheel.rate];
         for ((key, wanted), symbol) in SYMBOLS.iter().zip(symbols) {
             let Some(definition) = symbol.as_ref().and_then(|s| own.vehicle.define.get(s)) else { continue };

@@ -25,6 +25,8 @@ pub struct UserVehicle {
     pub replaced: BTreeMap<String, FormulaText>,
     /// The wheels.
     pub wheels: Vec<UserPart>,
+    /// The wheels that only follow.
+    pub followers: Vec<UserPart>,
     /// The trailers.
     pub trailers: Vec<UserPart>,
     /// Where each coordinate of its own is named.

@@ -21,8 +21,21 @@ const MAX_FACTORS: usize = 6;
 /// What to do about a bare number.
 const NEEDS_UNIT: &str = "declare a parameter in m, as in [vehicle.parameters.wheelbase], and write a formula of such";
 
-const KEYS: [&str; 10] =
-    ["name", "on", "forward", "left", "steering", "trail", "radius", "rate", "rotation_creep", "traverse_creep"];
+const KEYS: [&str; 11] = [
+    "name",
+    "on",
+    "forward",
+    "left",
+    "steering",
+    "trail",
+    "roller",
+    "radius",
+    "rate",
+    "rotation_creep",
+    "traverse_creep",
+];
+/// A tangent of more than this is that of a right angle.
+const RIGHT: f64 = 1e6;
 
 /// A part that is being read.
 struct Reader<'s, 'a, 'd> {
@@ -44,6 +57,24 @@ impl<'s, 'a, 'd> Reader<'s, 'a, 'd> {
             None => Ok(Expr::int(0)),
             Some(value) => self.keep(key, &value),
         }
+    }
+
+    /// The angle of rollers, if it is there.
+    fn roller(&mut self) -> Result<Option<Expr>> {
+        let Some(value) = self.section.get("roller") else { return Ok(None) };
+        if value.is_number() {
+            return Err(value
+                .error("roller is a number without a unit")
+                .help("write a formula of an angle in rad: \"pi/4\""));
+        }
+        let angle = self.keep("roller", &value)?;
+        if crate::mechanism::tangent(&angle).eval(&|_| f64::NAN).is_some_and(|t| t.abs() > RIGHT) {
+            let error = value.error("a wheel with its rollers across it drives nothing");
+            return Err(
+                error.help("roller is the angle from the wheel's heading to the axis of the roller on the ground")
+            );
+        }
+        Ok(Some(angle))
     }
 
     fn keep(&mut self, key: &'static str, value: &Value) -> Result<Expr> {
@@ -118,16 +149,38 @@ pub(crate) fn read_wheels(own: &mut UserVehicle, section: &Section) -> Result<()
         return Err(value.error("the vehicle has no wheel").help(format!("write {example}")));
     }
     for element in list {
-        let table = element.section("[[vehicle.wheels]]".into())?;
-        let (wheel, part) = read_wheel(&table, own)?;
-        if own.vehicle.wheels.iter().any(|w| w.name == wheel.name) {
-            return Err(twice(&part, "wheels", &wheel.name));
-        }
-        check_roles(&wheel, &part)?;
+        let (wheel, part) = read_new_wheel(&element.section("[[vehicle.wheels]]".into())?, own)?;
         own.vehicle.wheels.push(wheel);
         own.wheels.push(part);
     }
     Ok(())
+}
+
+/// Reads the wheels that only follow.
+pub(crate) fn read_followers(own: &mut UserVehicle, section: &Section) -> Result<()> {
+    let Some(value) = section.get("followers") else { return Ok(()) };
+    let list = value.list("[[vehicle.followers]], with double brackets, before each wheel that follows")?;
+    at_most(&value, list.len(), MAX_WHEELS)?;
+    if !own.vehicle.coordinates.is_empty() {
+        let error = value.error("a vehicle with coordinates of its own has no wheel that follows");
+        return Err(error.help("remove it, or write its constraint"));
+    }
+    for element in list {
+        let (wheel, part) = read_new_wheel(&element.section("[[vehicle.followers]]".into())?, own)?;
+        own.vehicle.followers.push(wheel);
+        own.followers.push(part);
+    }
+    Ok(())
+}
+
+/// A wheel that has a name of its own and does something.
+fn read_new_wheel(table: &Section, own: &UserVehicle) -> Result<(Wheel, UserPart)> {
+    let (wheel, part) = read_wheel(table, own)?;
+    if own.vehicle.wheels.iter().chain(&own.vehicle.followers).any(|w| w.name == wheel.name) {
+        return Err(twice(&part, "wheels", &wheel.name));
+    }
+    check_roles(&wheel, &part)?;
+    Ok((wheel, part))
 }
 
 fn twice(part: &UserPart, what: &str, name: &str) -> crate::Error {
@@ -144,6 +197,7 @@ fn read_wheel(table: &Section, own: &UserVehicle) -> Result<(Wheel, UserPart)> {
         left: reader.length("left")?,
         steering: reader.symbol("steering", false)?,
         trail: reader.length("trail")?,
+        roller: reader.roller()?,
         radius: reader.symbol("radius", false)?,
         rate: reader.symbol("rate", true)?,
         rotation_creep: reader.symbol("rotation_creep", false)?,
@@ -175,6 +229,13 @@ fn check_roles(wheel: &Wheel, part: &UserPart) -> Result<()> {
         let error =
             part.name.error(format!("the wheel \"{}\" has a {key} but no {lacks}", suggestions::shown(&wheel.name)));
         return Err(error.help(format!("a wheel that rolls has radius, rate and rotation_creep: write {example}")));
+    }
+    let slides = wheel.roller.is_some();
+    if slides && (there.is_empty() || wheel.traverse_creep.is_some()) {
+        let what = if there.is_empty() { "does not roll" } else { "keeps a direction" };
+        let name = suggestions::shown(&wheel.name);
+        let error = part.name.error(format!("the wheel \"{name}\" has rollers, but it {what}"));
+        return Err(error.help("a wheel with rollers has radius, rate and rotation_creep, and no traverse_creep"));
     }
     if there.is_empty() && wheel.traverse_creep.is_none() {
         let error = part.name.error(format!("the wheel \"{}\" constrains nothing", suggestions::shown(&wheel.name)));

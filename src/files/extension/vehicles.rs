@@ -2,7 +2,7 @@
 
 use super::user_vehicle::UserVehicle;
 use super::vehicle_constraints::{read_constraints, read_coordinates};
-use super::vehicle_parts::{read_trailers, read_wheels};
+use super::vehicle_parts::{read_followers, read_trailers, read_wheels};
 use super::vehicle_quantities::{read_definitions, read_inputs, read_quantities};
 use crate::error::Result;
 use crate::files::toml::location::Spot;
@@ -65,13 +65,14 @@ impl VehiclesFile {
     }
 }
 
-const KEYS: [&str; 13] = [
+const KEYS: [&str; 14] = [
     "id",
     "title",
     "parameters",
     "inputs",
     "define",
     "wheels",
+    "followers",
     "trailers",
     "line",
     "held",
@@ -100,6 +101,7 @@ fn read_vehicle(section: &Section, origin: &Arc<Origin>) -> Result<UserVehicle> 
         define: BTreeMap::new(),
         replaced: BTreeMap::new(),
         wheels: vec![],
+        followers: vec![],
         trailers: vec![],
         coordinates: vec![],
         constraints: vec![],
@@ -112,6 +114,7 @@ fn read_vehicle(section: &Section, origin: &Arc<Origin>) -> Result<UserVehicle> 
     read_constraints(&mut own, section)?;
     read_trailers(&mut own, section)?;
     read_wheels(&mut own, section)?;
+    read_followers(&mut own, section)?;
     read_held(&mut own, section)?;
     Ok(own)
 }

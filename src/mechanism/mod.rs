@@ -44,7 +44,6 @@ pub(crate) use constraint_type::rank;
 pub use constraint_type::{ConstraintType, constraint_types};
 #[doc(hidden)]
 pub use constraint_type::{Printed, Regimes, Slot};
-#[doc(hidden)]
 pub(crate) use contact::tangent;
 pub use contact::{Direction, Rolling, sigma_closed_form};
 #[doc(hidden)]

@@ -6,6 +6,7 @@ mod bootstrap;
 mod coloured_noise;
 mod contradicted;
 mod different_drives;
+mod drifting;
 mod fit_rates;
 mod fit_statistics;
 #[path = "../forced/mod.rs"]

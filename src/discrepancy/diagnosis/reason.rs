@@ -1,5 +1,6 @@
 //! Why a verdict was given, as data.
 
+use crate::discrepancy::preprocessing::slip_angle::SlidingRun;
 use crate::discrepancy::preprocessing::unit_errors::Slip;
 use crate::effects::Applied;
 
@@ -39,6 +40,8 @@ pub enum Reason {
         /// The slip angle that is exceeded, rad.
         angle: f64,
     },
+    /// The vehicle drifts: its body slides at large angles, whatever the inputs say.
+    Drifts(SlidingRun),
     /// The delay between inputs and poses drifts.
     ClocksDrift {
         /// Name of the run.

@@ -9,6 +9,7 @@ use crate::discrepancy::estimation::unexplained;
 use crate::discrepancy::localisation::clock_drift::Drift;
 use crate::discrepancy::localisation::constraint_residuals::ConstraintResiduals;
 use crate::discrepancy::localisation::unexplained_motion::{disagrees, is_random, visible};
+use crate::discrepancy::preprocessing::slip_angle::longest_slide;
 use crate::discrepancy::preprocessing::unit_errors::{self, Slip};
 use crate::discrepancy::report::Verdict;
 use crate::discrepancy::selection::choice::Selected;
@@ -61,7 +62,11 @@ pub fn before_fitting(problem: &Problem, model: &Model) -> Result<Option<Outcome
     if let Some(outcome) = still_or_short(problem, model) {
         return Ok(Some(outcome));
     }
-    Ok(unit_errors::another_motion(model, &problem.records)?.map(unusable))
+    if let Some(slip) = unit_errors::another_motion(model, &problem.records)? {
+        return Ok(Some(unusable(slip)));
+    }
+    let slide = longest_slide(model, &problem.records)?;
+    Ok(slide.map(|slide| Outcome::new(Verdict::UnusableData, Reason::Drifts(slide), None)))
 }
 
 fn still_or_short(problem: &Problem, model: &Model) -> Option<Outcome> {

@@ -1,5 +1,6 @@
 //! Data set right before a fit: outliers, errors of units, quantised inputs.
 
+mod body_velocity;
 pub(crate) mod cleaned_run;
 mod clipped_inputs;
 pub(crate) mod clock_jumps;
@@ -10,6 +11,7 @@ mod held_poses;
 pub(crate) mod input_effects;
 mod input_spikes;
 pub(crate) mod motion_ratios;
+mod mounting;
 mod other_motion;
 pub mod outliers;
 mod path_pair;
@@ -22,6 +24,7 @@ pub(crate) mod repairs;
 pub(crate) mod row_defects;
 pub(crate) mod servo_line;
 pub(crate) mod signed_ratios;
+pub(crate) mod slip_angle;
 pub(crate) mod slips;
 pub(crate) mod stamp_defects;
 pub(crate) mod unit_errors;

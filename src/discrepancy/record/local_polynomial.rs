@@ -27,6 +27,19 @@ pub fn slope_weights(time: &[f64], range: std::ops::Range<usize>, i: usize) -> O
     local(time, range, i, SLOPE_HALF_WIDTH, &degree, 1)
 }
 
+/// Weights of the value (0) or the rate (1) at row `i` of a local parabola over so many seconds to either side.
+///
+/// `None` with fewer than five rows.
+pub fn parabola(
+    time: &[f64],
+    range: std::ops::Range<usize>,
+    i: usize,
+    half_width: f64,
+    derivative: usize,
+) -> Option<Vec<(usize, f64)>> {
+    local(time, range, i, half_width, &|rows| (rows >= 5).then_some(2), derivative)
+}
+
 /// Weights of a derivative (0: the value) at row `i` of a local polynomial, whose degree the number of rows decides.
 fn local(
     time: &[f64],

@@ -2,6 +2,7 @@
 
 use super::slip_text;
 use crate::discrepancy::diagnosis::reason::{MissedMotion, Reason};
+use crate::discrepancy::preprocessing::slip_angle::SlidingRun;
 use crate::discrepancy::preprocessing::unit_errors::Slip;
 use crate::number_format::significant;
 use crate::wording::listed;
@@ -31,6 +32,12 @@ pub fn sentence(reason: &Reason) -> String {
             "The vehicle slides: in {run} from {from:.1} to {to:.1} s it moves more than {:.0}° beside where its model \
              points, and creep does not describe that; leave this stretch out.",
             angle.to_degrees()
+        ),
+        Reason::Drifts(SlidingRun { run, span: [from, to], angle, share }) => format!(
+            "The vehicle drifts: in {run} from {from:.1} to {to:.1} s its body slides at {:.0}° to its way, and beyond 30° for \
+             {:.0} % of the time driven; no coefficient of creep describes that, so leave these stretches out.",
+            angle.to_degrees(),
+            100.0 * share
         ),
         Reason::ClocksDrift { run, total } => format!(
             "The clocks do not match: in {run} the delay between inputs and measured pose drifts by {:.0} ms, so neither \

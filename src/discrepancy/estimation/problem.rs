@@ -12,6 +12,7 @@ use crate::error::Result;
 use crate::model::observation::{HEADING, PLACE, POSITION};
 use crate::model::state::{ACROSS, YAW};
 use crate::model::{Model, observation};
+use crate::vehicles::Moves;
 
 /// Runs cut into windows, with what is known of their noise.
 #[derive(Clone, Debug)]
@@ -62,10 +63,13 @@ impl Problem {
     }
 
     /// The same with what the noise of its inputs makes of a model's windows.
-    pub(crate) fn knowing_its_inputs(self, model: &Model) -> Result<Self> {
+    pub(crate) fn knowing_its_inputs(mut self, model: &Model) -> Result<Self> {
         if !self.has_noisy_inputs() {
             return Ok(self);
         }
+        let is_wheel = |role: &String| model.vehicle.moved_by(role).is_some_and(Moves::is_wheel);
+        let counted: Vec<bool> = model.inputs.iter().map(is_wheel).collect();
+        self.records.iter_mut().for_each(|r| r.input_noise = r.input_noise.counting(&counted).into());
         let (equations, starts) = (model.equations(&[])?, self.starts(model)?);
         let ends = |p: &Problem| linearise(&equations, &[], &p.records, &p.plan, &starts);
         let Some(quiet) = ends(&self) else { return Ok(self) };

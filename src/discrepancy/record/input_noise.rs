@@ -55,6 +55,26 @@ impl InputNoise {
         Self { time, columns, timings, channels, smooth: OnceLock::new() }
     }
 
+    /// The same where the noise of means of inputs that are counted is that of counts, whatever their ticks are.
+    ///
+    /// The means of a counter are noise, and not its ticks, where the stamps of the rows are not the times of counting.
+    pub fn counting(&self, is_counted: &[bool]) -> Self {
+        let of = |((channel, timing), counted): ((&ChannelNoise, &Timing), &bool)| match (channel, timing, counted) {
+            (ChannelNoise::White(std), Timing::IntervalMean, true) => {
+                ChannelNoise::Counted(6.0_f64.sqrt() * std * self.interval())
+            }
+            _ => *channel,
+        };
+        let channels = self.channels.iter().zip(&self.timings).zip(is_counted).map(of).collect();
+        Self { channels, smooth: OnceLock::new(), ..self.clone() }
+    }
+
+    /// The usual time between rows.
+    fn interval(&self) -> f64 {
+        let mut intervals: Vec<f64> = self.time.windows(2).map(|w| w[1] - w[0]).collect();
+        local_polynomial::median(&mut intervals).unwrap_or(0.0)
+    }
+
     /// Whether any input shows noise.
     pub fn is_there(&self) -> bool {
         self.channels.iter().any(|c| *c != ChannelNoise::None)
@@ -227,15 +247,31 @@ mod tests {
             let angle = integral(&time, s);
             means(&time, &angle.iter().map(|a| (a / 0.05).round() * 0.05 - a).collect::<Vec<f64>>())
         };
-        let kinds: [(ChannelNoise, &dyn Fn(&[f64]) -> Vec<f64>); 2] =
-            [(ChannelNoise::Rounded(0.3), &rounding), (ChannelNoise::Counted(0.05), &counting)];
-        for (noise, error) in kinds {
+        let agree = |noise: ChannelNoise, error: &dyn Fn(&[f64]) -> Vec<f64>| {
             let [[of_rows, of_sums], [drawn, drawn_sums]] = sizes(noise, error);
             assert!((drawn / of_rows - 1.0).abs() < 0.1, "{noise:?}: {of_rows} {drawn}");
             // What a signal does beyond its last crossing hangs on it alone.
             assert!((0.5..2.0).contains(&(drawn_sums / of_sums)), "{noise:?}: {of_sums} {drawn_sums}");
-        }
+        };
+        agree(ChannelNoise::Rounded(0.3), &rounding);
+        agree(ChannelNoise::Counted(0.05), &counting);
         assert_eq!(ChannelNoise::None.drawn(&time, &exact, &mut ChaCha8Rng::seed_from_u64(1)), vec![0.0; time.len()]);
+    }
+
+    /// Of means of a counter noise is that of its counts: neighbours cancel. Of other means, and of samples, it stays.
+    #[test]
+    fn noise_of_a_counter_is_that_of_its_counts() {
+        let time = time();
+        let column: Vec<f64> = time.iter().map(|t| wave(*t) + 0.1 * (1e4 * t * t).sin()).collect();
+        let noise = |timing: Timing, counted: bool| {
+            let noise = InputNoise::of(&time, std::slice::from_ref(&column), &[timing]).counting(&[counted]);
+            noise.channels[0]
+        };
+        let ChannelNoise::White(std) = noise(Timing::IntervalMean, false) else { panic!("white") };
+        assert_eq!(noise(Timing::Sample, true), ChannelNoise::White(std));
+        let ChannelNoise::Counted(tick) = noise(Timing::IntervalMean, true) else { panic!("counted") };
+        // Of two neighbouring counts that are each off by tick/√12 the mean is off by √2 as much, over the interval.
+        assert!((tick / 12.0_f64.sqrt() * 2.0_f64.sqrt() / 0.02 / std - 1.0).abs() < 1e-9);
     }
 
     /// What a smoother takes away is most of what the logger added.

@@ -42,8 +42,10 @@ pub(crate) struct InputNoise {
     smooth: OnceLock<Vec<Vec<f64>>>,
 }
 
-/// Noise or a step less than this share of an input, root mean square, is none.
-const LEAST: f64 = 0.002;
+/// White noise less than this share of an input, root mean square, is none: so little is not told from its own course.
+const LEAST: f64 = 0.01;
+/// Steps are told from less than that.
+const LEAST_STEP: f64 = 0.002;
 /// Of white noise the differences from the neighbours' cubic are correlated by −0.8 from row to row.
 const WHITE: f64 = -0.6;
 
@@ -164,7 +166,7 @@ fn of_column(time: &[f64], column: &[f64], timing: Timing) -> ChannelNoise {
     if let Some(tick) = tick {
         return ChannelNoise::Counted(tick);
     }
-    if let Some(step) = step_above(column, LEAST) {
+    if let Some(step) = step_above(column, LEAST_STEP) {
         return ChannelNoise::Rounded(step);
     }
     let size = (column.iter().map(|u| u * u).sum::<f64>() / column.len().max(1) as f64).sqrt();

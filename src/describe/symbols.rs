@@ -128,8 +128,7 @@ fn wheel(model: &Model, symbol: &Symbol) -> Option<(Kind, String, String)> {
         ),
     ];
     table.into_iter().find_map(|(test, kind, unit, means)| {
-        let wheels = model.vehicle.wheels.iter().chain(&model.vehicle.followers);
-        let names: Vec<&str> = wheels.filter(|w| test(w)).map(|w| w.name.as_str()).collect();
+        let names: Vec<&str> = model.vehicle.all_wheels().filter(|w| test(w)).map(|w| w.name.as_str()).collect();
         (!names.is_empty()).then(|| (kind, unit.into(), format!("{means} {}", names.join(", "))))
     })
 }

@@ -21,7 +21,7 @@ pub use inputs::drive::Formulas;
 pub use inputs::signals::Signals;
 #[doc(hidden)]
 pub use inputs::signals::Timing;
-pub(crate) use inputs::signals::timings;
+pub(crate) use inputs::signals::{running_integral, timings, usual_step};
 pub use integrators::integrator::Integrator;
 #[doc(hidden)]
 pub use integrators::integrator::Method;

@@ -74,6 +74,11 @@ impl Vehicle {
         self.moves() && !self.line && self.coordinates.is_empty()
     }
 
+    /// Its wheels, those that only follow last.
+    pub fn all_wheels(&self) -> impl Iterator<Item = &Wheel> {
+        self.wheels.iter().chain(&self.followers)
+    }
+
     /// The coefficients of creep of its wheels and other constraints; one that several share comes once for each. The
     /// traverse creep of a wheel that follows is none to choose.
     pub fn creeps(&self) -> impl Iterator<Item = &Symbol> {

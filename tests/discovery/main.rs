@@ -16,6 +16,8 @@ mod gross_errors;
 mod laws;
 mod names;
 mod next_experiment;
+#[path = "../support/noisy_run.rs"]
+mod noisy_run;
 mod other_vehicles;
 mod places_alone;
 #[path = "../support/read_back.rs"]

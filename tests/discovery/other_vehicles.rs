@@ -1,8 +1,7 @@
 //! Vehicles beside the usual ones: what is hidden in a simulated run is named, and nothing where nothing is.
 
-use creepage::{Model, Pose, Report, Run};
-use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha8Rng;
+use crate::noisy_run::noisy_run;
+use creepage::{Model, Report, Run};
 
 const ROWS: usize = 1000;
 
@@ -62,18 +61,8 @@ impl Vehicle {
         let column = |[offset, a, p, b, q]: [f64; 5]| -> Vec<f64> {
             time.iter().map(|t| offset + a * (p * t).sin() + b * (q * t + 1.0).cos()).collect()
         };
-        let inputs: Vec<(&str, Vec<f64>)> = self.inputs.iter().map(|(role, wave)| (*role, column(*wave))).collect();
-        let zero = || vec![0.0; ROWS];
-        let still = Pose { x: zero(), y: zero(), heading: Some(zero()), ..Pose::default() };
-        let table =
-            creepage::simulate(&self.model(hidden), &Run::new(time.clone(), still, inputs.clone()).unwrap()).unwrap();
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let mut of = |name: &str| {
-            let spread = |v: &f64| v + noise * (0..12).map(|_| random.random_range(-0.5..0.5)).sum::<f64>();
-            table.column(name).unwrap().iter().map(spread).collect::<Vec<f64>>()
-        };
-        let pose = Pose { x: of("x"), y: of("y"), heading: Some(of("heading")), ..Pose::default() };
-        Run::new(time, pose, inputs).unwrap()
+        let inputs = self.inputs.iter().map(|(role, wave)| (*role, column(*wave))).collect();
+        noisy_run(&self.model(hidden), time, inputs, noise, seed)
     }
 
     fn answer(&self, hidden: &str, seed: u64) -> Report {

@@ -1,6 +1,7 @@
 //! What holds in part, moves with time or acts on one input is found with its scope; nothing is where nothing does.
 
-use creepage::{Model, Pose, Report, Run};
+use crate::noisy_run::noisy_run;
+use creepage::{Model, Report, Run};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -20,17 +21,8 @@ fn inputs(turning: &'static str, by: f64, wheel: f64) -> (Vec<f64>, [(&'static s
 fn driven(head: &str, hidden: &str, noise: f64, seed: u64) -> Run {
     let car = head == CAR;
     let (time, inputs) = if car { inputs("steering_angle", 0.25, 4.0) } else { inputs("yaw_rate", 0.5, 8.0) };
-    let zero = Pose { x: vec![0.0; 1600], y: vec![0.0; 1600], heading: Some(vec![0.0; 1600]), ..Pose::default() };
-    let still = Run::new(time.clone(), zero, inputs.clone()).unwrap();
     let truth = Model::parse(&format!("{head}{hidden}")).unwrap();
-    let table = creepage::simulate(&truth, &still).unwrap();
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let mut of = |name: &str| {
-        let spread = |v: &f64| v + noise * (0..12).map(|_| random.random_range(-0.5..0.5)).sum::<f64>();
-        table.column(name).unwrap().iter().map(spread).collect::<Vec<f64>>()
-    };
-    let pose = Pose { x: of("x"), y: of("y"), heading: Some(of("heading")), ..Pose::default() };
-    Run::new(time, pose, inputs).unwrap()
+    noisy_run(&truth, time, inputs.to_vec(), noise, seed)
 }
 
 fn answer(head: &str, hidden: &str, seed: u64) -> (Report, String) {

@@ -100,8 +100,8 @@ impl Problem {
 
     /// The same poses with inputs that a smoother has taken the noise from; `None` where they show none.
     pub(crate) fn with_smoothed_inputs(&self) -> Option<Self> {
-        let records: Vec<Record> = self.records.iter().map(Record::with_smoothed_inputs).collect();
-        self.has_noisy_inputs().then(|| Self { records, ..self.clone() })
+        let smooth = || self.records.iter().map(Record::with_smoothed_inputs).collect();
+        self.has_noisy_inputs().then(|| Self { records: smooth(), ..self.clone() })
     }
 
     /// Whether the inputs of any run show noise.

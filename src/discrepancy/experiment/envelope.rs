@@ -113,8 +113,7 @@ fn by_its_row(model: &Model, role: &str) -> Option<Input> {
         formula.derivative(&Symbol::new(role)).eval(&|_| f64::NAN).map(f64::abs)
     };
     let rates = model.vehicle.wheels.iter().filter_map(|w| w.rate.as_ref());
-    let rate =
-        rates.filter(|r| by(r).is_some()).max_by(|a, b| by(a).unwrap_or(0.0).total_cmp(&by(b).unwrap_or(0.0)))?;
+    let (rate, _) = rates.filter_map(|rate| Some((rate, by(rate)?))).max_by(|a, b| a.1.total_cmp(&b.1))?;
     let given = model.values();
     let ahead = |s: &Symbol| given.get(s).copied().or((s.as_str() == "phi").then_some(0.0));
     let known = model.row_definitions().ok()?.evaluate(&ahead).ok()?;

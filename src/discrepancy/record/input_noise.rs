@@ -10,9 +10,9 @@
 
 use super::level_crossings::between_steps;
 use super::local_polynomial;
-use super::quantisation::{step_above, tick_of};
+use super::quantisation::{root_mean_square, step_above, tick_of};
 use super::rauch_tung_striebel::smoothed;
-use crate::motion::{Signals, Timing};
+use crate::motion::{Signals, Timing, running_integral, usual_step};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
@@ -31,8 +31,8 @@ pub(crate) enum ChannelNoise {
     White(f64),
 }
 
-/// The noise of all inputs of a run.
-#[derive(Clone, Debug)]
+/// The noise of all inputs of a run; empty where none shows any.
+#[derive(Clone, Debug, Default)]
 pub(crate) struct InputNoise {
     time: Vec<f64>,
     columns: Vec<Vec<f64>>,
@@ -52,7 +52,11 @@ const WHITE: f64 = -0.6;
 impl InputNoise {
     /// The noise that columns of inputs show.
     pub fn of(time: &[f64], columns: &[Vec<f64>], timings: &[Timing]) -> Self {
-        let channels = columns.iter().zip(timings).map(|(c, timing)| of_column(time, c, *timing)).collect();
+        let of = |(column, timing): (&Vec<f64>, &Timing)| of_column(time, column, *timing);
+        let channels: Vec<ChannelNoise> = columns.iter().zip(timings).map(of).collect();
+        if channels.iter().all(|c| *c == ChannelNoise::None) {
+            return Self::default();
+        }
         let (time, columns, timings) = (time.to_vec(), columns.to_vec(), timings.to_vec());
         Self { time, columns, timings, channels, smooth: OnceLock::new() }
     }
@@ -61,9 +65,10 @@ impl InputNoise {
     ///
     /// The means of a counter are noise, and not its ticks, where the stamps of the rows are not the times of counting.
     pub fn counting(&self, is_counted: &[bool]) -> Self {
+        let interval = usual_step(&self.time).unwrap_or(0.0);
         let of = |((channel, timing), counted): ((&ChannelNoise, &Timing), &bool)| match (channel, timing, counted) {
             (ChannelNoise::White(std), Timing::IntervalMean, true) => {
-                ChannelNoise::Counted(6.0_f64.sqrt() * std * self.interval())
+                ChannelNoise::Counted(6.0_f64.sqrt() * std * interval)
             }
             _ => *channel,
         };
@@ -71,15 +76,9 @@ impl InputNoise {
         Self { channels, smooth: OnceLock::new(), ..self.clone() }
     }
 
-    /// The usual time between rows.
-    fn interval(&self) -> f64 {
-        let mut intervals: Vec<f64> = self.time.windows(2).map(|w| w[1] - w[0]).collect();
-        local_polynomial::median(&mut intervals).unwrap_or(0.0)
-    }
-
     /// Whether any input shows noise.
     pub fn is_there(&self) -> bool {
-        self.channels.iter().any(|c| *c != ChannelNoise::None)
+        !self.channels.is_empty()
     }
 
     /// What a smoother takes away from the inputs as noise, the other way round.
@@ -112,7 +111,7 @@ impl ChannelNoise {
             Self::None => vec![0.0; column.len()],
             Self::White(std) => smoothed(time, column, std * std),
             Self::Rounded(step) => between_steps(time, column, step),
-            Self::Counted(tick) => smoothed(time, &integral(time, column), tick * tick / 12.0),
+            Self::Counted(tick) => smoothed(time, &running_integral(time, column), tick * tick / 12.0),
         }
     }
 
@@ -122,7 +121,7 @@ impl ChannelNoise {
         match self {
             Self::None => vec![0.0; column.len()],
             Self::White(_) | Self::Rounded(_) => less(column),
-            Self::Counted(_) => means(time, &less(&integral(time, column))),
+            Self::Counted(_) => means(time, &less(&running_integral(time, column))),
         }
     }
 
@@ -145,16 +144,6 @@ impl ChannelNoise {
     }
 }
 
-/// What a column sums up to from the first row on.
-fn integral(time: &[f64], column: &[f64]) -> Vec<f64> {
-    let mut sum = 0.0;
-    let added = |i: usize| {
-        sum += if i == 0 { 0.0 } else { (time[i] - time[i - 1]) * column[i] };
-        sum
-    };
-    (0..column.len()).map(added).collect()
-}
-
 /// The means over the time between rows whose sums are an integral.
 fn means(time: &[f64], integral: &[f64]) -> Vec<f64> {
     let mean = |i: usize| if i == 0 { 0.0 } else { (integral[i] - integral[i - 1]) / (time[i] - time[i - 1]) };
@@ -169,9 +158,8 @@ fn of_column(time: &[f64], column: &[f64], timing: Timing) -> ChannelNoise {
     if let Some(step) = step_above(column, LEAST_STEP) {
         return ChannelNoise::Rounded(step);
     }
-    let size = (column.iter().map(|u| u * u).sum::<f64>() / column.len().max(1) as f64).sqrt();
     match local_polynomial::noise(time, column) {
-        Some(std) if std > LEAST * size && is_white(time, column) => ChannelNoise::White(std),
+        Some(std) if std > LEAST * root_mean_square(column) && is_white(time, column) => ChannelNoise::White(std),
         _ => ChannelNoise::None,
     }
 }
@@ -235,7 +223,7 @@ mod tests {
         let sizes = |noise: ChannelNoise, error: &dyn Fn(&[f64]) -> Vec<f64>| {
             let column: Vec<f64> = exact.iter().zip(error(&exact)).map(|(s, e)| s + e).collect();
             let smooth = noise.smoothed(&time, &column);
-            let of = |e: &[f64]| [rms(e), rms(&integral(&time, e))];
+            let of = |e: &[f64]| [rms(e), rms(&running_integral(&time, e))];
             let mut random = ChaCha8Rng::seed_from_u64(1);
             let drawn = [(); 40].map(|()| of(&noise.drawn(&time, &smooth, &mut random)));
             // Root mean square over the phases of the grid.
@@ -246,7 +234,7 @@ mod tests {
         };
         let rounding = |s: &[f64]| s.iter().map(|s| (s / 0.3).round() * 0.3 - s).collect::<Vec<f64>>();
         let counting = |s: &[f64]| {
-            let angle = integral(&time, s);
+            let angle = running_integral(&time, s);
             means(&time, &angle.iter().map(|a| (a / 0.05).round() * 0.05 - a).collect::<Vec<f64>>())
         };
         let agree = |noise: ChannelNoise, error: &dyn Fn(&[f64]) -> Vec<f64>| {
@@ -280,7 +268,7 @@ mod tests {
     #[test]
     fn smoothing_takes_the_noise_away() {
         let (time, exact) = (time(), time().iter().map(|t| wave(*t)).collect::<Vec<f64>>());
-        let counts: Vec<f64> = integral(&time, &exact).iter().map(|a| (a / 0.05).floor() * 0.05).collect();
+        let counts: Vec<f64> = running_integral(&time, &exact).iter().map(|a| (a / 0.05).floor() * 0.05).collect();
         let counted = means(&time, &counts);
         let noise = InputNoise::of(&time, std::slice::from_ref(&counted), &[Timing::IntervalMean]);
         assert!(matches!(noise.channels[..], [ChannelNoise::Counted(_)]), "{:?}", noise.channels);

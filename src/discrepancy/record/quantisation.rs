@@ -1,6 +1,7 @@
 //! Columns that were rounded: an encoder's ticks in a row, a message with few digits.
 
 use super::local_polynomial::median;
+use crate::motion::usual_step;
 
 /// A step larger than this share of the input, root mean square, is worth a word.
 const COARSE: f64 = 0.02;
@@ -16,29 +17,37 @@ const WHOLE: f64 = 0.01;
 
 /// The step of a rounded column; `None` where its values are as good as continuous, or commands.
 pub(crate) fn step_of(column: &[f64]) -> Option<f64> {
-    let changes = column.windows(2).filter(|w| w[0] != w[1]).count();
-    step_above(column, COARSE).filter(|_| changes as f64 >= BUSY * column.len() as f64)
+    rounding(column, COARSE).and_then(|(step, is_busy)| is_busy.then_some(step))
 }
 
 /// The step of a rounded column, if it is larger than a share of the column, root mean square; of a staircase, too, which is
 /// a slow signal rounded, or commands that look like one.
+pub(crate) fn step_above(column: &[f64], share: f64) -> Option<f64> {
+    rounding(column, share).map(|(step, _)| step)
+}
+
+/// The step of a rounded column, and whether it changes too often to be held.
 ///
 /// Every change of a rounded signal is a whole number of steps, and where it is sampled often most are a single one.
-pub(crate) fn step_above(column: &[f64], share: f64) -> Option<f64> {
-    let rows = column.len() as f64;
-    let size = (column.iter().map(|u| u * u).sum::<f64>() / rows).sqrt();
+fn rounding(column: &[f64], share: f64) -> Option<(f64, bool)> {
+    let size = root_mean_square(column);
     let changes = column.windows(2).map(|w| (w[1] - w[0]).abs());
     let mut changes: Vec<f64> = changes.filter(|c| *c > 1e-9 * size).collect();
     let step = changes.iter().copied().fold(f64::INFINITY, f64::min);
     let singles = changes.iter().filter(|c| **c < 1.5 * step).count() as f64;
-    let is_busy = changes.len() as f64 >= BUSY * rows;
+    let is_busy = changes.len() as f64 >= BUSY * column.len() as f64;
     let is_staircase = || singles >= SINGLE * changes.len() as f64 && levels(column, step) >= LEVELS;
     if changes.len() < FEWEST || !(is_busy || is_staircase()) {
         return None;
     }
     let is_whole = |c: &f64| (c / step - (c / step).round()).abs() < WHOLE;
     let coarse = step > share * size && changes.iter().all(is_whole);
-    (coarse && median(&mut changes)? < 1.5 * step).then_some(step)
+    (coarse && median(&mut changes)? < 1.5 * step).then_some((step, is_busy))
+}
+
+/// √(Σ u²/n); no number without any.
+pub(crate) fn root_mean_square(values: &[f64]) -> f64 {
+    (values.iter().map(|u| u * u).sum::<f64>() / values.len() as f64).sqrt()
 }
 
 /// How many levels so far apart a column has.
@@ -66,7 +75,7 @@ const TRIED: usize = 20;
 pub(crate) fn tick_of(time: &[f64], means: &[f64]) -> Option<f64> {
     let intervals: Vec<f64> = time.windows(2).map(|w| w[1] - w[0]).collect();
     let counted: Vec<f64> = intervals.iter().zip(means.iter().skip(1)).map(|(dt, u)| dt * u).collect();
-    let size = (counted.iter().map(|w| w * w).sum::<f64>() / counted.len() as f64).sqrt();
+    let size = root_mean_square(&counted);
     let mut levels = counted.clone();
     levels.sort_by(f64::total_cmp);
     let mut gaps: Vec<f64> = levels.windows(2).map(|w| w[1] - w[0]).filter(|gap| *gap > FINEST * size).collect();
@@ -74,7 +83,7 @@ pub(crate) fn tick_of(time: &[f64], means: &[f64]) -> Option<f64> {
     gaps.dedup_by(|a, b| *a < (1.0 + WHOLE) * *b);
     // Commands and rounded values come in steps of their own, and what they sum up to does where the intervals are alike;
     // a counter that is a tick too high is one too low soon after.
-    let usual = median(&mut intervals.clone())?;
+    let usual = usual_step(time)?;
     let alike = intervals.iter().filter(|dt| (**dt - usual).abs() < WHOLE * usual).count() as f64;
     let may_be_commands = alike > (1.0 - LOST) * intervals.len() as f64;
     gaps.into_iter().take(TRIED).find(|gap| {

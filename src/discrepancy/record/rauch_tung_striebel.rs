@@ -26,9 +26,12 @@ pub(crate) fn smoothed(time: &[f64], measured: &[f64], variance: f64) -> Vec<f64
     }
     let intensity = |power: f64| 10.0_f64.powf(power) * variance / usual.powi(3);
     let likelihood = |power: f64| Filter::run(&steps, measured, variance, intensity(power)).log_likelihood;
-    let best = |powers: &mut dyn Iterator<Item = f64>| powers.max_by(|a, b| likelihood(*a).total_cmp(&likelihood(*b)));
-    let coarse = best(&mut (INTENSITIES.0..=INTENSITIES.1).map(f64::from)).unwrap_or(0.0);
-    let fine = best(&mut (-4..=4).map(|k| coarse + 0.2 * f64::from(k))).unwrap_or(coarse);
+    let best = |powers: &mut dyn Iterator<Item = f64>| {
+        let each = powers.map(|power| (power, likelihood(power)));
+        each.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0.0, |(power, _)| power)
+    };
+    let coarse = best(&mut (INTENSITIES.0..=INTENSITIES.1).map(f64::from));
+    let fine = best(&mut (-4..=4).map(|k| coarse + 0.2 * f64::from(k)));
     Filter::run(&steps, measured, variance, intensity(fine)).back(&steps)
 }
 

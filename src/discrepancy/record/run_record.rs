@@ -6,7 +6,7 @@ use super::local_polynomial;
 use super::row_weights::RowWeights;
 use crate::files::{InputTiming, Run};
 use crate::model::observation::{self, BODY_HEADING, Observation, PLACE};
-use crate::motion::{Signals, Timing, timings};
+use crate::motion::{Signals, Timing, timings, usual_step};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
@@ -103,17 +103,26 @@ impl Record {
 
     /// The run with inputs that are as noisy again.
     pub(crate) fn with_noisier_inputs(&self, seed: u64) -> Record {
-        Record { signals: self.signals.plus(&self.input_noise.drawn(seed)), ..self.clone() }
+        self.with_inputs_changed(|noise| noise.drawn(seed))
     }
 
     /// The run with inputs that show no noise.
     pub(crate) fn with_exact_inputs(&self) -> Record {
-        Record { input_noise: InputNoise::of(&[], &[], &[]).into(), ..self.clone() }
+        Record { input_noise: InputNoise::default().into(), ..self.clone() }
     }
 
     /// The run with inputs that a smoother has taken the noise from.
     pub(crate) fn with_smoothed_inputs(&self) -> Record {
-        Record { signals: self.signals.plus(&self.input_noise.smoothing()), ..self.clone() }
+        self.with_inputs_changed(InputNoise::smoothing)
+    }
+
+    /// The run with something added to its inputs, where they show noise.
+    fn with_inputs_changed(&self, by: impl FnOnce(&InputNoise) -> Signals) -> Record {
+        let mut changed = self.clone();
+        if self.input_noise.is_there() {
+            changed.signals = self.signals.plus(&by(&self.input_noise));
+        }
+        changed
     }
 
     /// The run without the rows that are not kept.
@@ -176,12 +185,7 @@ impl Record {
 
     /// The usual time between rows, s.
     pub fn step(&self) -> f64 {
-        *self.known.step.get_or_init(|| self.median_step())
-    }
-
-    fn median_step(&self) -> f64 {
-        let mut steps: Vec<f64> = self.time[self.rows.clone()].windows(2).map(|w| w[1] - w[0]).collect();
-        local_polynomial::median(&mut steps).unwrap_or(f64::NAN)
+        *self.known.step.get_or_init(|| usual_step(&self.time[self.rows.clone()]).unwrap_or(f64::NAN))
     }
 
     /// The time between rows from which on a log is interrupted, s.

@@ -20,15 +20,10 @@ pub(crate) fn check(own: &UserVehicle) -> Result<()> {
         let role = own.vehicle.inputs[input].instead.as_ref().map(|i| Symbol::new(&i.role));
         formula(own, f, |s| Some(s) == role.as_ref() || own.vehicle.parameters.contains_key(s.as_str()))?;
     }
-    own.wheels
-        .iter()
-        .chain(&own.followers)
-        .chain(&own.trailers)
+    own.parts()
         .flat_map(|p| &p.lengths)
         .try_for_each(|(key, f)| formula(own, f, |s| declared(s) || *key == "roller" && s.as_str() == "pi"))?;
-    let following = own.vehicle.followers.iter().zip(&own.followers);
-    let mut all = own.vehicle.wheels.iter().zip(&own.wheels).chain(following);
-    all.try_for_each(|(w, part)| symbols(own, w, part))?;
+    own.wheels_and_parts().try_for_each(|(w, part)| symbols(own, w, part))?;
     circle(own)
 }
 
@@ -105,7 +100,7 @@ fn coefficient(own: &UserVehicle, key: &str, symbol: &Symbol, spot: &Spot) -> Re
     if own.names.contains_key(symbol) {
         return refuse(format!("{symbol} is also a defined symbol"));
     }
-    let wheels = || own.vehicle.wheels.iter().chain(&own.vehicle.followers);
+    let wheels = || own.vehicle.all_wheels();
     let is = |s: &Option<Symbol>| s.as_ref() == Some(symbol);
     let other = if key == "rotation_creep" { "traverse" } else { "rotation" };
     let clash = wheels().find(|w| is(if other == "traverse" { &w.traverse_creep } else { &w.rotation_creep }));

@@ -7,12 +7,7 @@ use std::collections::BTreeSet;
 
 /// That no length depends on an input: a place that moves on the body would have a velocity there.
 pub(crate) fn check(own: &UserVehicle) -> Result<()> {
-    own.wheels
-        .iter()
-        .chain(&own.followers)
-        .chain(&own.trailers)
-        .flat_map(|p| p.lengths.values())
-        .try_for_each(|f| constant(own, f))
+    own.parts().flat_map(|p| p.lengths.values()).try_for_each(|f| constant(own, f))
 }
 
 fn constant(own: &UserVehicle, f: &FormulaText) -> Result<()> {

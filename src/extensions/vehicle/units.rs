@@ -21,15 +21,14 @@ pub(crate) fn check(own: &UserVehicle) -> Result<()> {
         let wanted = unit(&own.vehicle.inputs[role].unit);
         expect(formula, &wanted, &of, role).map_err(|e| e.help(CORRECT))?;
     }
-    for (key, formula) in own.wheels.iter().chain(&own.followers).chain(&own.trailers).flat_map(|p| &p.lengths) {
+    for (key, formula) in own.parts().flat_map(|p| &p.lengths) {
         let (wanted, help) = match *key {
             "roller" => ("rad", "the angle of rollers is a formula in rad: write roller = \"pi/4\""),
             _ => ("m", "a length is a formula of parameters and defined symbols in m"),
         };
         expect(formula, &unit(wanted), &of, key).map_err(|e| e.help(help))?;
     }
-    let following = own.followers.iter().zip(&own.vehicle.followers);
-    for (part, wheel) in own.wheels.iter().zip(&own.vehicle.wheels).chain(following) {
+    for (wheel, part) in own.wheels_and_parts() {
         let symbols = [&wheel.steering, &wheel.radius, &wheel.rate];
         for ((key, wanted), symbol) in SYMBOLS.iter().zip(symbols) {
             let Some(definition) = symbol.as_ref().and_then(|s| own.vehicle.define.get(s)) else { continue };

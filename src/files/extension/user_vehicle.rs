@@ -5,7 +5,7 @@ use crate::files::toml::formula_text::FormulaText;
 use crate::files::toml::location::Spot;
 use crate::files::toml::spanned_table::Value;
 use crate::formula::Symbol;
-use crate::vehicles::Vehicle;
+use crate::vehicles::{Vehicle, Wheel};
 use std::collections::BTreeMap;
 
 /// A vehicle and the places of its parts.
@@ -35,6 +35,18 @@ pub struct UserVehicle {
     pub constraints: Vec<UserConstraint>,
     /// Where each held name stands.
     pub held: Vec<Spot>,
+}
+
+impl UserVehicle {
+    /// The places of all wheels and trailers.
+    pub fn parts(&self) -> impl Iterator<Item = &UserPart> {
+        self.wheels.iter().chain(&self.followers).chain(&self.trailers)
+    }
+
+    /// All wheels with their places.
+    pub fn wheels_and_parts(&self) -> impl Iterator<Item = (&Wheel, &UserPart)> {
+        self.vehicle.all_wheels().zip(self.wheels.iter().chain(&self.followers))
+    }
 }
 
 /// The places of a wheel or a trailer.

@@ -176,7 +176,7 @@ pub(crate) fn read_followers(own: &mut UserVehicle, section: &Section) -> Result
 /// A wheel that has a name of its own and does something.
 fn read_new_wheel(table: &Section, own: &UserVehicle) -> Result<(Wheel, UserPart)> {
     let (wheel, part) = read_wheel(table, own)?;
-    if own.vehicle.wheels.iter().chain(&own.vehicle.followers).any(|w| w.name == wheel.name) {
+    if own.vehicle.all_wheels().any(|w| w.name == wheel.name) {
         return Err(twice(&part, "wheels", &wheel.name));
     }
     check_roles(&wheel, &part)?;

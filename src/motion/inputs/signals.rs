@@ -232,7 +232,7 @@ fn holes(time: &[f64]) -> Vec<usize> {
 }
 
 /// The median of the steps.
-fn usual_step(time: &[f64]) -> Option<f64> {
+pub(crate) fn usual_step(time: &[f64]) -> Option<f64> {
     let mut steps: Vec<f64> = time.windows(2).map(|w| w[1] - w[0]).collect();
     let middle = steps.len() / 2;
     (!steps.is_empty()).then(|| *steps.select_nth_unstable_by(middle, f64::total_cmp).1)
@@ -286,7 +286,7 @@ fn slope([_, b, d, e]: &[f64; 4]) -> [f64; 4] {
 }
 
 /// The integral from the first row to each row.
-fn running_integral(t: &[f64], mean: &[f64]) -> Vec<f64> {
+pub(crate) fn running_integral(t: &[f64], mean: &[f64]) -> Vec<f64> {
     let mut total = 0.0;
     let steps = t.windows(2).zip(&mean[1..]);
     let sums = steps.map(|(w, m)| {

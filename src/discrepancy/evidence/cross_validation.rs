@@ -14,6 +14,8 @@ use nalgebra::{DMatrix, DVector};
 const FOLDS: usize = 5;
 /// Deviances this close are the same.
 const SAME: f64 = 2.0;
+/// Runs that are left out in turn; fewer are cut into thirds.
+const FEWEST_PARTS: usize = 3;
 /// Windows that are left out together, at most: neighbours share a pose.
 const BLOCK: usize = 10;
 
@@ -22,6 +24,8 @@ const BLOCK: usize = 10;
 enum Part {
     /// A whole run: what moves from run to run is no finding.
     Run,
+    /// A third of every run.
+    Third,
     /// Every fifth block of neighbouring windows.
     Blocks,
 }
@@ -67,6 +71,20 @@ impl Problem {
         Ok(self.gains([fit, than], [&new, &old], part, Share::predicted).is_some_and(|g| total(&g) <= 0.0))
     }
 
+    /// By how much each part is predicted better by the others with a model than with another: runs, or thirds of one or
+    /// two of them. Asked at the noise of the other, as what it leaves unexplained in another run counts against neither;
+    /// `None` where a part leaves a parameter open.
+    ///
+    /// # Errors
+    /// When the model's formulas are malformed.
+    pub(crate) fn gains_by_parts(&self, fit: &Fit, than: &Fit) -> Result<Option<Gains>> {
+        let part = if self.records.len() >= FEWEST_PARTS { Part::Run } else { Part::Third };
+        let [new, old] = [self.linear(fit)?, self.linear(than)?];
+        let gained = self.gains([&in_units_of(fit, than), than], [&new, &old], part, Share::predicted);
+        let told = gained.map(|g| Gains { total: total(&g), parts: counts(&g, SAME * than.variance_inflation()) });
+        Ok(told)
+    }
+
     /// By how much of deviance a model whose values other parts give misses the parts less than another does: runs, or
     /// blocks of windows of a single run.
     ///
@@ -105,10 +123,15 @@ impl Problem {
 
     /// What each part of the data says of the values: whole runs, or neighbouring windows cut loose from one another.
     fn shares(&self, fit: &Fit, linear: &Along, part: Part) -> Option<Vec<Share>> {
-        let blocks = if part == Part::Blocks { loose(linear) } else { vec![] };
+        let of_runs = || self.plan.iter().map(|s| s.record).zip(linear);
+        let cut: Vec<(usize, Vec<LinearisedWindow>)> = match part {
+            Part::Run => vec![],
+            Part::Third => thirds(&of_runs().collect::<Vec<_>>()),
+            Part::Blocks => loose(linear).into_iter().enumerate().map(|(i, b)| (i % FOLDS, b)).collect(),
+        };
         let folded: Vec<(usize, &Vec<LinearisedWindow>)> = match part {
-            Part::Run => self.plan.iter().map(|s| s.record).zip(linear).collect(),
-            Part::Blocks => blocks.iter().enumerate().map(|(i, b)| (i % FOLDS, b)).collect(),
+            Part::Run => of_runs().collect(),
+            _ => cut.iter().map(|(fold, windows)| (*fold, windows)).collect(),
         };
         let folds = folded.iter().map(|(fold, _)| fold + 1).max().unwrap_or(0);
         let mut shares = vec![Share::nothing(fit.p.len()); folds];
@@ -119,6 +142,22 @@ impl Problem {
     }
 }
 
+/// Gains of deviance of parts of the data.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Gains {
+    /// Of all of them.
+    pub total: f64,
+    /// How many gain, and how many lose.
+    pub parts: (usize, usize),
+}
+
+impl Gains {
+    /// Whether most parts, and all together, gain.
+    pub(crate) fn is_gain(&self) -> bool {
+        self.total > 0.0 && self.parts.0 > self.parts.1
+    }
+}
+
 /// Windows, segment by segment.
 pub(crate) type Along = Vec<Vec<LinearisedWindow>>;
 
@@ -126,14 +165,32 @@ pub(crate) type Along = Vec<Vec<LinearisedWindow>>;
 pub(crate) fn loose(linear: &Along) -> Along {
     let windows: usize = linear.iter().map(Vec::len).sum();
     let size = (windows / (2 * FOLDS)).clamp(1, BLOCK);
-    let cut = |block: &[LinearisedWindow]| {
-        let mut block = block.to_vec();
-        if let Some(last) = block.last_mut() {
-            last.back = None;
+    linear.iter().flat_map(|windows| windows.chunks(size).map(cut_loose)).collect()
+}
+
+/// Neighbouring windows without the tie of the last to what follows.
+fn cut_loose(block: &[LinearisedWindow]) -> Vec<LinearisedWindow> {
+    let mut block = block.to_vec();
+    if let Some(last) = block.last_mut() {
+        last.back = None;
+    }
+    block
+}
+
+/// The windows of runs, segment by segment, cut where a third of a run's windows ends; which third each piece is of.
+fn thirds(segments: &[(usize, &Vec<LinearisedWindow>)]) -> Vec<(usize, Vec<LinearisedWindow>)> {
+    let mut found = vec![];
+    for of_run in segments.chunk_by(|a, b| a.0 == b.0) {
+        let all: usize = of_run.iter().map(|(_, windows)| windows.len()).sum();
+        let mut before = 0;
+        for (_, windows) in of_run {
+            let end = |third: usize| (third * all).div_ceil(3).clamp(before, before + windows.len()) - before;
+            let pieces = (0..3).map(|third| (third, &windows[end(third)..end(third + 1)]));
+            found.extend(pieces.filter(|(_, p)| !p.is_empty()).map(|(third, piece)| (third, cut_loose(piece))));
+            before += windows.len();
         }
-        block
-    };
-    linear.iter().flat_map(|windows| windows.chunks(size).map(cut)).collect()
+    }
+    found
 }
 
 fn total(gains: &[f64]) -> f64 {
@@ -283,6 +340,39 @@ mod tests {
         // At the values alone it is wrong by forty deviations of its own.
         let at = parts[0].under(&others(&parts, 1)[0]).expect("told");
         assert!(at > 1000.0 && judged[0] < 10.0, "{at} {judged:?}");
+    }
+
+    /// Thirds of a run go on over its segments, and no window is tied to one of another third.
+    #[test]
+    fn a_run_is_cut_into_thirds() {
+        let window = || LinearisedWindow {
+            gram: vec![],
+            count: vec![],
+            blocks: vec![],
+            back: Some(DMatrix::zeros(0, 0)),
+            axes: DMatrix::zeros(0, 0),
+            duration: 1.0,
+            mismatch: vec![],
+        };
+        let segment = |windows: usize| vec![window(); windows];
+        let [first, second, other] = [4, 2, 3].map(segment);
+        let cut = thirds(&[(0, &first), (0, &second), (1, &other)]);
+        let told = |(third, windows): &(usize, Vec<LinearisedWindow>)| {
+            assert!(
+                windows.iter().rev().skip(1).all(|w| w.back.is_some()) && windows[windows.len() - 1].back.is_none()
+            );
+            (*third, windows.len())
+        };
+        let cut: Vec<(usize, usize)> = cut.iter().map(told).collect();
+        assert_eq!(cut, [(0, 2), (1, 2), (2, 2), (0, 1), (1, 1), (2, 1)]);
+    }
+
+    /// Most parts and all together.
+    #[test]
+    fn a_gain_is_one_of_most_parts() {
+        let gains = |total: f64, parts| Gains { total, parts }.is_gain();
+        assert!(gains(1.0, (2, 1)) && gains(1.0, (3, 0)));
+        assert!(!gains(1.0, (1, 1)) && !gains(-1.0, (2, 1)) && !gains(1.0, (0, 0)));
     }
 
     #[test]

@@ -29,6 +29,8 @@ pub(crate) struct Jackknife {
     pub std: Vec<f64>,
     /// Whether all parts have a value in one direction and of one size, by the pseudo-values g·θ − (g − 1)·θ₍ᵢ₎ of Tukey.
     pub alike: Vec<bool>,
+    /// Whether all parts have a value in one direction, by the same.
+    pub one_way: Vec<bool>,
     /// How many parts there are.
     pub(crate) parts: usize,
 }
@@ -51,17 +53,24 @@ impl Jackknife {
             let mean = all.iter().map(|p| p[i]).sum::<f64>() / g;
             ((g - 1.0) / g * all.iter().map(|p| (p[i] - mean).powi(2)).sum::<f64>()).sqrt()
         };
-        let are_alike = |i: usize| {
+        let extremes = |i: usize| {
             let pseudo = all.iter().map(|p| (g * fit.p[i] - (g - 1.0) * p[i]) * fit.p[i].signum());
-            let [least, most] = pseudo.fold([f64::INFINITY, 0.0_f64], |[a, b], v| [a.min(v), b.max(v)]);
-            least > 0.0 && most <= FACTOR * least
+            pseudo.fold([f64::INFINITY, 0.0_f64], |[a, b], v| [a.min(v), b.max(v)])
         };
         let each = 0..fit.p.len();
+        let extremes: Vec<[f64; 2]> = each.clone().map(extremes).collect();
+        let of_extremes = |is_so: fn(f64, f64) -> bool| extremes.iter().map(|[a, b]| is_so(*a, *b)).collect();
         Ok(Some(Self {
-            std: each.clone().map(of_value).collect(),
-            alike: each.map(are_alike).collect(),
+            std: each.map(of_value).collect(),
+            alike: of_extremes(|least, most| least > 0.0 && most <= FACTOR * least),
+            one_way: of_extremes(|least, _| least > 0.0),
             parts: all.len(),
         }))
+    }
+
+    /// Whether every value of an effect that is neutral at zero has one direction in all parts.
+    pub(crate) fn is_one_way(&self, fit: &Fit, effect: &Applied) -> bool {
+        neutral_at_zero(fit, effect).iter().all(|(i, _)| self.one_way[*i])
     }
 
     /// How far an effect stands out from its scatter, in units of what chance would make of it: its values are the same
@@ -113,7 +122,8 @@ mod tests {
         let fit = fit_of(unicycle(&KNOWN));
         let [_, relaxing, creep] = &fit.model.effects[..] else { panic!() };
         for (parts, one) in [(3, 4.302_653), (5, 2.776_445)] {
-            let scatter = Jackknife { std: vec![1.0, 0.02, 0.1, 0.01], alike: vec![false; 4], parts };
+            let scatter =
+                Jackknife { std: vec![1.0, 0.02, 0.1, 0.01], alike: vec![false; 4], one_way: vec![false; 4], parts };
             let shows = scatter.shows(&fit, creep);
             assert!((shows - 5.0 / one).abs() < 1e-4, "{parts}: {shows}");
             // A length is not neutral at zero; the creep that it builds up is.
@@ -121,8 +131,20 @@ mod tests {
             assert!((shows - 5.0 / one).abs() < 1e-4, "{parts}: {shows}");
         }
         // Alike in all parts: 2.9200 of two degrees of freedom.
-        let scatter = Jackknife { std: vec![1.0, 0.02, 0.1, 0.01], alike: vec![true; 4], parts: 3 };
+        let scatter =
+            Jackknife { std: vec![1.0, 0.02, 0.1, 0.01], alike: vec![true; 4], one_way: vec![true; 4], parts: 3 };
         assert!((scatter.shows(&fit, creep) - 5.0 / 2.919_986).abs() < 1e-4);
+    }
+
+    /// Of a length, which is positive, the direction says nothing beside that of the creep.
+    #[test]
+    fn an_effect_has_one_direction_by_its_signed_values() {
+        let fit = fit_of(unicycle(&KNOWN));
+        let [traction, relaxing, creep] = &fit.model.effects[..] else { panic!() };
+        let scatter =
+            Jackknife { std: vec![1.0; 4], alike: vec![false; 4], one_way: vec![true, true, false, false], parts: 3 };
+        let told = [traction, relaxing, creep].map(|e| scatter.is_one_way(&fit, e));
+        assert_eq!(told, [true, true, false]);
     }
 
     /// Of fewer than three runs the thirds, of more the runs, of many every fifth.

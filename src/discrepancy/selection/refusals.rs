@@ -6,7 +6,7 @@ use crate::discrepancy::estimation::bounds::is_possible;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::unexplained::remaining;
 use crate::discrepancy::evidence::jackknife::Jackknife;
-use crate::discrepancy::evidence::wald_test::neutral_at_zero;
+use crate::discrepancy::evidence::wald_test::{is_one_way, neutral_at_zero};
 use crate::discrepancy::selection::choice::{Refusal, Refused, SelectedEffect, Weighed};
 use crate::effects::Applied;
 use crate::error::{Error, Result};
@@ -111,10 +111,16 @@ impl Search<'_> {
     }
 
     /// Whether an effect's values stand out of their own deviations by less than what a parameter costs.
+    ///
+    /// What every vehicle has, each run in one direction, may differ between runs by more than their noise: there the noise
+    /// alone is asked, and the spread is told in the deviation.
     fn is_faint(&self, fit: &Fit, c: &SelectedEffect) -> bool {
         let own = neutral_at_zero(fit, &c.applied);
         let first = first_of(fit, &c.applied);
-        let ratio = |(i, v): &(usize, f64)| c.std[i - first].map_or(0.0, |std| (v / std).powi(2));
+        let varies = c.applied.effect.basic && is_one_way(fit, &c.applied);
+        let noise = |i: usize| fit.covariance.as_ref().map(|v| (v[(i, i)] * fit.variance_inflation()).sqrt());
+        let std = |i: usize| if varies { noise(i) } else { c.std[i - first] };
+        let ratio = |(i, v): &(usize, f64)| std(*i).map_or(0.0, |std| (v / std).powi(2));
         !own.is_empty() && own.iter().map(ratio).fold(0.0, f64::max) <= self.margin() + fit.sample_size.ln()
     }
 

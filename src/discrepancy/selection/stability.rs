@@ -9,10 +9,12 @@ use super::unnamed_terms;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::unexplained::remains;
 use crate::discrepancy::evidence::jackknife::Jackknife;
+use crate::discrepancy::localisation::unexplained_motion::visible;
 use crate::discrepancy::selection::search::still_open;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::effect_equation::is_term;
+use crate::model::state::JUMPS;
 use crate::progress::OnProgress;
 
 /// Searches at most: each is without what the one before could not keep.
@@ -59,14 +61,38 @@ impl Stable {
         let known = self.inconsistent.len();
         while remains(&self.grown.fit) && !self.grown.fit.p.is_empty() {
             self.scatter = Jackknife::of(selection.problem, &self.grown.fit, progress)?;
-            let worst = self.scatter.as_ref().and_then(|s| least_shared(&self.grown.fit, s));
-            let Some(worst) = worst else { break };
-            let Some(smaller) = selection.without(&self.grown.fit, &worst)? else { break };
+            let Some((worst, smaller)) = self.least_borne_out(selection)? else { break };
             self.inconsistent.push(worst);
             self.grown.go_back_to(smaller);
             self.scatter = None;
         }
         Ok(self.inconsistent.len() > known)
+    }
+
+    /// Of the effects that their scatter over the parts does not bear out the one that predicts the parts least, those
+    /// without a name first; and the fit without it.
+    fn least_borne_out(&self, selection: &Search) -> Result<Option<(Applied, Fit)>> {
+        let Some(scatter) = &self.scatter else { return Ok(None) };
+        let fit = &self.grown.fit;
+        let seen = visible_places(selection, fit)?;
+        let mut least: Option<(bool, f64, Applied, Fit)> = None;
+        for effect in inconsistent(fit, scatter) {
+            let Some(smaller) = selection.without(fit, &effect)? else { return Ok(None) };
+            let gains = selection.problem.gains_by_parts(fit, &smaller)?;
+            // What every vehicle has more or less of differs between runs by more than their noise, and is there: unless
+            // so much is left where it acts that it stands in for a law.
+            let is_law = seen.iter().any(|place| acts_at(&effect, place));
+            let is_there = effect.effect.basic && !is_law && scatter.is_one_way(fit, &effect);
+            if is_there && gains.is_some_and(|g| g.is_gain()) {
+                continue;
+            }
+            let (named, gain) = (!is_term(&effect), gains.map_or(f64::NEG_INFINITY, |g| g.total));
+            let is_less = |other: &(bool, f64, Applied, Fit)| (named, gain) < (other.0, other.1);
+            if least.as_ref().is_none_or(is_less) {
+                least = Some((named, gain, effect, smaller));
+            }
+        }
+        Ok(least.map(|(_, _, effect, smaller)| (effect, smaller)))
     }
 
     /// The search for names from what is shared on, without what is not.
@@ -85,13 +111,26 @@ impl Stable {
     }
 }
 
-/// The effect that stands out least, of those that do not stand out; one without a name before one that has one.
-fn least_shared(fit: &Fit, scatter: &Jackknife) -> Option<Applied> {
+/// The constraints at which a fit leaves what is seen without statistics.
+fn visible_places(selection: &Search, fit: &Fit) -> Result<Vec<&'static str>> {
+    let left = selection.problem.violations(&fit.model, &fit.noise())?;
+    Ok(visible(fit, &left).map(|c| JUMPS[c].place).collect())
+}
+
+/// Whether an effect acts at a constraint; one of the sensor, or of an input, may act at any.
+fn acts_at(effect: &Applied, place: &str) -> bool {
+    let own = &effect.effect.place;
+    own.starts_with(place) || JUMPS.iter().all(|jump| !own.starts_with(jump.place))
+}
+
+/// The effects that do not stand out, those without a name first, then by how far they stand out.
+fn inconsistent(fit: &Fit, scatter: &Jackknife) -> Vec<Applied> {
     // What holds in part is told by that part; it has paid for being sought. A course is that of all runs.
     let whole = fit.model.free_effects().filter(|e| e.effect.scope.is_none() && (fit.runs > 1 || !is_partial(e)));
     let ranked = whole.map(|e| (!is_term(e), scatter.shows(fit, e), e));
-    let inconsistent = ranked.filter(|(_, shows, _)| *shows < 1.0);
-    inconsistent.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))).map(|(_, _, e)| e.clone())
+    let mut inconsistent: Vec<_> = ranked.filter(|(_, shows, _)| *shows < 1.0).collect();
+    inconsistent.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    inconsistent.into_iter().map(|(_, _, e)| e.clone()).collect()
 }
 
 #[cfg(test)]
@@ -99,13 +138,21 @@ mod tests {
     use super::*;
     use crate::discrepancy::fixtures::{fit_of, unicycle};
 
+    #[test]
+    fn an_effect_acts_at_its_constraint_and_one_of_the_sensor_anywhere() {
+        let at = |id: &str, place: &str| acts_at(&crate::discrepancy::fixtures::applied(id), place);
+        assert!(at("track-width", "yaw rate") && !at("track-width", "traverse constraint"));
+        assert!(at("rotation-creep", "rotation constraint") && !at("rotation-creep", "yaw rate"));
+        assert!(at("heading-misalignment", "traverse constraint") && at("heading-misalignment", "yaw rate"));
+    }
+
     /// The one that stands out least of those that do not.
     #[test]
     fn what_is_least_shared_goes_first() {
         let fit = fit_of(unicycle(&[("traction-creep", &[0.3]), ("traverse-creep", &[-0.05])]));
         let gone = |std: [f64; 2]| {
-            least_shared(&fit, &Jackknife { std: std.to_vec(), alike: vec![false; 2], parts: 3 })
-                .map(|e| e.effect.id.clone())
+            let scatter = Jackknife { std: std.to_vec(), alike: vec![false; 2], one_way: vec![false; 2], parts: 3 };
+            inconsistent(&fit, &scatter).first().map(|e| e.effect.id.clone())
         };
         assert_eq!(gone([0.3 / 4.31, 0.05 / 4.31]), None);
         assert_eq!(gone([0.3 / 4.29, 0.05 / 4.31]).as_deref(), Some("traction-creep"));

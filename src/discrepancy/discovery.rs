@@ -94,6 +94,7 @@ pub(crate) fn report(request: &Request, data: &Data, verdict: Verdict, found: Fi
             clocks: clocks.clocks,
             findings: match &found.reason {
                 Some(Reason::Slip(slip)) => vec![finding_text::slip(slip)],
+                Some(Reason::OtherVehicle(other)) => vec![finding_text::other_vehicle(other)],
                 _ => vec![],
             },
         },

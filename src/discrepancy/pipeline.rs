@@ -30,6 +30,7 @@ use super::report::{Named, PathPicture, Pictures, Unnamed, Verdict};
 use super::request::{Request, common_roles, horizons};
 use super::selection::choice::{Selected, SelectedEffect};
 use super::selection::odd_run::{is_sought, odd_runs};
+use super::selection::other_vehicle::in_its_place;
 use super::selection::refute::refute;
 use super::selection::search::first_of;
 use super::selection::select::choose;
@@ -107,6 +108,7 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
         seed: request.seed,
     };
     let selected = refute(&problem, request.library, selected, &judge, progress)?;
+    let (selected, other) = in_its_place(&problem, request.library, selected, progress)?;
     let noise = selected.after.noise();
     let before = problem.violations(&model, &noise)?;
     let after = problem.violations(&selected.after.model, &noise)?;
@@ -118,7 +120,10 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
         .iter()
         .map(|r| ConstraintResiduals::of(&selected.after.model, r, &noise))
         .collect::<Result<_>>()?;
-    let outcome = verdict::after_fitting(&problem, &selected, &after, &drifts)?;
+    let outcome = match other {
+        Some(other) => Outcome::new(Verdict::Unexplained, Reason::OtherVehicle(Box::new(other)), None),
+        None => verdict::after_fitting(&problem, &selected, &after, &drifts)?,
+    };
     let relatives = relatives(&selected, request.library, measured(&data.fitted[0]));
     let usable = outcome.verdict != Verdict::UnusableData;
     let (effects, unnamed) =
@@ -139,7 +144,8 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
     let steps = |run| if remains { coarse_inputs(&model, run) } else { vec![] };
     let coarse: Vec<CoarseInput> = request.runs.iter().flat_map(steps).collect();
     begin(progress, Stage::Experiment)?;
-    let next = next(&problem, &selected, &relatives, &outcome, coarse.first())?;
+    let is_other = matches!(outcome.reason, Some(Reason::OtherVehicle(_)));
+    let next = if is_other { None } else { next(&problem, &selected, &relatives, &outcome, coarse.first())? };
     warnings.extend(coarse.into_iter().map(Warning::CoarseInput));
     // What is random and all that is left has been said.
     let is_noise = matches!(outcome.reason, Some(Reason::RandomRest(_)));

@@ -45,7 +45,8 @@ pub struct Effect {
     /// What the inputs do that it is asked of; of all where the list is empty. A wheel that lags is a creep.
     #[serde(default)]
     pub inputs_that: Vec<Moves>,
-    /// Whether it is not asked for, because another effect says the same.
+    /// Whether it is not asked for with the others: another effect says the same, or it stands in the place of another
+    /// vehicle, which is asked for last.
     #[serde(default)]
     pub unsought: bool,
     /// The role of the input it acts on, for an effect that acts on one.

@@ -35,7 +35,8 @@ fn outgrown(library: &[Effect], test_vehicle: &TestVehicle) -> Option<Symbol> {
         test_vehicle.definitions.iter().map(|(n, f)| (n.clone(), Size::of(f, &|_| Size::SYMBOL))).collect();
     let mut parts = test_vehicle.definitions.clone();
     let mut degrees: BTreeMap<Symbol, usize> = BTreeMap::new();
-    for e in library {
+    // What is not sought stands in the place of another, not beside it.
+    for e in library.iter().filter(|e| !e.unsought) {
         let trailers = e.trailers(test_vehicle.model.trailer_count());
         for (name, formula) in trailers.into_iter().filter_map(|t| test_vehicle.model.targets(e, t, &names)).flatten() {
             let old = *sizes.get(&name).unwrap_or(&Size::SYMBOL);

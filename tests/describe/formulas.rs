@@ -317,6 +317,8 @@ fn the_catalogues_parse_and_hold_these_entries() {
         "input-backlash",
         "input-truncation",
         "input-offset",
+        "steering-of-one-wheel",
+        "rate-of-one-wheel",
         "input-dead-band",
         "input-saturation",
         "castor-swing",

@@ -14,6 +14,7 @@ mod forced;
 mod forces;
 mod gross_errors;
 mod laws;
+mod logs_of_another_vehicle;
 mod names;
 mod next_experiment;
 #[path = "../support/noisy_run.rs"]

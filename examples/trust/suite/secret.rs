@@ -53,9 +53,9 @@ pub fn made((id, trailer): Target, values: &[f64]) -> Hidden {
 /// Effects of the library that the simulator has no law for yet.
 const WITHOUT_LAW: [&str; 1] = ["castor-swing"];
 
-/// Whether the simulator can hide an effect.
+/// Whether the simulator can hide an effect, and the library is asked for it.
 pub fn has_law(id: &str) -> bool {
-    !WITHOUT_LAW.contains(&id)
+    !WITHOUT_LAW.contains(&id) && effects::named(id).is_none_or(|e| !e.unsought || e.per_input)
 }
 
 /// The name and trailer of a hidden effect of the library.

@@ -2,6 +2,7 @@
 
 use crate::discrepancy::preprocessing::slip_angle::SlidingRun;
 use crate::discrepancy::preprocessing::unit_errors::Slip;
+use crate::discrepancy::selection::other_vehicle::OtherVehicle;
 use crate::effects::Applied;
 
 /// The reason of a verdict, where the report's numbers do not say it by themselves.
@@ -57,6 +58,8 @@ pub enum Reason {
     Inconsistent,
     /// Model and data disagree, and neither an effect nor a law explains it.
     Unexplained,
+    /// Another vehicle explains the runs to their noise.
+    OtherVehicle(Box<OtherVehicle>),
     /// An effect of plausible size would have been missed.
     Missed(Box<Applied>),
     /// The model leaves less than the noise, more than chance, at these places.

@@ -72,6 +72,8 @@ pub(crate) enum Grounds {
 pub(crate) fn assess(of: &Checked, progress: &OnProgress) -> Result<Assessment> {
     let roles = common_roles(of.runs, &[])?;
     let model = Model::from_file(of.file, of.library, &roles)?;
+    let sought: Vec<Effect> = of.library.iter().filter(|e| !e.unsought).cloned().collect();
+    let of = &Checked { library: &sought, ..*of };
     begin(progress, Stage::Rows)?;
     let slip = slips::any(of.file, &model, of.runs)?;
     let is_slip = slip.is_some();

@@ -2,7 +2,7 @@
 #![cfg(test)]
 
 use crate::discrepancy::record::run_record::Record;
-use crate::effects::{self, Applied};
+use crate::effects::{self, Applied, Effect};
 use crate::files::{ModelFile, Run};
 use crate::model::Model;
 use crate::motion::{StateSensitivity, Stepper, Timing};
@@ -42,7 +42,8 @@ pub fn turning(vehicle: &str, seed: u64, has_heading: bool, much: f64) -> Option
         time.iter().map(|t| of(*t)).collect()
     };
     let inputs: Vec<Vec<f64>> = roles.iter().enumerate().map(column).collect();
-    let applicable = model.applicable(effects::all());
+    let ordinary = |(e, _): &(&Effect, Option<usize>)| !e.unsought;
+    let applicable: Vec<_> = model.applicable(effects::all()).into_iter().filter(ordinary).collect();
     let chosen = random.random_range(0..2 * applicable.len().max(1));
     let truth = match applicable.get(chosen) {
         Some((effect, trailer)) => {

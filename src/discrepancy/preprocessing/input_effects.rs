@@ -14,7 +14,7 @@ const BEYOND: f64 = 0.01;
 pub(crate) fn on_inputs(library: &[Effect], model: &Model, runs: &[Run]) -> Vec<Effect> {
     let mut found: Vec<Effect> = vec![];
     for effect in library {
-        if !effect.per_input {
+        if !effect.per_input && !effect.unsought {
             found.push(effect.clone());
         }
         let one_alone = effect.per_input || effect.input_optional && model.inputs.len() > 1;

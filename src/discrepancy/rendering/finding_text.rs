@@ -1,9 +1,10 @@
 //! Findings of the state of the data in words.
 
-use super::{defect_text, odd_run_text, slip_text, warning_text};
+use super::{defect_text, odd_run_text, other_vehicle_text, slip_text, warning_text};
 use crate::discrepancy::identifiability::data_finding::{DataFinding, Side};
 use crate::discrepancy::preprocessing::unit_errors::Slip;
 use crate::discrepancy::report::Finding;
+use crate::discrepancy::selection::other_vehicle::OtherVehicle;
 use crate::number_format::significant;
 
 /// The components of unexplained motion.
@@ -20,6 +21,12 @@ pub fn finding(of: &DataFinding) -> Finding {
 /// A slip as a finding, with the lines that mend it.
 pub fn slip(of: &Slip) -> Finding {
     Finding { id: of.id().into(), says: slip_text::sentence(of), mend: slip_text::mend(of) }
+}
+
+/// Another vehicle as a finding, with the lines that make the model one of it.
+pub fn other_vehicle(of: &OtherVehicle) -> Finding {
+    let (says, mend) = (other_vehicle_text::sentence(of), other_vehicle_text::mend(of));
+    Finding { id: "other-vehicle".into(), says, mend: Some(mend) }
 }
 
 fn says(of: &DataFinding) -> String {

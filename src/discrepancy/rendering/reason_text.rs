@@ -1,6 +1,6 @@
 //! The reason of a verdict in a sentence.
 
-use super::slip_text;
+use super::{other_vehicle_text, slip_text};
 use crate::discrepancy::diagnosis::reason::{MissedMotion, Reason};
 use crate::discrepancy::preprocessing::slip_angle::SlidingRun;
 use crate::discrepancy::preprocessing::unit_errors::Slip;
@@ -53,6 +53,7 @@ pub fn sentence(reason: &Reason) -> String {
         Reason::Unexplained => "Model and measurement disagree, and neither an effect of the library nor a simple law \
                                 explains it."
             .into(),
+        Reason::OtherVehicle(other) => other_vehicle_text::sentence(other),
         Reason::Missed(effect) => {
             let label = effect.label();
             format!("Nothing significant was found, but these runs could not have shown a plausible {label}.")

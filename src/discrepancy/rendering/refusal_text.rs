@@ -42,6 +42,7 @@ pub fn says(refused: &Refused, roles: &[String]) -> String {
         Refusal::NotBorneOut => {
             format!("held-out runs are predicted no better with {label}, and something remains, so that is not named")
         }
+        Refusal::OtherVehicle => format!("another vehicle explains what {label} was found for, so that is not named"),
         Refusal::HeldOut(growth) => format!("held-out runs refute {label}: {}", grows(growth, "it")),
         Refusal::HeldOutTogether(growth) => {
             format!(
@@ -94,6 +95,7 @@ mod tests {
         );
         let reasons = [Refusal::Impossible, Refusal::NoDeviation, Refusal::BelowBar, Refusal::LeansOnLaw];
         let others = [Refusal::InputNoise, Refusal::Ridge(applied("lever-arm").into()), Refusal::NotBorneOut];
+        let others = others.into_iter().chain([Refusal::OtherVehicle]);
         let imitated = [Refusal::Imitation(applied("lever-arm").into())];
         for why in reasons.into_iter().chain(others).chain(imitated) {
             let line = said(why);

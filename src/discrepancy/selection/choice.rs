@@ -54,6 +54,8 @@ pub enum Refusal {
     InputNoise,
     /// Beside a rest it is worth little, and held-out runs are predicted no better with it.
     NotBorneOut,
+    /// Another vehicle explains the data.
+    OtherVehicle,
     /// Held-out runs are predicted worse with it.
     HeldOut(Growth),
     /// Held-out runs are predicted worse with all that was found, and it is worth least of that.

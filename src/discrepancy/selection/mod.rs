@@ -7,6 +7,7 @@ pub(crate) mod input_noise;
 pub(crate) mod input_sampling;
 pub(crate) mod limits;
 pub mod odd_run;
+pub mod other_vehicle;
 pub(crate) mod refusals;
 pub(crate) mod refute;
 pub(crate) mod scope_proposals;

@@ -1,0 +1,187 @@
+//! Another vehicle behind the same log: models that are not nested, compared by BIC (Burnham & Anderson, Model Selection
+//! and Multimodel Inference, 2002, 2.11).
+//!
+//! Asked where a rest remains, or a law without a name stands for one. Told where the other vehicle, with the effects it
+//! misses in turn, leaves nothing beyond the noise.
+
+use super::choice::{Refusal, Refused, Selected};
+use super::search::{MOST, Search, SearchState};
+use super::transients;
+use crate::discrepancy::estimation::bounds::is_possible;
+use crate::discrepancy::estimation::fit::{Effort, Fit};
+use crate::discrepancy::estimation::problem::Problem;
+use crate::discrepancy::estimation::unexplained::remains;
+use crate::discrepancy::evidence::information_criterion::bic;
+use crate::effects::{self, Applied, Effect};
+use crate::error::Result;
+use crate::model::Model;
+use crate::model::effect_equation::is_term;
+use crate::progress::OnProgress;
+use crate::vehicles::{self, Vehicle};
+
+/// The share of what was found that another vehicle explains at least before anything is added to it.
+const BY_ITSELF: f64 = 0.2;
+
+/// What the log is of.
+#[derive(Clone, Debug)]
+pub enum LogReading {
+    /// A vehicle of the catalogue, by its id and its title.
+    Vehicle {
+        /// Its id.
+        id: String,
+        /// Its title.
+        title: String,
+    },
+    /// One wheel in the place of the middle of its axle, at its fitted place.
+    Wheel {
+        /// The effect that says so.
+        applied: Box<Applied>,
+        /// Standard deviations of its values.
+        std: Vec<Option<f64>>,
+    },
+}
+
+/// Another vehicle that explains the data to their noise.
+#[derive(Clone, Debug)]
+pub struct OtherVehicle {
+    /// The vehicle of the model file.
+    pub given: String,
+    /// What it is instead.
+    pub reading: LogReading,
+    /// What it misses in turn.
+    pub misses: Vec<Applied>,
+}
+
+/// What stands, another vehicle first: where one explains the data nothing that was found on the given one is named.
+pub(crate) fn in_its_place(
+    problem: &Problem,
+    library: &[Effect],
+    choice: Selected,
+    progress: &OnProgress,
+) -> Result<(Selected, Option<OtherVehicle>)> {
+    if !(remains(&choice.after) || choice.chosen.iter().any(|c| is_term(&c.applied))) {
+        return Ok((choice, None));
+    }
+    let other = best(problem, library, &choice, progress)?;
+    Ok((if other.is_some() { without_names(choice) } else { choice }, other))
+}
+
+/// The model as given, all that was found on it refused.
+fn without_names(choice: Selected) -> Selected {
+    let names = choice.chosen.iter().filter(|c| !is_term(&c.applied));
+    let refused = names.map(|c| Refused::of(&choice.chosen, c.applied.clone(), Refusal::OtherVehicle));
+    let refused = choice.refused.iter().cloned().chain(refused).collect();
+    Selected {
+        after: choice.before.clone(),
+        chosen: vec![],
+        steps: vec![],
+        missed: vec![],
+        inconsistent: vec![],
+        sampling_sensitive: vec![],
+        refused,
+        ..choice
+    }
+}
+
+fn best(
+    problem: &Problem,
+    library: &[Effect],
+    choice: &Selected,
+    progress: &OnProgress,
+) -> Result<Option<OtherVehicle>> {
+    let mut best: Option<(f64, OtherVehicle)> = None;
+    for (model, reading) in alternatives(&choice.before.model) {
+        let Some(begun) = begun(problem, &model, choice)? else { continue };
+        let Some(grown) = explained(problem, library, &begun, choice, progress)? else { continue };
+        let score = bic(&grown, choice.after.sample_size);
+        if best.as_ref().is_none_or(|(least, _)| score < *least) {
+            let given = choice.before.model.vehicle.id.clone();
+            best = Some((score, told(given, reading, &grown)));
+        }
+    }
+    Ok(best.map(|(_, other)| other))
+}
+
+/// The other vehicle alone, where that explains a good part of what was found.
+fn begun(problem: &Problem, model: &Model, choice: &Selected) -> Result<Option<Fit>> {
+    let Ok(starts) = problem.starts(model) else { return Ok(None) };
+    let fit = problem.fit(model, &starts, &choice.before.variances, Effort::FULL)?;
+    let found = choice.before.deviance - choice.after.deviance;
+    Ok(fit.filter(|f| choice.before.deviance - f.deviance > BY_ITSELF * found.max(0.0)))
+}
+
+/// The other vehicle with what it misses, where these explain the data to their noise and better than what was found.
+fn explained(
+    problem: &Problem,
+    library: &[Effect],
+    begun: &Fit,
+    choice: &Selected,
+    progress: &OnProgress,
+) -> Result<Option<Fit>> {
+    let quick = transients::without_transients(library);
+    let size = begun.model.applicable(&quick).len().max(1) as f64;
+    let search = Search { problem, before: begun, library: &quick, size, most: MOST, exchanges: true, drops: true };
+    let SearchState { fit, .. } =
+        if remains(begun) { search.grown(begun, progress)? } else { SearchState::from(begun) };
+    let n = choice.after.sample_size;
+    let is_better = bic(&fit, n) + search.margin() < bic(&choice.after, n);
+    let is_told = fit.p.is_empty() || fit.covariance.is_some();
+    let stands = !remains(&fit) && is_better && is_told && fit.model.free_effects().all(is_possible);
+    Ok(stands.then_some(fit))
+}
+
+/// Vehicles that are driven by the same inputs, and wheels in the place of an axle.
+fn alternatives(given: &Model) -> Vec<(Model, LogReading)> {
+    let vehicles = vehicles::all().iter().filter(|v| v.id != given.vehicle.id && stands_in(v, given));
+    let of_other = |v: &Vehicle| {
+        let model = of_vehicle(given, v);
+        model
+            .free_equations()
+            .is_ok()
+            .then_some((model, LogReading::Vehicle { id: v.id.clone(), title: v.title.clone() }))
+    };
+    let readings: Vec<&Effect> = effects::all().iter().filter(|e| e.unsought && !e.per_input).collect();
+    let of_wheel = |e: &&Effect| {
+        let applied = Applied::new(e, None, vec![0.0; e.parameters.len()]);
+        let is_open = !given.effects.iter().any(|a| a.effect.id == e.id);
+        let applies = is_open && !given.applicable(std::slice::from_ref(*e)).is_empty();
+        let model = given.clone().with_effect(applied.clone().freed());
+        applies.then_some((model, LogReading::Wheel { applied: Box::new(applied), std: vec![] }))
+    };
+    vehicles.filter_map(of_other).chain(readings.iter().filter_map(of_wheel)).collect()
+}
+
+/// The model with another vehicle in the place of its own.
+fn of_vehicle(given: &Model, vehicle: &Vehicle) -> Model {
+    let known = given.parameters.iter().filter(|(name, _)| vehicle.parameters.contains_key(*name));
+    let parameters = known.map(|(name, value)| (name.clone(), *value)).collect();
+    Model { vehicle: vehicle.clone(), parameters, solution: Default::default(), ..given.clone() }
+}
+
+/// Whether a vehicle takes the logged inputs, and has its parameters among those of the model.
+fn stands_in(vehicle: &Vehicle, given: &Model) -> bool {
+    let of_given = |role: &str| given.vehicle.inputs.get(role).map(|i| &i.unit);
+    let is_known = |role: &str| vehicle.inputs.get(role).map(|i| &i.unit) == of_given(role);
+    let has_all = vehicle.parameters.iter().all(|(name, p)| p.optional || given.parameters.contains_key(name));
+    let same_inputs = vehicle.inputs.len() == given.vehicle.inputs.len() && vehicle.inputs.keys().all(|r| is_known(r));
+    vehicle.moves() && vehicle.line == given.vehicle.line && has_all && same_inputs
+}
+
+fn told(given: String, reading: LogReading, fit: &Fit) -> OtherVehicle {
+    let inflation = fit.variance_inflation();
+    let mut at = 0;
+    let mut misses = vec![];
+    let mut reading = reading;
+    for e in fit.model.free_effects() {
+        let places = at..at + e.values.len();
+        at = places.end;
+        match &mut reading {
+            LogReading::Wheel { applied, std } if e.same_as(applied) => {
+                let one = |i: usize| fit.covariance.as_ref().map(|c| (c[(i, i)] * inflation).sqrt());
+                (**applied, *std) = (e.clone(), places.map(one).collect());
+            }
+            _ => misses.push(e.clone()),
+        }
+    }
+    OtherVehicle { given, reading, misses }
+}

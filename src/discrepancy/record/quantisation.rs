@@ -17,19 +17,28 @@ const WHOLE: f64 = 0.01;
 
 /// The step of a rounded column; `None` where its values are as good as continuous, or commands.
 pub(crate) fn step_of(column: &[f64]) -> Option<f64> {
-    rounding(column, COARSE).and_then(|(step, is_busy)| is_busy.then_some(step))
+    rounding(column, COARSE).filter(|r| r.is_busy && r.is_slow).map(|r| r.step)
 }
 
 /// The step of a rounded column, if it is larger than a share of the column, root mean square; of a staircase, too, which is
-/// a slow signal rounded, or commands that look like one.
+/// a slow signal rounded, or commands that look like one, and of a signal that crosses several steps from row to row where
+/// it has so many levels that no command does.
 pub(crate) fn step_above(column: &[f64], share: f64) -> Option<f64> {
-    rounding(column, share).map(|(step, _)| step)
+    let is_fine = |r: &Rounding| r.is_busy && levels(column, r.step) as f64 >= MANY;
+    rounding(column, share).filter(|r| r.is_slow || is_fine(r)).map(|r| r.step)
 }
 
-/// The step of a rounded column, and whether it changes too often to be held.
-///
-/// Every change of a rounded signal is a whole number of steps, and where it is sampled often most are a single one.
-fn rounding(column: &[f64], share: f64) -> Option<(f64, bool)> {
+/// What a rounded column is like.
+struct Rounding {
+    step: f64,
+    /// Whether it changes too often to be held.
+    is_busy: bool,
+    /// Whether most of its changes are a single step.
+    is_slow: bool,
+}
+
+/// The rounding of a column: every change is a whole number of steps.
+fn rounding(column: &[f64], share: f64) -> Option<Rounding> {
     let size = root_mean_square(column);
     let changes = column.windows(2).map(|w| (w[1] - w[0]).abs());
     let mut changes: Vec<f64> = changes.filter(|c| *c > 1e-9 * size).collect();
@@ -42,7 +51,8 @@ fn rounding(column: &[f64], share: f64) -> Option<(f64, bool)> {
     }
     let is_whole = |c: &f64| (c / step - (c / step).round()).abs() < WHOLE;
     let coarse = step > share * size && changes.iter().all(is_whole);
-    (coarse && median(&mut changes)? < 1.5 * step).then_some((step, is_busy))
+    let is_slow = median(&mut changes)? < 1.5 * step;
+    coarse.then_some(Rounding { step, is_busy, is_slow })
 }
 
 /// √(Σ u²/n); no number without any.
@@ -60,7 +70,7 @@ fn levels(column: &[f64], step: f64) -> usize {
 
 /// A tick is told where it is at least this share of what is counted between rows, root mean square.
 const FINEST: f64 = 0.002;
-/// Counts between rows, root mean square, that a person's commands do not have: so many levels are an encoder's.
+/// Counts between rows, root mean square, or levels that a person's commands do not have: so many are an encoder's.
 const MANY: f64 = 30.0;
 /// Share of the intervals that need not be whole: after rows that were lost a mean is that of the last of them.
 const LOST: f64 = 0.1;
@@ -129,6 +139,16 @@ mod tests {
         // Printed with few digits it is rounded all the same.
         let printed = |t: f64| format!("{:.1}", wave(t)).parse().unwrap();
         assert!((step_of(&sampled(printed)).unwrap() - 0.1).abs() < 1e-9);
+    }
+
+    /// A signal that crosses several steps in a row is rounded by its many levels; a joystick has few.
+    #[test]
+    fn a_fast_signal_is_rounded_by_its_levels() {
+        let fast = |step: f64| sampled(|t| ((4.0 * (5.0 * t).sin() + 3.0 * (8.3 * t).cos()) / step).round() * step);
+        assert!((step_above(&fast(0.05), 0.002).unwrap() - 0.05).abs() < 1e-9);
+        assert_eq!(step_of(&fast(0.05)), None);
+        assert_eq!(step_above(&sampled(|t| 0.1 * f64::from((37.0 * t * t) as u32 % 11)), 0.002), None);
+        assert_eq!(step_above(&sampled(|t| 4.0 * (5.0 * t).sin()), 0.002), None);
     }
 
     #[test]

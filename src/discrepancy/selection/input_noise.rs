@@ -4,11 +4,15 @@
 //! that are one together, explains noisy inputs better although nothing is hidden; of smoothed ones it explains nothing.
 //!
 //! More: simulation and extrapolation (Cook & Stefanski, 1994). Noise of the inputs moves the values of a fit by a bias
-//! that grows with its variance. With noise of the same kind added once more the bias is twice as large; what a value
-//! grows by then is what the noise makes of nothing.
+//! that grows with its variance, and scatters them. With noise of the same kind added once more the bias is twice as large;
+//! what a value grows by then is what the noise makes of nothing, and what it moves by is its deviation.
+//!
+//! A lag and a negative delay of nearly its size are together no lag but a mean over the time around: the filter that
+//! noise asks for.
 
 use super::search::Search;
 use crate::discrepancy::estimation::fit::{Effort, Fit};
+use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::evidence::wald_test::neutral_at_zero;
 use crate::effects::Applied;
 use crate::error::Result;
@@ -18,6 +22,8 @@ use crate::progress::OnProgress;
 const MOST: f64 = 0.5;
 /// Times noise is added.
 const DRAWS: u64 = 3;
+/// A lag that a delay takes back to less than this share of itself is none.
+const TAKEN_BACK: f64 = 0.5;
 
 impl Search<'_> {
     /// The effect that does not stand where the noise of the inputs is smoothed away; of several the one worth least.
@@ -35,24 +41,47 @@ impl Search<'_> {
     }
 }
 
-/// The effect of which the noise of the inputs makes most, where that is more than its share.
+/// A lag of noisy inputs that a delay takes back.
+pub(crate) fn taken_back(problem: &Problem, fit: &Fit) -> Option<Applied> {
+    let in_seconds = |e: &Applied, positive: bool| {
+        let parameters = e.effect.parameters.values().zip(&e.values);
+        parameters.filter(|(p, _)| p.unit == "s" && p.positive == positive).map(|(_, v)| *v).next()
+    };
+    let delays: Vec<f64> = fit.model.free_effects().filter_map(|e| in_seconds(e, false)).collect();
+    let is_taken_back = |lag: f64| delays.iter().any(|delay| *delay < 0.0 && (lag + delay).abs() < TAKEN_BACK * lag);
+    let mut lags = fit.model.free_effects().filter(|e| !e.effect.states.is_empty());
+    lags.find(|e| problem.has_noisy_inputs() && in_seconds(e, true).is_some_and(is_taken_back)).cloned()
+}
+
+/// The effect of which the noise of the inputs makes most, where that is more than its share, or whose value it moves by
+/// more than leaves it worth its price.
 pub(crate) fn made_up(selection: &Search, fit: &Fit) -> Result<Option<Applied>> {
     let problem = selection.problem;
     if fit.p.is_empty() || !problem.has_noisy_inputs() {
         return Ok(None);
     }
-    let mut grown = vec![0.0; fit.p.len()];
+    let (mut grown, mut moved) = (vec![0.0; fit.p.len()], vec![0.0; fit.p.len()]);
     for draw in 0..DRAWS {
         let noisier = problem.with_noisier_inputs(draw);
         let again = noisier.fit(&fit.model, &fit.window_states, &fit.variances, Effort::FULL)?;
         let Some(again) = again else { return Ok(None) };
-        grown.iter_mut().zip(again.p.iter().zip(&fit.p)).for_each(|(g, (a, p))| *g += (a - p) / DRAWS as f64);
+        for (i, by) in again.p.iter().zip(&fit.p).map(|(a, p)| a - p).enumerate() {
+            grown[i] += by / DRAWS as f64;
+            moved[i] += by * by / DRAWS as f64;
+        }
     }
     let share = |e: &Applied| {
         let own = neutral_at_zero(fit, e);
         let sum = |of: &dyn Fn(usize, f64) -> f64| own.iter().map(|(i, v)| of(*i, *v)).sum::<f64>();
         sum(&|i, v| grown[i] * v) / sum(&|_, v| v * v).max(f64::MIN_POSITIVE)
     };
-    let shares = fit.model.free_effects().map(|e| (share(e), e)).filter(|(s, _)| *s > MOST);
+    let bar = selection.margin() + fit.sample_size.ln();
+    let is_moved = |e: &Applied| {
+        let variance =
+            |i: usize| moved[i] + fit.covariance.as_ref().map_or(0.0, |c| c[(i, i)] * fit.variance_inflation());
+        let own = neutral_at_zero(fit, e);
+        !own.is_empty() && own.iter().all(|(i, v)| v * v <= bar * variance(*i))
+    };
+    let shares = fit.model.free_effects().map(|e| (share(e), e)).filter(|(s, e)| *s > MOST || is_moved(e));
     Ok(shares.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, e)| e.clone()))
 }

@@ -89,6 +89,9 @@ impl Search<'_> {
         if let Some(fallen) = self.changing(fit)? {
             return Ok(Some(fallen));
         }
+        if let Some(applied) = input_noise::taken_back(self.problem, fit) {
+            return Ok(Some((applied, Refusal::InputNoise)));
+        }
         if let Some(applied) = self.smoothed_away(fit, progress)? {
             return Ok(Some((applied, Refusal::InputNoise)));
         }

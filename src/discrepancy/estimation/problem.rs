@@ -104,6 +104,11 @@ impl Problem {
         self.has_noisy_inputs().then(|| Self { records: smooth(), ..self.clone() })
     }
 
+    /// Whether the inputs of any run show noise that a mean over time has less of.
+    pub(crate) fn has_inputs_to_average(&self) -> bool {
+        self.records.iter().any(|r| r.input_noise.averages_out())
+    }
+
     /// Whether the inputs of any run show noise.
     pub(crate) fn has_noisy_inputs(&self) -> bool {
         self.records.iter().any(|r| r.input_noise.is_there())

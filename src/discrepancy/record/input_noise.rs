@@ -81,6 +81,11 @@ impl InputNoise {
         !self.channels.is_empty()
     }
 
+    /// Whether any of it differs from row to row, so that a mean over the rows around has less: steps of a slow signal do not.
+    pub fn averages_out(&self) -> bool {
+        self.channels.iter().any(|c| matches!(c, ChannelNoise::Counted(_) | ChannelNoise::White(_)))
+    }
+
     /// What a smoother takes away from the inputs as noise, the other way round.
     pub fn smoothing(&self) -> Signals {
         self.signals(|channel, column, smooth| channel.smoothing(&self.time, column, smooth))
@@ -155,7 +160,9 @@ fn of_column(time: &[f64], column: &[f64], timing: Timing) -> ChannelNoise {
     if let Some(tick) = tick {
         return ChannelNoise::Counted(tick);
     }
-    if let Some(step) = step_above(column, LEAST_STEP) {
+    // Means of a counter whose stamps are not the times of counting lie on no grid, though a part of them may.
+    let is_sampled = timing == Timing::Sample;
+    if let Some(step) = step_above(column, LEAST_STEP, is_sampled) {
         return ChannelNoise::Rounded(step);
     }
     match local_polynomial::noise(time, column) {

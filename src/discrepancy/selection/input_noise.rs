@@ -50,7 +50,7 @@ pub(crate) fn taken_back(problem: &Problem, fit: &Fit) -> Option<Applied> {
     let delays: Vec<f64> = fit.model.free_effects().filter_map(|e| in_seconds(e, false)).collect();
     let is_taken_back = |lag: f64| delays.iter().any(|delay| *delay < 0.0 && (lag + delay).abs() < TAKEN_BACK * lag);
     let mut lags = fit.model.free_effects().filter(|e| !e.effect.states.is_empty());
-    lags.find(|e| problem.has_noisy_inputs() && in_seconds(e, true).is_some_and(is_taken_back)).cloned()
+    lags.find(|e| problem.has_inputs_to_average() && in_seconds(e, true).is_some_and(is_taken_back)).cloned()
 }
 
 /// The effect of which the noise of the inputs makes most, where that is more than its share, or whose value it moves by

@@ -128,7 +128,7 @@ impl<'a> Round<'a> {
         let starts = problem.starts(model)?;
         let Some(fit) = problem.fit(model, &starts, &problem.variances, Effort::FULL)? else { return Ok(None) };
         let Some(at) = place(model) else { return Ok(None) };
-        let variance = fit.covariance.as_ref().map(|c| c[(at, at)] * fit.variance_inflation());
+        let variance = fit.variance(at);
         let time = &problem.records[0].time;
         let reach = 0.5 * (time[time.len() - 1] - time[0]);
         Ok(Some(Self {

@@ -63,6 +63,11 @@ impl Fit {
         self.noise_correlation_time * self.residual_correlation_time
     }
 
+    /// The variance of a value by the noise alone, alike values counted once; `None` where the data leave a direction open.
+    pub fn variance(&self, value: usize) -> Option<f64> {
+        self.covariance.as_ref().map(|c| c[(value, value)] * self.variance_inflation())
+    }
+
     /// How many numbers it has taken from the data: values, those of scopes, and how hidden states began.
     pub fn size(&self) -> f64 {
         let of_scopes = self.model.free_effects().filter_map(|e| e.effect.scope.as_ref()).map(Scope::cost);

@@ -81,8 +81,7 @@ impl Problem {
         let part = if self.records.len() >= FEWEST_PARTS { Part::Run } else { Part::Third };
         let [new, old] = [self.linear(fit)?, self.linear(than)?];
         let gained = self.gains([&in_units_of(fit, than), than], [&new, &old], part, Share::predicted);
-        let told = gained.map(|g| Gains { total: total(&g), parts: counts(&g, SAME * than.variance_inflation()) });
-        Ok(told)
+        Ok(gained.map(|g| Gains { total: total(&g), parts: counts(&g, SAME * than.variance_inflation()) }))
     }
 
     /// By how much of deviance a model whose values other parts give misses the parts less than another does: runs, or

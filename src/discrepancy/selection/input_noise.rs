@@ -75,10 +75,9 @@ pub(crate) fn made_up(selection: &Search, fit: &Fit) -> Result<Option<Applied>> 
         let sum = |of: &dyn Fn(usize, f64) -> f64| own.iter().map(|(i, v)| of(*i, *v)).sum::<f64>();
         sum(&|i, v| grown[i] * v) / sum(&|_, v| v * v).max(f64::MIN_POSITIVE)
     };
-    let bar = selection.margin() + fit.sample_size.ln();
+    let bar = selection.price(fit);
     let is_moved = |e: &Applied| {
-        let variance =
-            |i: usize| moved[i] + fit.covariance.as_ref().map_or(0.0, |c| c[(i, i)] * fit.variance_inflation());
+        let variance = |i: usize| moved[i] + fit.variance(i).unwrap_or(0.0);
         let own = neutral_at_zero(fit, e);
         !own.is_empty() && own.iter().all(|(i, v)| v * v <= bar * variance(*i))
     };

@@ -113,8 +113,7 @@ impl Asked<'_> {
         if !remains(&before) {
             return Ok(None);
         }
-        let size = model.applicable(library).len().max(1) as f64;
-        let search = Search { problem: alone, before: &before, library, size, most: 1, exchanges: false, drops: false };
+        let search = Search { most: 1, exchanges: false, drops: false, ..Search::over(alone, &before, library) };
         let price = search.margin() + 2.0 * (rest.records.len() as f64 + 1.0).ln();
         for (candidate, fit) in search.ranked(&before, 0, progress)?.single {
             let (Some(fit), true) = (fit, candidate.delta_bic > price) else { continue };
@@ -151,8 +150,7 @@ impl Asked<'_> {
     }
 
     fn odd(&self, fit: &Fit, others: &Fit, applied: Applied) -> OddRun {
-        let deviation =
-            |fit: &Fit, i: usize| fit.covariance.as_ref().map(|c| (c[(i, i)] * fit.variance_inflation()).sqrt());
+        let deviation = |fit: &Fit, i: usize| fit.variance(i).map(f64::sqrt);
         let (own, there) = (first_of(fit, &applied), first_of(others, &applied));
         let each = 0..applied.values.len();
         let of_others = |k: usize| {

@@ -5,7 +5,7 @@
 //! misses in turn, leaves nothing beyond the noise.
 
 use super::choice::{Refusal, Refused, Selected};
-use super::search::{MOST, Search, SearchState};
+use super::search::{Search, SearchState, find, first_of};
 use super::transients;
 use crate::discrepancy::estimation::bounds::is_possible;
 use crate::discrepancy::estimation::fit::{Effort, Fit};
@@ -119,8 +119,7 @@ fn explained(
     progress: &OnProgress,
 ) -> Result<Option<Fit>> {
     let quick = transients::without_transients(library);
-    let size = begun.model.applicable(&quick).len().max(1) as f64;
-    let search = Search { problem, before: begun, library: &quick, size, most: MOST, exchanges: true, drops: true };
+    let search = Search::over(problem, begun, &quick);
     let SearchState { fit, .. } =
         if remains(begun) { search.grown(begun, progress)? } else { SearchState::from(begun) };
     let n = choice.after.sample_size;
@@ -168,20 +167,15 @@ fn stands_in(vehicle: &Vehicle, given: &Model) -> bool {
 }
 
 fn told(given: String, reading: LogReading, fit: &Fit) -> OtherVehicle {
-    let inflation = fit.variance_inflation();
-    let mut at = 0;
-    let mut misses = vec![];
-    let mut reading = reading;
-    for e in fit.model.free_effects() {
-        let places = at..at + e.values.len();
-        at = places.end;
-        match &mut reading {
-            LogReading::Wheel { applied, std } if e.same_as(applied) => {
-                let one = |i: usize| fit.covariance.as_ref().map(|c| (c[(i, i)] * inflation).sqrt());
-                (**applied, *std) = (e.clone(), places.map(one).collect());
-            }
-            _ => misses.push(e.clone()),
+    let reading = match reading {
+        LogReading::Wheel { applied, .. } => {
+            let first = first_of(fit, &applied);
+            let std = (first..first + applied.values.len()).map(|i| fit.variance(i).map(f64::sqrt)).collect();
+            LogReading::Wheel { applied: Box::new(find(&fit.model, &applied).unwrap_or(*applied)), std }
         }
-    }
+        vehicle => vehicle,
+    };
+    let is_reading = |e: &Applied| matches!(&reading, LogReading::Wheel { applied, .. } if e.same_as(applied));
+    let misses = fit.model.free_effects().filter(|e| !is_reading(e)).cloned().collect();
     OtherVehicle { given, reading, misses }
 }

@@ -121,10 +121,9 @@ impl Search<'_> {
         let own = neutral_at_zero(fit, &c.applied);
         let first = first_of(fit, &c.applied);
         let varies = c.applied.effect.basic && is_one_way(fit, &c.applied);
-        let noise = |i: usize| fit.covariance.as_ref().map(|v| (v[(i, i)] * fit.variance_inflation()).sqrt());
-        let std = |i: usize| if varies { noise(i) } else { c.std[i - first] };
+        let std = |i: usize| if varies { fit.variance(i).map(f64::sqrt) } else { c.std[i - first] };
         let ratio = |(i, v): &(usize, f64)| std(*i).map_or(0.0, |std| (v / std).powi(2));
-        !own.is_empty() && own.iter().map(ratio).fold(0.0, f64::max) <= self.margin() + fit.sample_size.ln()
+        !own.is_empty() && own.iter().map(ratio).fold(0.0, f64::max) <= self.price(fit)
     }
 
     /// Two effects at a place where something remains, neither of which every vehicle has, and each of which alone explains

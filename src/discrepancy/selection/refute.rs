@@ -1,6 +1,6 @@
 //! What held-out runs refute: taken out of a choice after the last of it was made.
 
-use super::search::{MOST, Search, SearchState, forget};
+use super::search::{Search, SearchState, forget};
 use super::transients;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
@@ -51,8 +51,7 @@ pub(crate) fn refute(
         mut missed,
     } = choice;
     let quick = transients::without_transients(library);
-    let size = before.model.applicable(&quick).len().max(1) as f64;
-    let search = Search { problem, before: &before, library: &quick, size, most: MOST, exchanges: true, drops: true };
+    let search = Search::over(problem, &before, &quick);
     let mut grown = SearchState { fit: after, steps, candidates, refused: vec![] };
     while let Some((applied, why, smaller)) = next(&search, &grown.fit, &chosen, held_out)? {
         forget(&mut missed, &grown.fit, &applied);

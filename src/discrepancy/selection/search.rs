@@ -9,7 +9,7 @@ use crate::model::Model;
 use crate::wording::listed;
 
 /// Most effects that are added.
-pub(crate) const MOST: usize = 6;
+const MOST: usize = 6;
 
 /// A candidate effect and its evidence beside the effects already chosen.
 #[derive(Clone, Debug)]
@@ -76,10 +76,21 @@ pub(crate) fn without_effect(model: &Model, effect: &Applied, given: &Model) -> 
     smaller
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    /// The whole search over a library.
+    pub fn over(problem: &'a Problem, before: &'a Fit, library: &'a [Effect]) -> Self {
+        let size = before.model.applicable(library).len().max(1) as f64;
+        Self { problem, before, library, size, most: MOST, exchanges: true, drops: true }
+    }
+
     /// What a candidate must gain beyond BIC because the library is large.
     pub fn margin(&self) -> f64 {
         2.0 * self.size.ln()
+    }
+
+    /// What a parameter costs: the margin beyond BIC and its own term.
+    pub fn price(&self, fit: &Fit) -> f64 {
+        self.margin() + fit.sample_size.ln()
     }
 
     /// A fit with noise and jumps of its own.

@@ -4,7 +4,7 @@ use super::candidates::FINALISTS;
 use super::input_sampling::{InputSampling, keep_sampled};
 use super::refusals::Standing;
 use super::scopes;
-use super::search::{MOST, Search, SearchState, find};
+use super::search::{Search, SearchState, find};
 use super::stability;
 use super::stability::Stable;
 use super::transients;
@@ -48,15 +48,7 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &O
     let starts = problem.starts(model)?;
     let Some(before) = problem.fit(model, &starts, &problem.variances, Effort::FULL)? else { return Ok(None) };
     let quick = transients::without_transients(library);
-    let selection = Search {
-        problem,
-        before: &before,
-        library: &quick,
-        size: model.applicable(&quick).len().max(1) as f64,
-        most: MOST,
-        exchanges: true,
-        drops: true,
-    };
+    let selection = Search::over(problem, &before, &quick);
     let named = transients::search(&selection, library, selection.grown(&before, progress)?)?;
     let grown = match scopes::search(&selection, &named, progress)? {
         Some(partial) if !remains(&partial.fit) => partial,
@@ -115,9 +107,7 @@ impl Search<'_> {
             let runs = |i: usize| fit.between_runs.as_ref().map_or(0.0, |c| c[(i, i)].sqrt());
             let random = |i: usize| apart[i].as_ref().filter(|s| s.is_real()).map_or(0.0, |s| s.std);
             let between = |i: usize| scatter.map_or(0.0, |s| s.std[i]).max(runs(i)).max(random(i));
-            let chance = |i: usize| {
-                fit.covariance.as_ref().map(|c| (c[(i, i)] * fit.variance_inflation()).sqrt().max(between(i)))
-            };
+            let chance = |i: usize| fit.variance(i).map(|v| v.sqrt().max(between(i)));
             let spread = |i: usize| chance(i).map(|std| missed.get(i).map_or(std, |e| std.hypot(*e)));
             let std = (at..at + k).map(spread).collect();
             at += k;

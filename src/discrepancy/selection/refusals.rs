@@ -193,22 +193,30 @@ fn moved(fit: &Fit, other: &Fit, effect: &Applied) -> Option<f64> {
     (far > 0.0).then(|| f64::sqrt(by / far))
 }
 
-/// Of two effects on a ridge, not both of them terms, the one that is worth less, and the other.
-fn ridge(fit: &Fit, chosen: &[SelectedEffect]) -> Option<(Applied, Applied)> {
-    let covariance = fit.covariance.as_ref()?;
+/// The pairs of effects that lie on a ridge.
+fn ridges(fit: &Fit) -> Vec<[&Applied; 2]> {
+    let Some(covariance) = &fit.covariance else { return vec![] };
     let correlation = |i: usize, j: usize| covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt();
-    let along = |a: &SelectedEffect, b: &SelectedEffect| {
-        let [a, b] = [a, b].map(|c| neutral_at_zero(fit, &c.applied));
+    let along = |[a, b]: &[&Applied; 2]| {
+        let [a, b] = [a, b].map(|e| neutral_at_zero(fit, e));
         a.iter().any(|(i, _)| b.iter().any(|(j, _)| correlation(*i, *j).abs() > RIDGE))
     };
-    for (k, a) in chosen.iter().enumerate() {
-        let is_pair = |b: &&SelectedEffect| !(is_term(&a.applied) && is_term(&b.applied)) && along(a, b);
-        if let Some(b) = chosen[k + 1..].iter().find(is_pair) {
-            let (less, more) = if a.delta_bic < b.delta_bic { (a, b) } else { (b, a) };
-            return Some((less.applied.clone(), more.applied.clone()));
-        }
-    }
-    None
+    let effects: Vec<&Applied> = fit.model.free_effects().collect();
+    let pairs = effects.iter().enumerate().flat_map(|(k, a)| effects[k + 1..].iter().map(move |b| [*a, *b]));
+    pairs.filter(along).collect()
+}
+
+/// Whether two effects with names lie on a ridge; a law without a name may be about to take the place of a name.
+pub(super) fn names_on_ridge(fit: &Fit) -> bool {
+    ridges(fit).iter().any(|pair| !pair.iter().any(|e| is_term(e)))
+}
+
+/// Of two effects on a ridge, not both of them terms, the one that is worth less, and the other.
+fn ridge(fit: &Fit, chosen: &[SelectedEffect]) -> Option<(Applied, Applied)> {
+    let [a, b] = ridges(fit).into_iter().find(|[a, b]| !(is_term(a) && is_term(b)))?;
+    let worth = |e: &Applied| chosen.iter().find(|c| c.applied.same_as(e)).map_or(f64::INFINITY, |c| c.delta_bic);
+    let (less, more) = if worth(a) < worth(b) { (a, b) } else { (b, a) };
+    Some((less.clone(), more.clone()))
 }
 
 #[cfg(test)]
@@ -242,6 +250,22 @@ mod tests {
         assert_eq!(at(0.96), None);
         let both = Some(["traction-creep".to_string(), "traverse-creep".to_string()]);
         assert_eq!((at(0.98), at(-0.98)), (both.clone(), both));
+    }
+
+    /// Names on a ridge are not built upon, a name and a law without one are.
+    #[test]
+    fn a_law_may_take_the_place_of_a_name_on_its_ridge() {
+        let bare = unicycle(&[]);
+        let term = Applied::new(&bare.terms().unwrap()[0], None, vec![0.1]).freed();
+        let name = Applied { values: vec![0.1], ..applied("traverse-creep") }.freed();
+        let other = Applied { values: vec![0.1], ..applied("load-dependent-creep") }.freed();
+        let on_ridge = |pair: [&Applied; 2], rho: f64| {
+            let model = pair.into_iter().cloned().fold(bare.clone(), crate::model::Model::with_effect);
+            let covariance = Some(DMatrix::from_row_slice(2, 2, &[1.0, rho, rho, 1.0]));
+            names_on_ridge(&Fit { covariance, ..fit_of(model) })
+        };
+        assert!(on_ridge([&name, &other], 0.98) && !on_ridge([&name, &other], 0.96));
+        assert!(!on_ridge([&name, &term], 0.98));
     }
 
     #[test]

@@ -48,7 +48,8 @@ pub(crate) fn search(selection: &Search, named: &SearchState, progress: &OnProgr
     }
     begin(progress, Stage::Scopes)?;
     let mut starts = vec![SearchState::from(selection.before)];
-    if !named.steps.is_empty() {
+    // Where names that always hold leave nothing, one in part may do what several of them did; beside them none is needed.
+    if !named.steps.is_empty() && remains(&named.fit) {
         starts.push(SearchState { steps: named.steps.clone(), ..SearchState::from(&named.fit) });
     }
     for start in starts {

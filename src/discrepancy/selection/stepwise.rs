@@ -2,6 +2,7 @@
 
 use super::candidates::Ranking;
 use super::input_noise;
+use super::refusals::names_on_ridge;
 use super::search::{Addition, Candidate, Search, SearchState};
 use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
 use crate::discrepancy::estimation::fit::Fit;
@@ -51,8 +52,8 @@ impl Search<'_> {
         let independent = |fit: &Fit| delta_bic(fit, base, base.sample_size.max(fit.sample_size)) > self.margin();
         let counts = |s: &Candidate, fit: &Fit| s.delta_bic > bar(s) && independent(fit);
         let inside = |s: &Candidate| !vanishes(&s.applied) && is_possible(&s.applied);
-        // What noise of the inputs asks for is not built upon.
-        let is_sound = |fit: &Fit| input_noise::taken_back(self.problem, fit).is_none();
+        // What noise of the inputs asks for is not built upon, nor two effects that are one.
+        let is_sound = |fit: &Fit| input_noise::taken_back(self.problem, fit).is_none() && !names_on_ridge(fit);
         let good = fitted.filter(|(s, fit)| counts(s, fit) && inside(s) && repeats(fit, &s.applied) && is_sound(fit));
         let singles: Vec<(Candidate, Fit)> = good.collect();
         let pair = self.pair(base, &ranked.pairs, singles.first().map(|(_, f)| f))?.filter(|(_, fit)| is_sound(fit));

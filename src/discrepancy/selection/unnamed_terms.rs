@@ -1,7 +1,7 @@
 //! Disagreement that no effect of the library explains: an equation for it, where one is repeatable.
 
-use super::search::{Search, SearchState};
-use crate::discrepancy::estimation::fit::Fit;
+use super::search::{Search, SearchState, without_effect};
+use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::estimation::unexplained::{is_wanted, remains};
 use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
 use crate::discrepancy::localisation::constraint_residuals::reduction;
@@ -49,6 +49,9 @@ pub(crate) fn search(
         // A term that leaves the rest unexplained is no reason to give a name up.
         found = Search { drops: false, ..wider }.grown(&named.fit, progress)?;
     }
+    if let Some(alone) = instead_of_names(&wider, &found.fit, progress)? {
+        found = alone;
+    }
     // A name that the terms leave nothing to explain goes, even where names were kept.
     found.fit = wider.eliminate_backward(material(&wider, found.fit)?, 0.0)?;
     if !found.fit.model.free_effects().any(is_term) {
@@ -84,6 +87,28 @@ pub(crate) fn without_fallen(
     let found = search(selection, &named, fallen, progress)?;
     let n = found.as_ref().map_or(0.0, |f| f.fit.sample_size).max(fit.sample_size);
     Ok(found.filter(|found| bic(&found.fit, n) < bic(fit, n)))
+}
+
+/// The search from the model without the names that a term stands beside at its place: a name and a term may be two parts
+/// of one law. `None` where there is no such name, or the data are explained no better.
+fn instead_of_names(wider: &Search, fit: &Fit, progress: &OnProgress) -> Result<Option<SearchState>> {
+    let is_beside = |e: &&Applied| {
+        let mut terms = fit.model.free_effects().filter(|t| is_term(t));
+        !is_term(e) && terms.any(|t| t.effect.place == e.effect.place)
+    };
+    let names: Vec<Applied> = fit.model.free_effects().filter(is_beside).cloned().collect();
+    if names.is_empty() {
+        return Ok(None);
+    }
+    let given = &wider.before.model;
+    let mut bare = names.iter().fold(fit.model.clone(), |model, name| without_effect(&model, name, given));
+    bare.effects.retain(|e| !is_term(e));
+    let bare = wider.problem.fit(&bare, &fit.window_states, &wider.before.variances, Effort::FULL)?;
+    let Some(bare) = bare else { return Ok(None) };
+    let found = wider.grown(&bare, progress)?;
+    let n = found.fit.sample_size.max(fit.sample_size);
+    let is_term_there = found.fit.model.free_effects().any(is_term);
+    Ok((is_term_there && bic(&found.fit, n) < bic(fit, n)).then_some(found))
 }
 
 fn named_effects(fit: &Fit) -> usize {

@@ -13,17 +13,14 @@ use crate::model::effect_equation::is_term;
 impl Search<'_> {
     /// The fit without an effect.
     pub fn without(&self, fit: &Fit, effect: &Applied) -> Result<Option<Fit>> {
-        // From the jumps of the model as given: what an effect leaves unexplained is not found from zero jumps,
-        // where the likelihood is flat.
-        let smaller = without_effect(&fit.model, effect, &self.before.model);
-        self.problem.fit(&smaller, &fit.window_states, &self.before.variances, Effort::FULL)
+        self.fit_instead(fit, &without_effect(&fit.model, effect, &self.before.model))
     }
 
     /// The fit without its terms.
     pub fn without_terms(&self, fit: &Fit) -> Result<Option<Fit>> {
         let mut bare = fit.model.clone();
         bare.effects.retain(|e| !is_term(e));
-        self.problem.fit(&bare, &fit.window_states, &self.before.variances, Effort::FULL)
+        self.fit_instead(fit, &bare)
     }
 
     /// Drops what is no longer needed: what is worth no more than a bar beyond BIC.

@@ -1,7 +1,7 @@
 //! Effects that are no more than their limits: where what builds up does so at once, the rest of the effect has a name of its own.
 
 use super::search::{Search, without_effect};
-use crate::discrepancy::estimation::fit::{Effort, Fit};
+use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::selection::choice::SelectedEffect;
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
@@ -15,8 +15,7 @@ impl Search<'_> {
         for c in chosen.iter().filter(|c| is_at_once(c)) {
             let Some(limit) = limit(&c.applied, self.library) else { continue };
             let model = without_effect(&fit.model, &c.applied, &self.before.model).with_effect(limit.freed());
-            let there = self.problem.fit(&model, &fit.window_states, &self.before.variances, Effort::FULL)?;
-            if let Some(there) = there {
+            if let Some(there) = self.fit_instead(fit, &model)? {
                 return Ok(Some((c.applied.clone(), there)));
             }
         }

@@ -193,27 +193,27 @@ fn moved(fit: &Fit, other: &Fit, effect: &Applied) -> Option<f64> {
     (far > 0.0).then(|| f64::sqrt(by / far))
 }
 
-/// The pairs of effects that lie on a ridge.
-fn ridges(fit: &Fit) -> Vec<[&Applied; 2]> {
-    let Some(covariance) = &fit.covariance else { return vec![] };
+/// The first pair of effects on a ridge, of the pairs that are asked for.
+fn on_ridge(fit: &Fit, is_asked: impl Fn(&[&Applied; 2]) -> bool) -> Option<[&Applied; 2]> {
+    let covariance = fit.covariance.as_ref()?;
     let correlation = |i: usize, j: usize| covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt();
     let along = |[a, b]: &[&Applied; 2]| {
         let [a, b] = [a, b].map(|e| neutral_at_zero(fit, e));
         a.iter().any(|(i, _)| b.iter().any(|(j, _)| correlation(*i, *j).abs() > RIDGE))
     };
     let effects: Vec<&Applied> = fit.model.free_effects().collect();
-    let pairs = effects.iter().enumerate().flat_map(|(k, a)| effects[k + 1..].iter().map(move |b| [*a, *b]));
-    pairs.filter(along).collect()
+    let mut pairs = effects.iter().enumerate().flat_map(|(k, a)| effects[k + 1..].iter().map(move |b| [*a, *b]));
+    pairs.find(|pair| is_asked(pair) && along(pair))
 }
 
 /// Whether two effects with names lie on a ridge; a law without a name may be about to take the place of a name.
 pub(super) fn names_on_ridge(fit: &Fit) -> bool {
-    ridges(fit).iter().any(|pair| !pair.iter().any(|e| is_term(e)))
+    on_ridge(fit, |pair| !pair.iter().any(|e| is_term(e))).is_some()
 }
 
 /// Of two effects on a ridge, not both of them terms, the one that is worth less, and the other.
 fn ridge(fit: &Fit, chosen: &[SelectedEffect]) -> Option<(Applied, Applied)> {
-    let [a, b] = ridges(fit).into_iter().find(|[a, b]| !(is_term(a) && is_term(b)))?;
+    let [a, b] = on_ridge(fit, |pair| !pair.iter().all(|e| is_term(e)))?;
     let worth = |e: &Applied| chosen.iter().find(|c| c.applied.same_as(e)).map_or(f64::INFINITY, |c| c.delta_bic);
     let (less, more) = if worth(a) < worth(b) { (a, b) } else { (b, a) };
     Some((less.clone(), more.clone()))
@@ -259,13 +259,13 @@ mod tests {
         let term = Applied::new(&bare.terms().unwrap()[0], None, vec![0.1]).freed();
         let name = Applied { values: vec![0.1], ..applied("traverse-creep") }.freed();
         let other = Applied { values: vec![0.1], ..applied("load-dependent-creep") }.freed();
-        let on_ridge = |pair: [&Applied; 2], rho: f64| {
+        let are_on_ridge = |pair: [&Applied; 2], rho: f64| {
             let model = pair.into_iter().cloned().fold(bare.clone(), crate::model::Model::with_effect);
             let covariance = Some(DMatrix::from_row_slice(2, 2, &[1.0, rho, rho, 1.0]));
             names_on_ridge(&Fit { covariance, ..fit_of(model) })
         };
-        assert!(on_ridge([&name, &other], 0.98) && !on_ridge([&name, &other], 0.96));
-        assert!(!on_ridge([&name, &term], 0.98));
+        assert!(are_on_ridge([&name, &other], 0.98) && !are_on_ridge([&name, &other], 0.96));
+        assert!(!are_on_ridge([&name, &term], 0.98));
     }
 
     #[test]

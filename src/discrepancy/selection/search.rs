@@ -97,6 +97,14 @@ impl<'a> Search<'a> {
     pub fn refit(&self, fit: &Fit) -> Result<Option<Fit>> {
         self.problem.fit(&fit.model, &fit.window_states, &fit.variances, Effort::FULL)
     }
+
+    /// Another model fitted where a fit is, with noise and jumps of its own.
+    ///
+    /// From the jumps of the model as given: what an effect leaves unexplained is not found from zero jumps, where the
+    /// likelihood is flat.
+    pub fn fit_instead(&self, fit: &Fit, model: &Model) -> Result<Option<Fit>> {
+        self.problem.fit(model, &fit.window_states, &self.before.variances, Effort::FULL)
+    }
 }
 
 /// An effect of a model.

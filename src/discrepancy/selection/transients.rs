@@ -1,7 +1,6 @@
 //! Effects whose quasi-static limit has been chosen, asked for where that limit does not explain everything.
 
 use super::search::{Search, SearchState, find, without_effect};
-use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::unexplained::is_wanted;
 use crate::discrepancy::evidence::information_criterion::bic;
 use crate::effects::{Applied, Effect};
@@ -40,12 +39,7 @@ fn in_place_of(
         return Ok(None);
     }
     let model = without_effect(&named.fit.model, limit, &selection.before.model).with_effect(whole.clone().freed());
-    // From the jumps of the model as given, as where an effect is taken out.
-    let Some(fit) =
-        selection.problem.fit(&model, &named.fit.window_states, &selection.before.variances, Effort::FULL)?
-    else {
-        return Ok(None);
-    };
+    let Some(fit) = selection.fit_instead(&named.fit, &model)? else { return Ok(None) };
     let fit = selection.eliminate_backward(fit, selection.margin())?;
     if find(&fit.model, whole).is_none() {
         return Ok(None);

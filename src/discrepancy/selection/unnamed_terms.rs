@@ -1,13 +1,14 @@
 //! Disagreement that no effect of the library explains: an equation for it, where one is repeatable.
 
 use super::search::{Search, SearchState, without_effect};
-use crate::discrepancy::estimation::fit::{Effort, Fit};
+use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::unexplained::{is_wanted, remains};
 use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
 use crate::discrepancy::localisation::constraint_residuals::reduction;
 use crate::discrepancy::selection::search::still_open;
 use crate::effects::Applied;
 use crate::error::Result;
+use crate::model::Model;
 use crate::model::effect_equation::is_term;
 use crate::progress::{OnProgress, Stage, begin};
 
@@ -89,26 +90,22 @@ pub(crate) fn without_fallen(
     Ok(found.filter(|found| bic(&found.fit, n) < bic(fit, n)))
 }
 
-/// The search from the model without the names that a term stands beside at its place: a name and a term may be two parts
-/// of one law. `None` where there is no such name, or the data are explained no better.
+/// The search without the names that a term stands beside at its place: a name and a term may be two parts of one law.
+/// `None` where there is no such name, or the data are explained no better.
 fn instead_of_names(wider: &Search, fit: &Fit, progress: &OnProgress) -> Result<Option<SearchState>> {
-    let is_beside = |e: &&Applied| {
-        let mut terms = fit.model.free_effects().filter(|t| is_term(t));
-        !is_term(e) && terms.any(|t| t.effect.place == e.effect.place)
-    };
-    let names: Vec<Applied> = fit.model.free_effects().filter(is_beside).cloned().collect();
-    if names.is_empty() {
+    let (terms, names): (Vec<&Applied>, Vec<&Applied>) = fit.model.free_effects().partition(|e| is_term(e));
+    let is_beside = |name: &&Applied| terms.iter().any(|term| term.effect.place == name.effect.place);
+    let beside: Vec<&Applied> = names.into_iter().filter(is_beside).collect();
+    if beside.is_empty() {
         return Ok(None);
     }
-    let given = &wider.before.model;
-    let mut bare = names.iter().fold(fit.model.clone(), |model, name| without_effect(&model, name, given));
-    bare.effects.retain(|e| !is_term(e));
-    let bare = wider.problem.fit(&bare, &fit.window_states, &wider.before.variances, Effort::FULL)?;
-    let Some(bare) = bare else { return Ok(None) };
+    let without = |model: Model, effect: &Applied| without_effect(&model, effect, &wider.before.model);
+    let bare = terms.into_iter().chain(beside).fold(fit.model.clone(), without);
+    let Some(bare) = wider.fit_instead(fit, &bare)? else { return Ok(None) };
     let found = wider.grown(&bare, progress)?;
     let n = found.fit.sample_size.max(fit.sample_size);
-    let is_term_there = found.fit.model.free_effects().any(is_term);
-    Ok((is_term_there && bic(&found.fit, n) < bic(fit, n)).then_some(found))
+    let has_term = found.fit.model.free_effects().any(is_term);
+    Ok((has_term && bic(&found.fit, n) < bic(fit, n)).then_some(found))
 }
 
 fn named_effects(fit: &Fit) -> usize {

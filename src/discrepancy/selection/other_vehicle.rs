@@ -96,7 +96,8 @@ fn best(
         let score = bic(&grown, choice.after.sample_size);
         if best.as_ref().is_none_or(|(least, _)| score < *least) {
             let given = choice.before.model.vehicle.id.clone();
-            best = Some((score, told(given, reading, &grown)));
+            let Some(other) = told(given, reading, &grown) else { continue };
+            best = Some((score, other));
         }
     }
     Ok(best.map(|(_, other)| other))
@@ -166,16 +167,41 @@ fn stands_in(vehicle: &Vehicle, given: &Model) -> bool {
     vehicle.moves() && vehicle.line == given.vehicle.line && has_all && same_inputs
 }
 
-fn told(given: String, reading: LogReading, fit: &Fit) -> OtherVehicle {
+/// What explains a log, as a fit has it; `None` where the fit gave the reading up for other effects, and so is no more of it
+/// than the model as given.
+fn told(given: String, reading: LogReading, fit: &Fit) -> Option<OtherVehicle> {
     let reading = match reading {
         LogReading::Wheel { applied, .. } => {
+            let applied = Box::new(find(&fit.model, &applied)?);
             let first = first_of(fit, &applied);
             let std = (first..first + applied.values.len()).map(|i| fit.variance(i).map(f64::sqrt)).collect();
-            LogReading::Wheel { applied: Box::new(find(&fit.model, &applied).unwrap_or(*applied)), std }
+            LogReading::Wheel { applied, std }
         }
         vehicle => vehicle,
     };
     let is_reading = |e: &Applied| matches!(&reading, LogReading::Wheel { applied, .. } if e.same_as(applied));
     let misses = fit.model.free_effects().filter(|e| !is_reading(e)).cloned().collect();
-    OtherVehicle { given, reading, misses }
+    Some(OtherVehicle { given, reading, misses })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::fixtures::{applied, fit_of, unicycle};
+    use nalgebra::DMatrix;
+
+    /// A search may drop the reading it began with: what it ends with is then told of no reading.
+    #[test]
+    fn a_reading_that_was_given_up_is_not_told() {
+        let told = |known: &[(&str, &[f64])]| {
+            let fit = fit_of(unicycle(known));
+            let covariance = Some(DMatrix::identity(fit.p.len(), fit.p.len()) * 4e-4);
+            let reading = LogReading::Wheel { applied: Box::new(applied("rate-of-one-wheel")), std: vec![] };
+            super::told("unicycle".into(), reading, &Fit { covariance, ..fit })
+        };
+        assert!(told(&[("traverse-creep", &[0.1])]).is_none());
+        let kept = told(&[("traverse-creep", &[0.1]), ("rate-of-one-wheel", &[0.2])]).unwrap();
+        let LogReading::Wheel { applied, std } = kept.reading else { panic!("a wheel became a vehicle") };
+        assert_eq!((applied.values, std, kept.misses.len()), (vec![0.2], vec![Some(0.02)], 1));
+    }
 }

@@ -33,7 +33,7 @@ fn power_text(case: &Case) -> [String; 2] {
 pub fn cases(outcomes: &[Outcome]) -> String {
     let mut text = String::from(
         "seed,kind,vehicle,drive,duration_s,rate_hz,rows,position_m,heading_rad,interval_mean,jitter,dropouts,gaps,\
-         outliers,noise_told,hidden,determined,visible_chi2,nearest_rival,verdict,named,right,excused,unnamed,\
+         outliers,noise_told,hidden,from_s,until_s,determined,visible_chi2,nearest_rival,verdict,named,scopes,right,excused,unnamed,\
          gap_1s_over_floor,gap_5s_over_floor,gap_5s_before_over_floor\n",
     );
     outcomes.iter().for_each(|o| text += &case_row(o));
@@ -44,6 +44,7 @@ fn case_row(o: &Outcome) -> String {
     let (s, j) = (&o.case.scenario, &o.judgement);
     let [visible, nearest] = power_text(&o.case);
     let ratio = |r: Option<f64>| r.map_or(String::new(), |r| format!("{r:.3}"));
+    let end = |t: Option<f64>| t.filter(|t| t.is_finite()).map_or(String::new(), |t| format!("{t:.1}"));
     let cells = [
         o.case.seed.to_string(),
         o.case.kind.name().into(),
@@ -61,11 +62,14 @@ fn case_row(o: &Outcome) -> String {
         format!("{:.4}", s.outliers.share),
         u8::from(o.case.tells_noise).to_string(),
         joined(s.hidden.iter().map(hidden_text)),
+        end(s.span.map(|[from, _]| from)),
+        end(s.span.map(|[_, until]| until)),
         u8::from(o.case.determined()).to_string(),
         visible,
         nearest,
         format!("\"{}\"", j.verdict.replace('"', "'")),
         joined(j.named.iter().map(|t| target_text(*t))),
+        joined(j.scopes.iter().cloned()).replace(',', ";"),
         u8::from(j.right).to_string(),
         u8::from(j.excused).to_string(),
         u8::from(j.unnamed).to_string(),

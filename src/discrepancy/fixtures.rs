@@ -52,6 +52,7 @@ pub fn fit_of(model: Model) -> Fit {
         model,
         p,
         covariance: None,
+        scopes_vary: false,
         between_runs: None,
         of_runs: vec![],
         runs: 1,

@@ -100,8 +100,18 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
     };
     begin(progress, Stage::HeldOut)?;
     let horizons = horizons(request);
+    let fitted = Judge {
+        records: &data.fitted,
+        are_fitted: true,
+        are_own_runs: false,
+        horizons: &horizons,
+        noise: selected.after.noise(),
+        seed: request.seed,
+    };
+    let selected = refute(&problem, request.library, selected, &fitted, progress)?;
     let judge = Judge {
         records: &data.held_out,
+        are_fitted: false,
         are_own_runs: !request.held_out.is_empty(),
         horizons: &horizons,
         noise: selected.after.noise(),

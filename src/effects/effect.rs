@@ -163,6 +163,9 @@ pub fn acting(role: &str) -> Symbol {
     Symbol::new(&format!("{role}.acting"))
 }
 
+/// Points at which an effect is looked at for where it vanishes.
+const POINTS: u32 = 3;
+
 /// Where an effect stands that shifts the inputs in time.
 const CLOCK: &str = "clock";
 
@@ -248,6 +251,29 @@ impl Effect {
     /// Its formulas: the changes, then the rates of its states.
     pub fn formulas(&self) -> impl Iterator<Item = &Expr> {
         self.changes.values().chain(self.states.values().map(|s| &s.rate))
+    }
+
+    /// Which of its parameters gives its size: the effect vanishes where that alone is zero, whatever the others are.
+    ///
+    /// ```
+    /// use creepage::effects;
+    /// let slope = effects::named("side-slope").unwrap();
+    /// assert_eq!(slope.parameters.keys().nth(slope.amplitude().unwrap()).unwrap(), "rate");
+    /// assert_eq!(effects::named("lever-arm").unwrap().amplitude(), None);
+    /// ```
+    pub fn amplitude(&self) -> Option<usize> {
+        self.parameters.keys().position(|zero| (0..POINTS).all(|point| self.vanishes_at(zero, point)))
+    }
+
+    /// Whether no change of its changes anything at a point where one of its parameters is zero.
+    fn vanishes_at(&self, zero: &str, point: u32) -> bool {
+        let scattered = |name: &str| {
+            let sum: u32 = name.bytes().fold(7 + point, |sum, b| sum.wrapping_mul(31).wrapping_add(b.into()));
+            0.2 + f64::from(sum % 997) / 997.0
+        };
+        let value = |s: &Symbol| if s.as_str() == zero { 0.0 } else { scattered(s.as_str()) };
+        let it = scattered("it");
+        self.changes.values().all(|f| f.eval(&value).is_some_and(|v| (v - it).abs() < 1e-12))
     }
 
     /// All combinations of the parameters' starting values.

@@ -167,6 +167,20 @@ impl Scope {
         self.movable().len().max(1)
     }
 
+    /// The scope without intervals, and without gaps between them, that are shorter than `least`, s; `None` where it has
+    /// none of these, or nothing would be left.
+    pub(crate) fn without_slivers(&self, least: f64) -> Option<Self> {
+        let Self::Times(intervals) = self else { return None };
+        let mut kept: Vec<[f64; 2]> = vec![];
+        for [from, until] in intervals.iter().copied().filter(|[from, until]| until - from >= least) {
+            match kept.last_mut().filter(|before| from - before[1] < least) {
+                Some(before) => before[1] = until,
+                None => kept.push([from, until]),
+            }
+        }
+        (!kept.is_empty() && kept.len() < intervals.len()).then_some(Self::Times(kept))
+    }
+
     /// Whether two scopes are of one kind, whatever their numbers.
     pub fn is_like(&self, other: &Scope) -> bool {
         std::mem::discriminant(self) == std::mem::discriminant(other)
@@ -240,6 +254,18 @@ mod tests {
             name => numbers.iter().find(|(n, _)| n == name).unwrap().1,
         };
         scope.gate().eval(&|s| value(s.as_str())).unwrap()
+    }
+
+    #[test]
+    fn slivers_are_left_out_and_gaps_closed() {
+        let of = |intervals: &[[f64; 2]]| Scope::Times(intervals.to_vec());
+        let simpler = |intervals: &[[f64; 2]]| of(intervals).without_slivers(0.3);
+        let touching = [[2.0, 5.0], [5.1, f64::INFINITY]];
+        assert_eq!(simpler(&touching), Some(of(&[[2.0, f64::INFINITY]])));
+        assert_eq!(simpler(&[[1.0, 1.2], [2.0, 5.0]]), Some(of(&[[2.0, 5.0]])));
+        assert_eq!(simpler(&[[1.0, 2.0], [2.2, 2.3], [2.5, 5.0]]), Some(of(&[[1.0, 2.0], [2.5, 5.0]])));
+        assert_eq!((simpler(&[[1.0, 2.0], [2.4, 5.0]]), simpler(&[[1.0, 1.1]])), (None, None));
+        assert_eq!(Scope::Above(1.0).without_slivers(0.3), None);
     }
 
     #[test]

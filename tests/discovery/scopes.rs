@@ -50,6 +50,57 @@ fn what_begins_at_a_time_is_named_with_its_beginning() {
     assert!(off < 0.02, "{off}");
 }
 
+/// A slope has no direction where it has no steepness, and a creep no limit where there is none: both are sought in part
+/// all the same, and are not taken for the drift and the creep that imitate them.
+#[test]
+fn what_means_nothing_at_zero_may_begin_as_well() {
+    let cases = [
+        (UNICYCLE, "side-slope", "rate = 0.06\ndirection = 0.7"),
+        (UNICYCLE, "grade", "rate = 0.06\ndirection = -1.9"),
+        (CAR, "saturating-creep", "c = 0.15\nlimit = 0.1"),
+    ];
+    for (head, id, values) in cases {
+        let hidden = effect(id, &format!("{values}\nscope = {{ from = 24.3, until = 52.3 }}"));
+        let (report, _) = answer(head, &hidden, 6);
+        let [one] = &report.effects[..] else { panic!("{id}: {}", report.summary) };
+        let scope = one.scope.as_ref().unwrap();
+        let [from, until] = [scope.from, scope.until].map(Option::unwrap);
+        assert!(one.id == id && (from - 24.3).abs() < 0.3 && (until - 52.3).abs() < 0.3, "{}", report.summary);
+        for line in values.lines() {
+            let (name, value) = line.split_once(" = ").unwrap();
+            let (found, value) = (&one.parameters[name], value.parse::<f64>().unwrap());
+            assert!((found.value - value).abs() < 4.0 * found.std.unwrap(), "{id} {name}: {found:?}");
+        }
+    }
+}
+
+/// An edge is found to less than a row where the sensor is that precise, so that the interval of the value holds it, and
+/// nothing is left that a place would explain better.
+#[test]
+fn an_edge_is_found_to_less_than_a_row() {
+    let run = driven(UNICYCLE, &effect("rotation-creep", "e_rc = 0.05\nscope = { from = 31.413 }"), 1e-4, 7);
+    let report = creepage::discover(&Model::parse(UNICYCLE).unwrap(), &[run]).unwrap().report;
+    let [one] = &report.effects[..] else { panic!("{}", report.summary) };
+    let from = one.scope.as_ref().and_then(|s| s.from).unwrap();
+    let creep = &one.parameters["e_rc"];
+    assert!((from - 31.413).abs() < 0.005 && report.remains.is_none(), "{}", report.summary);
+    assert!((creep.value - 0.05).abs() < 3.0 * creep.std.unwrap(), "{creep:?}");
+}
+
+/// What cannot be told from an effect is listed for the time in which that holds: on one circle an angle and a gain are one.
+#[test]
+fn rivals_of_what_begins_are_those_that_begin_with_it() {
+    let time: Vec<f64> = (0..1200).map(|i| 0.05 * f64::from(i)).collect();
+    let inputs = [("wheel_rate", vec![5.0; 1200]), ("steering_angle", vec![0.2; 1200])];
+    let truth = Model::parse(&format!("{CAR}{}", effect("steering-offset", "offset = 0.03\nscope = { from = 22.0 }")));
+    let run = noisy_run(&truth.unwrap(), time, inputs.to_vec(), 2e-3, 8);
+    let report = creepage::discover(&Model::parse(CAR).unwrap(), &[run]).unwrap().report;
+    let [one] = &report.effects[..] else { panic!("{}", report.summary) };
+    let rivals: Vec<&str> = one.indistinguishable_from.iter().map(|r| r.id.as_str()).collect();
+    let told = |id: &str| one.id == id || rivals.contains(&id);
+    assert!(one.scope.is_some() && told("steering-offset") && told("steering-gain"), "{}: {rivals:?}", report.summary);
+}
+
 #[test]
 fn what_holds_in_reverse_alone_is_named_so() {
     let (report, _) = answer(CAR, &effect("steering-offset", "offset = 0.03\nscope = { regime = \"reverse\" }"), 4);

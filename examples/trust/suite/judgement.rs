@@ -48,6 +48,8 @@ pub struct Judgement {
     pub verdict: String,
     /// Every named effect's target.
     pub named: Vec<Target>,
+    /// Where each of them holds, as the report has it.
+    pub scopes: Vec<String>,
     /// For each hidden effect, whether it was named.
     pub found: Vec<bool>,
     /// Named effects that nothing hidden accounts for.
@@ -125,6 +127,7 @@ fn judged(case: &Case, report: &Report) -> Judgement {
     Judgement {
         verdict: verdict(report.verdict).into(),
         named,
+        scopes: report.effects.iter().map(scope_text).collect(),
         found,
         extra,
         unnamed,
@@ -188,6 +191,13 @@ fn verdict(verdict: Verdict) -> &'static str {
         Verdict::MissingEffect => "missing-effect",
         Verdict::NoMissingEffect => "no-missing-effect",
     }
+}
+
+/// The scope and the course of a named effect.
+fn scope_text(named: &Named) -> String {
+    let scope = named.scope.as_ref().and_then(|s| serde_json::to_string(s).ok());
+    let moves = named.parameters.values().any(|p| p.course.is_some());
+    scope.unwrap_or_else(|| if moves { "course" } else { "always" }.into())
 }
 
 fn target(named: &Named) -> Target {

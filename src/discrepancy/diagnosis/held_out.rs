@@ -16,9 +16,11 @@ pub(crate) fn refuted(selected: &Selected) -> impl Iterator<Item = Warning> {
     of.cloned().map(|r| Warning::Refuted(Box::new(r)))
 }
 
-/// Held-out runs that judge models.
+/// Runs that judge models.
 pub(crate) struct Judge<'a> {
     pub records: &'a [Record],
+    /// Whether they are those fitted.
+    pub are_fitted: bool,
     /// Whether they are drives of their own, and not the ends of those fitted.
     pub are_own_runs: bool,
     pub horizons: &'a [f64],
@@ -27,6 +29,10 @@ pub(crate) struct Judge<'a> {
 }
 
 impl HeldOut for Judge<'_> {
+    fn are_fitted(&self) -> bool {
+        self.are_fitted
+    }
+
     /// Without a heading each window's start is fitted to it by either model, and the gaps are not of one start.
     fn can_judge(&self) -> bool {
         !self.records.is_empty() && self.records.iter().all(|r| r.has_heading())

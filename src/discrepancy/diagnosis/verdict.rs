@@ -135,10 +135,10 @@ pub fn after_fitting(
         let reason = Reason::MissesMotion { motion, share, slip: slip.map(Box::new) };
         return Ok(Outcome::new(Verdict::UnusableData, reason, None));
     }
-    Ok(fitted(choice, after, clocks))
+    Ok(fitted(choice, after, clocks, problem.has_noisy_inputs()))
 }
 
-fn fitted(choice: &Selected, after: &[ConstraintResiduals], clocks: &[Drift]) -> Outcome {
+fn fitted(choice: &Selected, after: &[ConstraintResiduals], clocks: &[Drift], has_noisy_inputs: bool) -> Outcome {
     if let Some(reason) = sliding(after).or_else(|| mismatched(clocks)) {
         return Outcome::new(Verdict::UnusableData, reason, None);
     }
@@ -155,7 +155,9 @@ fn fitted(choice: &Selected, after: &[ConstraintResiduals], clocks: &[Drift]) ->
         return Outcome::new(Verdict::NotIdentifiable, Reason::InputsTooSeldom, Some(next));
     }
     let random = random(&choice.after, after);
-    if random.is_none() && contradicted || disagrees(&choice.after, after) {
+    // What noisy inputs ask for, and parts of the data do not bear out, is that noise unless the eye sees something.
+    let is_seen = !has_noisy_inputs || visible(&choice.after, after).next().is_some();
+    if random.is_none() && contradicted && is_seen || disagrees(&choice.after, after) {
         let reason = if contradicted { Reason::Inconsistent } else { Reason::Unexplained };
         return Outcome::new(Verdict::Unexplained, reason, Some(settling(choice)));
     }

@@ -27,6 +27,8 @@ pub struct Fit {
     pub p: Vec<f64>,
     /// Their covariance, `None` when the data leave a direction open.
     pub covariance: Option<DMatrix<f64>>,
+    /// Whether it has in it what the numbers of scopes are uncertain by; they are held where they are in a fit.
+    pub scopes_vary: bool,
     /// Their covariance by the spread between runs, `None` with fewer than [`FEWEST_RUNS`].
     pub between_runs: Option<DMatrix<f64>>,
     /// How many runs were fitted.
@@ -170,6 +172,7 @@ impl Problem {
         Fit {
             unexplained: vec![0.0; variances.process().len()],
             deviance: variance_components::deviance(&point.linear, &variances, &point.eliminated),
+            scopes_vary: false,
             between_runs: self.between_runs(&point.eliminated),
             runs: self.records.len(),
             of_runs: self.by_run(&point.eliminated),

@@ -6,6 +6,9 @@ use crate::discrepancy::estimation::fit::Fit;
 /// Named effects from which on one simpler term is tried whatever remains.
 const MANY: usize = 2;
 
+/// What a fit leaves of the variance of what another leaves unexplained, at most, where it explains most of it.
+const LEFT: f64 = 0.04;
+
 /// Whether motion remains that a fit does not explain.
 pub fn remains(fit: &Fit) -> bool {
     remaining(fit).next().is_some()
@@ -22,6 +25,15 @@ pub(crate) fn remaining(fit: &Fit) -> impl Iterator<Item = usize> {
 /// Whether a term may be asked for: something remains, or suspiciously much was needed.
 pub(crate) fn is_wanted(named: &Fit) -> bool {
     remains(named) || named.model.free_effects().count() >= MANY
+}
+
+/// Whether a fit leaves nothing, or far less than another: beside a large rest a scope may imitate whatever is there.
+pub(crate) fn explains_most(fit: &Fit, than: &Fit) -> bool {
+    let left = |fit: &Fit| fit.variances.process().iter().map(|c| c.variance).collect::<Vec<f64>>();
+    let (now, before) = (left(fit), left(than));
+    let worst = |c: usize| before[c] * than.unexplained[c];
+    let most = (0..before.len()).max_by(|a, b| worst(*a).total_cmp(&worst(*b)));
+    !remains(fit) || most.is_some_and(|c| now[c] < LEFT * before[c])
 }
 
 #[cfg(test)]

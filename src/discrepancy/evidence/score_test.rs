@@ -43,7 +43,7 @@ pub(crate) fn is_regular(effect: &Effect, model: &Model, trailer: Option<usize>)
 }
 
 /// Whether the first of an effect's starts is where it vanishes, so that a step to first order may be taken from there.
-fn vanishes_first(effect: &Effect) -> bool {
+pub(crate) fn vanishes_first(effect: &Effect) -> bool {
     effect.parameters.values().all(|p| p.start.first() == Some(&0.0))
 }
 

@@ -56,13 +56,15 @@ pub enum Refusal {
     NotBorneOut,
     /// Another vehicle explains the data.
     OtherVehicle,
+    /// The runs it was fitted to are predicted worse with it over some seconds, and over none better.
+    OwnRuns(Growth),
     /// Held-out runs are predicted worse with it.
     HeldOut(Growth),
     /// Held-out runs are predicted worse with all that was found, and it is worth least of that.
     HeldOutTogether(Growth),
 }
 
-/// How a held-out gap grows, or shrinks.
+/// How the gap of some runs grows, or shrinks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Growth {
     /// After so many seconds.

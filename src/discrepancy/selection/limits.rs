@@ -23,8 +23,11 @@ impl Search<'_> {
     }
 }
 
-/// Whether every value of an effect that is never negative is zero within its deviation.
+/// Whether an effect builds up, and every value of it that is never negative is zero within its deviation.
 fn is_at_once(c: &SelectedEffect) -> bool {
+    if c.applied.effect.states.is_empty() {
+        return false;
+    }
     let parameters = c.applied.effect.parameters.values().zip(c.applied.values.iter().zip(&c.std));
     let mut lengths = parameters.filter(|(p, _)| p.positive).map(|(_, of)| of).peekable();
     lengths.peek().is_some() && lengths.all(|(value, std)| std.is_some_and(|std| *value < DEVIATIONS * std))
@@ -38,7 +41,8 @@ fn limit(whole: &Applied, library: &[Effect]) -> Option<Applied> {
         !names.is_empty() && e.place == whole.effect.place && e.parameters.keys().collect::<Vec<_>>() == names
     };
     let effect = library.iter().find(is_limit)?;
-    Some(Applied::new(effect, whole.trailer, parameters().map(|(_, value)| *value).collect()))
+    let effect = Effect { scope: whole.effect.scope.clone(), ..effect.clone() };
+    Some(Applied::new(&effect, whole.trailer, parameters().map(|(_, value)| *value).collect()))
 }
 
 #[cfg(test)]
@@ -60,5 +64,7 @@ mod tests {
             is_at_once(&SelectedEffect { applied, std, delta_bic: 9.0, p_value: 0.0, rivals: vec![] })
         };
         assert!(of(0.117, whole.clone()) && !of(0.001, whole) && !of(9.0, applied("traverse-creep")));
+        // A creep that no limit holds is another one: where the limit is not known it is not zero.
+        assert!(!of(9.0, Applied { values: vec![0.1, 0.05], ..applied("saturating-creep") }));
     }
 }

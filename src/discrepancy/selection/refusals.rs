@@ -43,6 +43,7 @@ impl Search<'_> {
     ) -> Result<Standing> {
         let mut refused: Vec<Refused> = vec![];
         loop {
+            self.let_scopes_vary(&mut grown.fit)?;
             let weighed = self.weighed(&grown.fit, scatter, &missed, progress)?;
             let chosen: Vec<SelectedEffect> = weighed.iter().map(|w| w.effect.clone()).collect();
             if let Some((whole, smaller)) = self.at_limit(&grown.fit, &chosen)? {

@@ -1,4 +1,4 @@
-//! What held-out runs refute: taken out of a choice after the last of it was made.
+//! What held-out runs refute, or those fitted by their own gaps: taken out of a choice after the last of it was made.
 
 use super::search::{Search, SearchState, forget};
 use super::transients;
@@ -15,8 +15,11 @@ use crate::progress::OnProgress;
 /// runs of their own: it may imitate a part of the rest.
 const WEAK: f64 = 3.0;
 
-/// Held-out runs.
+/// Runs that judge what was found.
 pub(crate) trait HeldOut {
+    /// Whether they are those it was fitted to.
+    fn are_fitted(&self) -> bool;
+
     /// Whether there are runs that can judge.
     fn can_judge(&self) -> bool;
 
@@ -27,7 +30,7 @@ pub(crate) trait HeldOut {
     fn gaps(&self, with: &Model, without: &Model) -> Result<Vec<Growth>>;
 }
 
-/// Takes out of a choice what held-out runs are predicted worse with, an effect beside all others or what was found as a
+/// Takes out of a choice what held-out runs, or the runs fitted, are predicted worse with, an effect beside all others or what was found as a
 /// whole.
 pub(crate) fn refute(
     problem: &Problem,
@@ -84,13 +87,17 @@ fn next(
             }
             continue;
         };
-        let (factor, why) = (growth.factor(), Refusal::HeldOut(growth));
+        let refusal = if held_out.are_fitted() { Refusal::OwnRuns } else { Refusal::HeldOut };
+        let (factor, why) = (growth.factor(), refusal(growth));
         if worst.as_ref().is_none_or(|(f, ..)| factor > *f) {
             worst = Some((factor, c.applied.clone(), why, smaller));
         }
     }
     if let Some((_, applied, why, smaller)) = worst {
         return Ok(Some((applied, why, smaller)));
+    }
+    if held_out.are_fitted() {
+        return Ok(None);
     }
     // Where only all together make it grow, the one that is worth least goes.
     let least = chosen.iter().min_by(|a, b| a.delta_bic.total_cmp(&b.delta_bic));

@@ -2,66 +2,169 @@
 
 use super::candidates::{place, rounded};
 use super::search::{Search, find};
+use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
 use crate::discrepancy::estimation::fit::{Effort, Fit};
+use crate::discrepancy::estimation::unexplained::{explains_most, remains};
 use crate::discrepancy::evidence::information_criterion::bic;
-use crate::discrepancy::evidence::score_test::ScoreTest;
 use crate::discrepancy::shooting::windows::WINDOW;
-use crate::effects::{Applied, Scope};
+use crate::effects::{Applied, Effect, Scope};
 use crate::error::Result;
 
 /// Two fits whose criteria differ by no more say the same.
 const SAME: f64 = 1.0;
+/// Other effects in the scope of one that are fitted, at most.
+const RIVALS: usize = 4;
 /// The effort of a fit by which scopes are compared.
 const QUICK: Effort = Effort { passes: 3, ..Effort::SCREENING };
 /// The steps by which the numbers of a scope are moved: shares of a window, or of a fifth of their size.
-const STEPS: [f64; 4] = [1.0, 0.4, 0.15, 0.05];
-/// Steps of one number one way, at most.
-const MOST_STEPS: usize = 12;
+const STEPS: [f64; 3] = [1.0, 0.4, 0.15];
+/// Steps of one number one way that change nothing, at most.
+const MOST_STEPS: u32 = 12;
+/// Steps that are looked at even where the first ones are worse, of scopes with so few numbers.
+const ACROSS: u32 = 4;
+const FEW: usize = 3;
+/// Intervals, and gaps between them, that last no longer are none, s.
+const SLIVER: f64 = 0.3;
+/// Rounds in which the numbers of a scope are moved while something remains.
+const ROUNDS: usize = 2;
+/// Moves of one number one way, at most.
+const MOST_MOVES: usize = 30;
+/// Half the width of the parabola by which a number is moved at last, in the same shares, round by round.
+const HALF_WIDTHS: [f64; 3] = [0.1, 0.02, 0.004];
 
 impl Search<'_> {
-    /// The fit with the first effect of the library that says the same in the same scope.
-    pub(super) fn named_first(&self, base: &Fit, own: &Applied, fit: Fit, weighed: &[ScoreTest]) -> Result<Fit> {
-        let Some(scope) = &own.effect.scope else { return Ok(fit) };
-        let mut rivals: Vec<Applied> = vec![];
-        for promise in weighed.iter().map(|p| &p.applied).filter(|a| place(a) < place(own)) {
-            if promise.values.len() == own.values.len() && !rivals.iter().any(|r| r.same_as(promise)) {
-                rivals.push(Applied { effect: promise.effect.within(scope.clone()), ..promise.clone() });
+    /// The effects that may hold where one holds; `None` where it holds always.
+    pub(super) fn library_within(&self, own: &Applied) -> Option<Vec<Effect>> {
+        let scope = own.effect.scope.as_ref()?;
+        let stateless = self.library.iter().filter(|e| e.states.is_empty() && e.scope.is_none());
+        Some(stateless.map(|e| e.within(scope.clone())).collect())
+    }
+
+    /// The fit with the effect that explains most in the same scope; of those that say the same the first of the library.
+    pub(super) fn named_in_scope(&self, base: &Fit, own: &Applied, fit: &Fit) -> Result<Fit> {
+        let Some(within) = self.library_within(own) else { return Ok(fit.clone()) };
+        let beside = Search { library: &within, ..*self };
+        let mut fits = vec![(own.clone(), fit.clone())];
+        for (other, rough) in beside.in_place_of(fit, own)?.into_iter().take(RIVALS) {
+            let Some(full) = self.refit(&rough)? else { continue };
+            let is_sound = find(&full.model, &other).is_some_and(|a| is_possible(&a) && !vanishes(&a));
+            if is_sound && !self.problem.predicts_worse(&full, base)? {
+                fits.push((other, full));
             }
         }
-        rivals.sort_by_key(place);
-        for rival in rivals {
-            let model = base.model.clone().with_effect(rival);
-            let other = self.problem.fit(&model, &fit.window_states, &fit.variances, Effort::FULL)?;
-            let n = fit.sample_size;
-            if let Some(other) = other.filter(|o| rounded(bic(o, n)) <= rounded(bic(&fit, n)) + SAME) {
-                return Ok(other);
+        let n = fits.iter().map(|(_, f)| f.sample_size).fold(0.0, f64::max);
+        let worth = |f: &Fit| rounded(bic(f, n));
+        let best = fits.iter().map(|(_, f)| worth(f)).fold(f64::INFINITY, f64::min);
+        let same = fits.into_iter().filter(|(_, f)| worth(f) <= best + SAME);
+        Ok(same.min_by_key(|(a, _)| (a.values.len(), place(a))).map_or_else(|| fit.clone(), |(_, f)| f))
+    }
+
+    /// The fit with the numbers of an effect's scope moved to where they explain most. What an edge in the wrong place leaves
+    /// is taken for noise, and hides the right one: while something remains they are moved again, unless the rest is large
+    /// and has another cause.
+    pub(super) fn with_scope_at_best(&self, base: &Fit, fit: Fit, own: &Applied) -> Result<Fit> {
+        if own.effect.scope.as_ref().is_none_or(|s| s.movable().is_empty()) {
+            return Ok(fit);
+        }
+        let mut best = fit;
+        for _ in 0..ROUNDS {
+            let moved = self.with_scope_moved(&best, own)?;
+            best = self.refit(&moved)?.unwrap_or(moved);
+            if explains_most(&best, base) {
+                best = self.with_scope_settled(best, own)?;
+            }
+            if !remains(&best) || !explains_most(&best, base) {
+                break;
+            }
+        }
+        self.without_slivers(best, own)
+    }
+
+    /// The fit with intervals of a scope that touch made one, and those of no length left out, where that explains as much.
+    fn without_slivers(&self, fit: Fit, own: &Applied) -> Result<Fit> {
+        let Some(mut simpler) = find(&fit.model, own) else { return Ok(fit) };
+        let Some(scope) = simpler.effect.scope.as_ref().and_then(|s| s.without_slivers(SLIVER)) else { return Ok(fit) };
+        simpler.effect.scope = Some(scope);
+        let Some(other) = self.fit_instead(&fit, &fit.model.clone().with_effect(simpler))? else { return Ok(fit) };
+        let n = fit.sample_size.max(other.sample_size);
+        Ok(if bic(&other, n) < bic(&fit, n) { other } else { fit })
+    }
+
+    /// The fit with the numbers of an effect's scope moved one after another, by ever smaller steps, at its variances.
+    fn with_scope_moved(&self, fit: &Fit, of: &Applied) -> Result<Fit> {
+        let begun = self.problem.fit(&fit.model, &fit.window_states, &fit.variances, Effort::SCREENING)?;
+        let Some(mut best) = begun else { return Ok(fit.clone()) };
+        let Some(scope) = find(&best.model, of).and_then(|a| a.effect.scope) else { return Ok(best) };
+        // The deviance has valleys beside one another: the few numbers of a simple scope are moved across.
+        let across = if scope.movable().len() <= FEW { ACROSS } else { 1 };
+        for share in STEPS {
+            for k in 0..scope.movable().len() {
+                for sign in [1.0, -1.0] {
+                    for _ in 0..MOST_MOVES {
+                        let Some(better) = self.further(&best, of, k, sign * share, across)? else { break };
+                        best = better;
+                    }
+                }
+            }
+        }
+        Ok(best)
+    }
+
+    /// The fit with one number of a scope some steps further, where that is better. Where a vehicle stands still, or hardly
+    /// does what the effect acts on, steps change little or nothing, and what is better lies `across`.
+    fn further(&self, best: &Fit, of: &Applied, k: usize, step: f64, across: u32) -> Result<Option<Fit>> {
+        for steps in 1..=MOST_STEPS {
+            let Some(there) = self.beside(best, of, k, f64::from(steps) * step)? else { break };
+            if there.deviance < best.deviance - QUICK.enough {
+                return Ok(Some(there));
+            }
+            if steps >= across && there.deviance > best.deviance + QUICK.enough {
+                break;
+            }
+        }
+        Ok(None)
+    }
+
+    /// The fit with every number of a scope moved to the vertex of a parabola through three deviances, and noise and jumps
+    /// of its own: an edge that is off by less than a row leaves jumps that a precise sensor sees.
+    fn with_scope_settled(&self, mut fit: Fit, of: &Applied) -> Result<Fit> {
+        for width in HALF_WIDTHS {
+            let Some(begin) = self.problem.fit(&fit.model, &fit.window_states, &fit.variances, QUICK)? else { break };
+            let numbers = find(&begin.model, of).and_then(|a| a.effect.scope).map_or(0, |s| s.movable().len());
+            let mut best = begin.clone();
+            for k in 0..numbers {
+                let beside = |by: f64| self.beside(&best, of, k, by);
+                let (Some(less), Some(more)) = (beside(-width)?, beside(width)?) else { continue };
+                let (slope, bend) =
+                    (more.deviance - less.deviance, more.deviance + less.deviance - 2.0 * best.deviance);
+                let vertex = (-0.5 * slope / bend).clamp(-1.0, 1.0);
+                let there = if bend > 0.0 { beside(vertex * width)? } else { None };
+                for fit in [less, more].into_iter().chain(there) {
+                    if fit.deviance < best.deviance {
+                        best = fit;
+                    }
+                }
+            }
+            let gained = begin.deviance - best.deviance;
+            if gained <= 0.0 {
+                continue;
+            }
+            match self.refit(&best)? {
+                Some(better) => fit = better,
+                None => break,
             }
         }
         Ok(fit)
     }
 
-    /// The fit with the numbers of an effect's scope moved one after another, by ever smaller steps, at its variances.
-    pub(super) fn with_scope_moved(&self, fit: &Fit, of: &Applied) -> Result<Fit> {
-        let mut best = self.problem.fit(&fit.model, &fit.window_states, &fit.variances, Effort::SCREENING)?;
-        for share in STEPS {
-            let Some(scope) = best.as_ref().and_then(|b| find(&b.model, of)).and_then(|a| a.effect.scope) else {
-                break;
-            };
-            for k in 0..scope.movable().len() {
-                for sign in [1.0, -1.0] {
-                    for _ in 0..MOST_STEPS {
-                        let Some(better) = self.moved(best.as_ref(), of, k, sign * share)? else { break };
-                        best = Some(better);
-                    }
-                }
-            }
-        }
-        Ok(best.unwrap_or_else(|| fit.clone()))
+    /// The fit with one number of a scope moved by a share of its own step, at the same variances.
+    fn beside(&self, fit: &Fit, of: &Applied, k: usize, by: f64) -> Result<Option<Fit>> {
+        self.varied(fit, of, k, by, QUICK)
     }
 
-    /// The fit with one number of a scope moved by a share of its own step, where that is better.
-    fn moved(&self, best: Option<&Fit>, of: &Applied, k: usize, by: f64) -> Result<Option<Fit>> {
-        let Some((best, mut own)) = best.and_then(|b| Some((b, find(&b.model, of)?))) else { return Ok(None) };
+    /// The same by some effort.
+    pub(super) fn varied(&self, fit: &Fit, of: &Applied, k: usize, by: f64, effort: Effort) -> Result<Option<Fit>> {
+        let Some(mut own) = find(&fit.model, of) else { return Ok(None) };
         let Some(scope) = own.effect.scope.clone() else { return Ok(None) };
         let mut numbers = scope.movable();
         let step = match &scope {
@@ -69,11 +172,10 @@ impl Search<'_> {
             Scope::Disk([.., radius]) => 0.2 * radius,
             _ => 0.2 * numbers[k].abs(),
         };
-        numbers[k] = ((numbers[k] + by * step) * 1e4).round() / 1e4;
+        numbers[k] = ((numbers[k] + by * step) * 1e5).round() / 1e5;
         let Some(scope) = scope.moved(&numbers) else { return Ok(None) };
         own.effect.scope = Some(scope);
-        let model = best.model.clone().with_effect(own);
-        let fit = self.problem.fit(&model, &best.window_states, &best.variances, QUICK)?;
-        Ok(fit.filter(|fit| fit.deviance < best.deviance - QUICK.enough))
+        let model = fit.model.clone().with_effect(own);
+        self.problem.fit(&model, &fit.window_states, &fit.variances, effort)
     }
 }

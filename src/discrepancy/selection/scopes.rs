@@ -1,16 +1,15 @@
 //! Effects that hold in part only, or move with time, asked for where what holds always does not explain the data.
 
 use super::candidates::{FINALISTS, place, rounded};
-use super::scope_proposals::{BORNE_OUT, BlockRows, Proposal, SHORTEST};
+use super::scope_proposals::{BORNE_OUT, SHORTEST};
+use super::scope_screen::Proposed;
 use super::search::{Search, SearchState, find, first_of};
 use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
 use crate::discrepancy::estimation::fit::{Effort, Fit};
-use crate::discrepancy::estimation::unexplained::{is_wanted, remains};
+use crate::discrepancy::estimation::unexplained::{explains_most, is_wanted, remains};
 use crate::discrepancy::evidence::heterogeneity::{RunValue, spreads};
 use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
-use crate::discrepancy::evidence::scope_scan::{BlockScores, Blocks};
 use crate::discrepancy::evidence::score_test::{self, ScoreTest, ScoreTests};
-use crate::discrepancy::shooting::window_integration::linearise;
 use crate::effects::{Applied, Effect, Scope};
 use crate::error::Result;
 use crate::model::effect_equation::is_term;
@@ -19,24 +18,16 @@ use rayon::prelude::*;
 
 /// Effects with a scope or a course at most.
 const MOST: usize = 2;
-/// What an effect in part leaves of the variance of what is unexplained, at most, where it leaves anything.
-const LEFT: f64 = 0.04;
 /// Effects that always hold, added beside one in part, at most.
 const BESIDE: usize = 2;
-/// Proposals that are linearised with gates of their own, at most.
-const SHORTLIST: usize = 16;
-/// Effects of which the blocks are weighed by one linearisation.
-const TOGETHER: usize = 8;
-/// Scopes that are tried for each block and effect, about.
-const TRIED_PER_BLOCK: usize = 10;
-/// Of these so many are fitted.
-const TRIED: usize = 2 * FINALISTS;
-/// And of one kind of scope so many.
-const OF_A_KIND: usize = 2;
-/// Runs whose first rows lie within so many seconds of one another have one clock.
-const ONE_CLOCK: f64 = 1.0;
-/// Times beyond this are stamps, and what moves with time is told from the first row on, s.
-const STAMP: f64 = 1e4;
+/// Scopes as proposed that are fitted, at most.
+const TRIED: usize = 4 * FINALISTS;
+/// Of these so many of one kind of scope, and of one effect in that kind.
+const OF_A_KIND: usize = 4;
+const OF_AN_EFFECT: usize = 2;
+/// So many scopes are refined, and so many of one kind, of different effects.
+const REFINED: usize = 5;
+const OF_A_KIND_REFINED: usize = 2;
 
 /// The search with scopes and courses beside the effects that always hold; `None` unless one of them earns its place.
 ///
@@ -55,7 +46,7 @@ pub(crate) fn search(selection: &Search, named: &SearchState, progress: &OnProgr
     for start in starts {
         let Some(found) = selection.with_scopes(start, progress)? else { continue };
         let n = named.fit.sample_size.max(found.fit.sample_size);
-        let gains = delta_bic(&found.fit, &named.fit, n) > 0.0 && explains(&found.fit, selection.before);
+        let gains = delta_bic(&found.fit, &named.fit, n) > 0.0 && explains_most(&found.fit, selection.before);
         if gains && bic(&found.fit, n) < bic(&named.fit, n) - selection.margin() {
             return Ok(Some(SearchState { candidates: named.candidates.clone(), ..found }));
         }
@@ -63,28 +54,9 @@ pub(crate) fn search(selection: &Search, named: &SearchState, progress: &OnProgr
     Ok(None)
 }
 
-/// Whether a fit leaves nothing, or far less than another: beside a large rest a scope may imitate whatever is there.
-fn explains(fit: &Fit, than: &Fit) -> bool {
-    let left = |fit: &Fit| fit.variances.process().iter().map(|c| c.variance).collect::<Vec<f64>>();
-    let (now, before) = (left(fit), left(than));
-    let worst = |c: usize| before[c] * than.unexplained[c];
-    let most = (0..before.len()).max_by(|a, b| worst(*a).total_cmp(&worst(*b)));
-    !remains(fit) || most.is_some_and(|c| now[c] < LEFT * before[c])
-}
-
 /// Whether an effect holds in part only, or moves with time.
 pub(crate) fn is_partial(effect: &Applied) -> bool {
     effect.effect.scope.is_some() || effect.effect.course.is_some()
-}
-
-/// What an effect in part is sought among.
-struct Proposed {
-    /// Effects within scopes.
-    scoped: Vec<(Effect, Option<usize>)>,
-    /// Effects with their first parameter moving, with their second one, and so on.
-    moving: Vec<Vec<(Effect, Option<usize>)>>,
-    /// How many scopes were tried.
-    tried: f64,
 }
 
 impl Search<'_> {
@@ -104,8 +76,10 @@ impl Search<'_> {
             if is_second && remains(&more.fit) {
                 break;
             }
+            // Where the first leaves most of what was there, no second one leaves nothing.
+            let is_all = !remains(&more.fit) || !explains_most(&more.fit, &found.fit);
             found = SearchState { steps: trail, refused: more.refused, fit: more.fit, ..found };
-            if !remains(&found.fit) {
+            if is_all {
                 break;
             }
         }
@@ -130,38 +104,43 @@ impl Search<'_> {
         let cost = |a: &Applied| (a.values.len() + a.effect.scope.as_ref().map_or(0, |s| s.cost())) as f64 * n.ln();
         let worth = |p: &ScoreTest| rounded(p.deviance + cost(&p.applied));
         weighed.sort_by(|a, b| worth(a).total_cmp(&worth(b)).then(place(&a.applied).cmp(&place(&b.applied))));
-        let fits = of_each_kind(&weighed)
-            .into_par_iter()
-            .map(|promise| self.in_part(base, promise, margin))
-            .collect::<Result<Vec<_>>>()?;
-        let mut fits: Vec<(Applied, Fit)> = fits.into_iter().flatten().collect();
-        let n = fits.iter().map(|(_, f)| f.sample_size).fold(n, f64::max);
-        fits.sort_by(|(a, f), (b, g)| rounded(bic(f, n)).total_cmp(&rounded(bic(g, n))).then(place(a).cmp(&place(b))));
-        let worse = |fit: &Fit| self.problem.predicts_worse(fit, base);
+        let rough = of_each_kind(&weighed).into_par_iter().map(|promise| self.rough(base, promise, margin));
+        let mut rough: Vec<(Applied, Fit)> = rough.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
+        by_evidence(&mut rough, n);
+        let finalists = best_of_each_kind(rough).into_par_iter().map(|(own, fit)| self.refined(base, own, fit, margin));
+        let mut fits: Vec<(Applied, Fit)> = finalists.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
+        by_evidence(&mut fits, n);
         for (own, fit) in fits {
-            if !worse(&fit)? {
-                let fit = self.named_first(base, &own, fit, &weighed)?;
-                let label = partial(&fit).last().map_or_else(|| own.label(), Applied::label);
-                return Ok(Some((label, fit)));
+            if !self.problem.predicts_worse(&fit, base)? {
+                return Ok(Some((own.label(), fit)));
             }
         }
         Ok(None)
     }
 
-    /// The fit with an effect in part, the numbers of its scope moved to where they explain most; `None` where it is not
-    /// worth what it costs.
-    fn in_part(&self, base: &Fit, promise: &ScoreTest, margin: f64) -> Result<Option<(Applied, Fit)>> {
-        let rough = score_test::settled(self.problem, base, &base.model, &[promise], Effort::SCREENING)?;
-        let Some(mut fit) = rough.map(|rough| self.refit(&rough)).transpose()?.flatten() else { return Ok(None) };
-        let n = base.sample_size.max(fit.sample_size);
-        if bic(&fit, n) + margin >= bic(base, n) {
-            return Ok(None);
+    /// The fit with an effect in part, its scope as proposed, at the noise and jumps of the model without it; `None` where it
+    /// is not worth what it costs.
+    fn rough(&self, base: &Fit, promise: &ScoreTest, margin: f64) -> Result<Option<(Applied, Fit)>> {
+        let fit = score_test::settled(self.problem, base, &base.model, &[promise], Effort::SCREENING)?;
+        let n = base.sample_size;
+        let fit = fit.filter(|fit| bic(fit, n) + margin < bic(base, n));
+        Ok(fit.and_then(|fit| Some((find(&fit.model, &promise.applied)?, fit))))
+    }
+
+    /// The fit with an effect in part, the numbers of its scope moved to where they explain most, and the effect that
+    /// explains most there in its place; `None` where it is not worth what it costs.
+    fn refined(&self, base: &Fit, own: Applied, fit: Fit, margin: f64) -> Result<Option<(Applied, Fit)>> {
+        let Some(fit) = self.refit(&fit)? else { return Ok(None) };
+        let mut fit = self.with_scope_at_best(base, fit, &own)?;
+        let mut renamed = own;
+        // Beside a large rest there is nothing to tell names apart by.
+        if explains_most(&fit, base) {
+            let named = self.named_in_scope(base, &renamed, &fit)?;
+            let Some(other) = partial(&named).last().cloned() else { return Ok(None) };
+            fit = if other.same_as(&renamed) { named } else { self.with_scope_at_best(base, named, &other)? };
+            renamed = other;
         }
-        if promise.applied.effect.scope.as_ref().is_some_and(|s| !s.movable().is_empty()) {
-            let moved = self.with_scope_moved(&fit, &promise.applied)?;
-            fit = self.refit(&moved)?.unwrap_or(moved);
-        }
-        let Some(own) = find(&fit.model, &promise.applied) else { return Ok(None) };
+        let Some(own) = find(&fit.model, &renamed) else { return Ok(None) };
         if own.effect.scope.as_ref().is_some_and(|s| !self.lasts(s)) || !moves_alike(&fit, &own) {
             return Ok(None);
         }
@@ -177,75 +156,6 @@ impl Search<'_> {
         let inside = records.flat_map(|[a, b]| intervals.iter().map(move |[from, until]| until.min(b) - from.max(a)));
         inside.filter(|s| *s > 0.0).sum::<f64>() >= SHORTEST
     }
-
-    /// Effects with the scopes and courses by which they promise most.
-    fn proposed(&self, base: &Fit) -> Result<Proposed> {
-        let model = &base.model;
-        let open: Vec<(&Effect, Option<usize>)> = model
-            .applicable(self.library)
-            .into_iter()
-            .filter(|(e, t)| score_test::is_regular(e, model, *t) && e.scope.is_none())
-            .collect();
-        let blocks = Blocks::of_plan(&self.problem.plan);
-        let rows = BlockRows::of(self.problem, model, &blocks)?;
-        let groups: Vec<&[(&Effect, Option<usize>)]> = open.chunks(TOGETHER).collect();
-        let of_group = |group: &&[(&Effect, Option<usize>)]| self.scopes_of(base, group, &blocks, &rows);
-        let all: Vec<Vec<(Effect, Option<usize>, Proposal)>> =
-            groups.par_iter().map(of_group).collect::<Result<_>>()?;
-        let mut all: Vec<(Effect, Option<usize>, Proposal)> = all.into_iter().flatten().collect();
-        let n = base.sample_size;
-        let worth = |(e, _, p): &(Effect, Option<usize>, Proposal)| {
-            p.gain - (e.parameters.len() + p.scope.cost()) as f64 * n.ln() - 2.0 * (p.of as f64).ln()
-        };
-        all.retain(|one| worth(one) > 0.0);
-        all.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
-        let tried = (open.len() * blocks.count * TRIED_PER_BLOCK).max(1) as f64;
-        let scoped = all.into_iter().take(SHORTLIST).map(|(e, t, p)| (e.within(p.scope), t)).collect();
-        let first = self.problem.records.first().map_or(0.0, |r| r.time[0]);
-        let since = if first.abs() > STAMP { first } else { 0.0 };
-        // A course is one of a single clock: runs have one where they begin at one time.
-        let begin = self.problem.records.iter().map(|r| r.time[0]);
-        let is_one_clock = begin.into_iter().all(|t| (t - first).abs() < ONE_CLOCK);
-        let most = open.iter().filter(|_| is_one_clock).map(|(e, _)| e.parameters.len()).max().unwrap_or(0);
-        let nth = |i: usize| {
-            let one = |(e, t): &(&Effect, Option<usize>)| Some((e.drifting(e.parameters.keys().nth(i)?, since)?, *t));
-            open.iter().filter_map(one).collect()
-        };
-        Ok(Proposed { scoped, moving: (0..most).map(nth).collect(), tried })
-    }
-
-    /// The scopes of some effects, from one linearisation of all.
-    fn scopes_of(
-        &self,
-        base: &Fit,
-        group: &[(&Effect, Option<usize>)],
-        blocks: &Blocks,
-        rows: &BlockRows,
-    ) -> Result<Vec<(Effect, Option<usize>, Proposal)>> {
-        let begun = |(e, t): &(&Effect, Option<usize>)| {
-            let start = e.starts().swap_remove(0);
-            Applied::new(e, *t, start).freed()
-        };
-        let added: Vec<Applied> = group.iter().map(begun).collect();
-        let joint = added.iter().cloned().fold(base.model.clone(), crate::model::Model::with_effect);
-        let free = joint.free_parameters();
-        let equations = joint.equations(&free)?;
-        let problem = self.problem;
-        let linear = linearise(&equations, &joint.free_values(), &problem.records, &problem.plan, &base.window_states);
-        let Some(linear) = linear else { return Ok(vec![]) };
-        let position = |s: &crate::formula::Symbol| free.iter().position(|f| f == s);
-        let columns = |a: &Applied| a.parameters().iter().filter_map(position).collect::<Vec<usize>>();
-        let kept: Vec<usize> = base.model.free_effects().flat_map(columns).collect();
-        let mut found = vec![];
-        for ((effect, trailer), applied) in group.iter().zip(&added) {
-            let own = columns(applied);
-            let scores = BlockScores::of(&linear, blocks, &base.variances, free.len(), &kept, &own);
-            let Some(scores) = scores else { continue };
-            let proposals = rows.proposals(&scores).into_iter();
-            found.extend(proposals.map(|p| ((*effect).clone(), *trailer, p)));
-        }
-        Ok(found)
-    }
 }
 
 /// Whether more than one run bears out that a parameter moves, and none that it moves the other way, where there are
@@ -259,16 +169,59 @@ fn moves_alike(fit: &Fit, effect: &Applied) -> bool {
     each.values.iter().filter(bears_out).count() > 1 && each.is_along(effect.values[rate])
 }
 
-/// The most promising candidates, a few of each kind of scope.
+/// The most promising candidates, a few of each kind of scope, and of each effect.
 fn of_each_kind(weighed: &[ScoreTest]) -> Vec<&ScoreTest> {
     let mut found: Vec<&ScoreTest> = vec![];
     for promise in weighed {
-        let alike = |a: &&&ScoreTest| match (&a.applied.effect.scope, &promise.applied.effect.scope) {
-            (Some(a), Some(b)) => a.is_like(b),
-            (a, b) => a.is_none() == b.is_none(),
+        let alike = |a: &&&ScoreTest| is_like(&a.applied, &promise.applied);
+        // Two names of one law explain the same in one scope: the one to be named is found among all in that scope.
+        let is_same = |a: &&ScoreTest| {
+            a.applied.effect.scope == promise.applied.effect.scope && rounded(a.deviance) == rounded(promise.deviance)
         };
-        if found.len() < TRIED && found.iter().filter(alike).count() < OF_A_KIND {
+        let own = |a: &&&ScoreTest| alike(a) && a.applied.same_as(&promise.applied);
+        let few = found.iter().filter(alike).count() < OF_A_KIND && found.iter().filter(own).count() < OF_AN_EFFECT;
+        if found.len() < TRIED && few && !found.iter().any(is_same) {
             found.push(promise);
+        }
+    }
+    found
+}
+
+/// Whether two effects have scopes of one kind, or none.
+fn is_like(a: &Applied, b: &Applied) -> bool {
+    match (&a.effect.scope, &b.effect.scope) {
+        (Some(a), Some(b)) => a.is_like(b),
+        (a, b) => a.is_none() == b.is_none(),
+    }
+}
+
+/// In the order of their evidence; of identical ones the first of the library comes first.
+fn by_evidence(fits: &mut [(Applied, Fit)], n: f64) {
+    let n = fits.iter().map(|(_, f)| f.sample_size).fold(n, f64::max);
+    fits.sort_by(|(a, f), (b, g)| rounded(bic(f, n)).total_cmp(&rounded(bic(g, n))).then(place(a).cmp(&place(b))));
+}
+
+/// Whether the data tell what an effect in part is held by, as a limit is: one of fewer deviations than these is not told.
+const TOLD: f64 = 2.0;
+
+/// Whether every positive parameter of an effect in part that is not its size stands out of its deviation.
+pub(crate) fn are_limits_told(fit: &Fit) -> bool {
+    partial(fit).all(|effect| {
+        let (first, size) = (first_of(fit, effect), effect.effect.amplitude());
+        let parameters = effect.effect.parameters.values().zip(&effect.values).enumerate();
+        let mut limits = parameters.filter(|(i, (p, _))| p.positive && size.is_some_and(|s| s != *i));
+        limits.all(|(i, (_, value))| fit.variance(first + i).is_some_and(|v| *value > TOLD * v.sqrt()))
+    })
+}
+
+/// Of ordered fits the first of each kind of scope, with the first of another effect.
+fn best_of_each_kind(fits: Vec<(Applied, Fit)>) -> Vec<(Applied, Fit)> {
+    let mut found: Vec<(Applied, Fit)> = vec![];
+    for (own, fit) in fits {
+        let alike = |(a, _): &&(Applied, Fit)| is_like(a, &own);
+        let is_other = !found.iter().filter(alike).any(|(a, _)| a.same_as(&own));
+        if found.len() < REFINED && found.iter().filter(alike).count() < OF_A_KIND_REFINED && is_other {
+            found.push((own, fit));
         }
     }
     found

@@ -51,9 +51,10 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &O
     let selection = Search::over(problem, &before, &quick);
     let named = transients::search(&selection, library, selection.grown(&before, progress)?)?;
     let grown = match scopes::search(&selection, &named, progress)? {
-        Some(partial) if !remains(&partial.fit) => partial,
+        Some(partial) if !remains(&partial.fit) && scopes::are_limits_told(&partial.fit) => partial,
         partial => {
-            // What holds in part and leaves a rest may imitate a law: the one that explains the data better stands.
+            // What holds in part and leaves a rest, or has a limit that the data do not tell, may imitate a law: the one
+            // that explains the data better stands.
             let law = unnamed_terms::search(&selection, &named, &[], progress)?;
             let n = named.fit.sample_size;
             let all = [law, partial].into_iter().flatten();
@@ -140,11 +141,13 @@ impl Search<'_> {
         Ok(self.problem.chance_gains(without, applied, DRAWS, 0)?.p_value(gain))
     }
 
-    /// Effects that explain the data as well in the place of a chosen one.
+    /// Effects that explain the data as well in the place of a chosen one, where and when that holds.
     fn rivals(&self, fit: &Fit, chosen: &Applied) -> Result<Vec<Applied>> {
+        let within = self.library_within(chosen);
+        let search = Search { library: within.as_deref().unwrap_or(self.library), ..*self };
         let n = fit.sample_size;
         let behind = |f: &Fit| (bic(f, n) - bic(fit, n)) / fit.variance_inflation();
-        let near = self.in_place_of(fit, chosen)?.into_iter().filter(|(_, f)| behind(f) < 4.0 * CLOSE);
+        let near = search.in_place_of(fit, chosen)?.into_iter().filter(|(_, f)| behind(f) < 4.0 * CLOSE);
         let mut found = Vec::new();
         for (applied, rough) in near.take(4 * FINALISTS) {
             let full = self.refit(&rough)?.unwrap_or(rough);

@@ -1,0 +1,169 @@
+//! Effects screened for scopes: where each would gain if it held in part, from one linearisation of several.
+//!
+//! What an effect gains block by block is a score test where the effect vanishes. Some vanish where a parameter of theirs
+//! means nothing (a slope of no steepness has no direction: Davies, 1977), so they are weighed at several values of it.
+
+use super::scope_proposals::{BlockRows, Proposal};
+use super::search::Search;
+use crate::discrepancy::estimation::fit::Fit;
+use crate::discrepancy::evidence::scope_scan::{BlockScores, Blocks};
+use crate::discrepancy::evidence::score_test;
+use crate::discrepancy::shooting::window_integration::linearise;
+use crate::effects::{Applied, Effect};
+use crate::error::Result;
+use rayon::prelude::*;
+
+/// Proposals that are linearised with gates of their own, at most.
+const SHORTLIST: usize = 24;
+/// And of one effect so many.
+const OF_AN_EFFECT: usize = 4;
+/// Effects of which the blocks are weighed by one linearisation.
+const TOGETHER: usize = 8;
+/// Scopes that are tried for each block and effect, about.
+const TRIED_PER_BLOCK: usize = 10;
+/// Runs whose first rows lie within so many seconds of one another have one clock.
+const ONE_CLOCK: f64 = 1.0;
+/// Times beyond this are stamps, and what moves with time is told from the first row on, s.
+const STAMP: f64 = 1e4;
+
+/// What an effect in part is sought among.
+pub(super) struct Proposed {
+    /// Effects within scopes.
+    pub scoped: Vec<(Effect, Option<usize>)>,
+    /// Effects with their first parameter moving, with their second one, and so on.
+    pub moving: Vec<Vec<(Effect, Option<usize>)>>,
+    /// How many scopes were tried.
+    pub tried: f64,
+}
+
+/// An effect where it vanishes, and which of its parameters are weighed there.
+struct Vanishing {
+    applied: Applied,
+    weighed: Vec<usize>,
+}
+
+impl Vanishing {
+    /// Of a regular effect at its first start; of another at each, with the parameter at zero that gives its size.
+    fn all_of(effect: &Effect, trailer: Option<usize>, is_regular: bool) -> Vec<Self> {
+        let starts = effect.starts().into_iter();
+        let at = |values: Vec<f64>| Applied::new(effect, trailer, values).freed();
+        if is_regular {
+            let weighed = (0..effect.parameters.len()).collect::<Vec<_>>();
+            return starts.take(1).map(|s| Self { applied: at(s), weighed: weighed.clone() }).collect();
+        }
+        let Some(size) = effect.amplitude() else { return vec![] };
+        let mut found: Vec<Self> = vec![];
+        for mut start in starts {
+            start[size] = 0.0;
+            if !found.iter().any(|f| f.applied.values == start) {
+                found.push(Self { applied: at(start), weighed: vec![size] });
+            }
+        }
+        found
+    }
+}
+
+impl Search<'_> {
+    /// The effects that may hold in part: without states, and not in the model yet.
+    pub(super) fn scopable(&self, base: &Fit) -> Vec<(&Effect, Option<usize>)> {
+        let known = |e: &Effect, t: Option<usize>| base.model.effects.iter().any(|a| a.stands_for(e, t));
+        let all = base.model.applicable(self.library).into_iter();
+        all.filter(|(e, t)| e.states.is_empty() && e.scope.is_none() && !known(e, *t)).collect()
+    }
+
+    /// Effects with the scopes and courses by which they promise most.
+    pub(super) fn proposed(&self, base: &Fit) -> Result<Proposed> {
+        let open = self.scopable(base);
+        let blocks = Blocks::of_plan(&self.problem.plan);
+        let rows = BlockRows::of(self.problem, &base.model, &blocks)?;
+        let is_regular = |e: &Effect, t: Option<usize>| score_test::is_regular(e, &base.model, t);
+        let vanishing = |(e, t): &(&Effect, Option<usize>)| Vanishing::all_of(e, *t, score_test::vanishes_first(e));
+        let all_of: Vec<Vec<Vanishing>> = open.iter().map(vanishing).collect();
+        let groups = in_groups(all_of);
+        let of_group = |group: &Vec<Vanishing>| self.scopes_of(base, group, &blocks, &rows);
+        let all: Vec<Vec<(Applied, Proposal)>> = groups.par_iter().map(of_group).collect::<Result<_>>()?;
+        let mut all: Vec<(Applied, Proposal)> = all.into_iter().flatten().collect();
+        let n = base.sample_size;
+        let worth = |(a, p): &(Applied, Proposal)| {
+            p.gain - (a.values.len() + p.scope.cost()) as f64 * n.ln() - 2.0 * (p.of as f64).ln()
+        };
+        all.retain(|one| worth(one) > 0.0);
+        all.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
+        let mut kept: Vec<(Applied, Proposal)> = vec![];
+        for (a, p) in all {
+            if kept.iter().any(|(k, q)| k.same_as(&a) && q.scope == p.scope) {
+                continue;
+            }
+            if kept.iter().filter(|(k, _)| k.same_as(&a)).count() < OF_AN_EFFECT && kept.len() < SHORTLIST {
+                kept.push((a, p));
+            }
+        }
+        let regular: Vec<(&Effect, Option<usize>)> = open.into_iter().filter(|(e, t)| is_regular(e, *t)).collect();
+        let tried = (regular.len() * blocks.count * TRIED_PER_BLOCK).max(1) as f64;
+        let scoped = kept.into_iter().map(|(a, p)| (a.effect.within(p.scope), a.trailer)).collect();
+        let first = self.problem.records.first().map_or(0.0, |r| r.time[0]);
+        let since = if first.abs() > STAMP { first } else { 0.0 };
+        // A course is one of a single clock: runs have one where they begin at one time.
+        let begin = self.problem.records.iter().map(|r| r.time[0]);
+        let is_one_clock = begin.into_iter().all(|t| (t - first).abs() < ONE_CLOCK);
+        let most = regular.iter().filter(|_| is_one_clock).map(|(e, _)| e.parameters.len()).max().unwrap_or(0);
+        let nth = |i: usize| {
+            let one = |(e, t): &(&Effect, Option<usize>)| Some((e.drifting(e.parameters.keys().nth(i)?, since)?, *t));
+            regular.iter().filter_map(one).collect()
+        };
+        Ok(Proposed { scoped, moving: (0..most).map(nth).collect(), tried })
+    }
+
+    /// The scopes of some effects, from one linearisation of all.
+    fn scopes_of(
+        &self,
+        base: &Fit,
+        group: &[Vanishing],
+        blocks: &Blocks,
+        rows: &BlockRows,
+    ) -> Result<Vec<(Applied, Proposal)>> {
+        let added = group.iter().map(|v| v.applied.clone());
+        let joint = added.fold(base.model.clone(), crate::model::Model::with_effect);
+        let free = joint.free_parameters();
+        let equations = joint.equations(&free)?;
+        let problem = self.problem;
+        let linear = linearise(&equations, &joint.free_values(), &problem.records, &problem.plan, &base.window_states);
+        let Some(linear) = linear else { return Ok(vec![]) };
+        let position = |s: &crate::formula::Symbol| free.iter().position(|f| f == s);
+        let columns = |a: &Applied| a.parameters().iter().filter_map(position).collect::<Vec<usize>>();
+        let kept: Vec<usize> = base.model.free_effects().flat_map(columns).collect();
+        let mut found = vec![];
+        for Vanishing { applied, weighed } in group {
+            let all = columns(applied);
+            let own: Vec<usize> = weighed.iter().filter_map(|i| all.get(*i).copied()).collect();
+            let scores = BlockScores::of(&linear, blocks, &base.variances, free.len(), &kept, &own);
+            let Some(scores) = scores else { continue };
+            found.extend(rows.proposals(&scores).into_iter().map(|p| (applied.clone(), p)));
+        }
+        Ok(found)
+    }
+}
+
+/// In groups that share a linearisation: an effect at one value alone, and a user's own by itself, for it may be
+/// undefined somewhere.
+fn in_groups(all: Vec<Vec<Vanishing>>) -> Vec<Vec<Vanishing>> {
+    let most = all.iter().map(Vec::len).max().unwrap_or(0);
+    let mut by_start: Vec<Vec<Vanishing>> = (0..most).map(|_| vec![]).collect();
+    let mut alone = vec![];
+    for of_effect in all {
+        for (start, one) in of_effect.into_iter().enumerate() {
+            match one.applied.effect.origin {
+                Some(_) => alone.push(vec![one]),
+                None => by_start[start].push(one),
+            }
+        }
+    }
+    let mut groups = vec![];
+    for mut of_start in by_start {
+        while !of_start.is_empty() {
+            let rest = of_start.split_off(of_start.len().min(TOGETHER));
+            groups.push(std::mem::replace(&mut of_start, rest));
+        }
+    }
+    groups.into_iter().chain(alone).collect()
+}

@@ -5,7 +5,7 @@ use super::warning::Warning;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::record::sensor_noise::Noise;
 use crate::discrepancy::selection::choice::{GREW, Growth, Selected};
-use crate::discrepancy::selection::refute::HeldOut;
+use crate::discrepancy::selection::refute::JudgingRuns;
 use crate::discrepancy::shooting::rollout::PredictionError;
 use crate::error::Result;
 use crate::model::Model;
@@ -28,7 +28,7 @@ pub(crate) struct Judge<'a> {
     pub seed: u64,
 }
 
-impl HeldOut for Judge<'_> {
+impl JudgingRuns for Judge<'_> {
     fn are_fitted(&self) -> bool {
         self.are_fitted
     }

@@ -16,7 +16,7 @@ use crate::progress::OnProgress;
 const WEAK: f64 = 3.0;
 
 /// Runs that judge what was found.
-pub(crate) trait HeldOut {
+pub(crate) trait JudgingRuns {
     /// Whether they are those it was fitted to.
     fn are_fitted(&self) -> bool;
 
@@ -36,10 +36,10 @@ pub(crate) fn refute(
     problem: &Problem,
     library: &[Effect],
     choice: Selected,
-    held_out: &dyn HeldOut,
+    judge: &dyn JudgingRuns,
     progress: &OnProgress,
 ) -> Result<Selected> {
-    if !held_out.can_judge() {
+    if !judge.can_judge() {
         return Ok(choice);
     }
     let Selected {
@@ -56,7 +56,7 @@ pub(crate) fn refute(
     let quick = transients::without_transients(library);
     let search = Search::over(problem, &before, &quick);
     let mut grown = SearchState { fit: after, steps, candidates, refused: vec![] };
-    while let Some((applied, why, smaller)) = next(&search, &grown.fit, &chosen, held_out)? {
+    while let Some((applied, why, smaller)) = next(&search, &grown.fit, &chosen, judge)? {
         forget(&mut missed, &grown.fit, &applied);
         grown.go_back_to(smaller);
         refused.push(Refused::of(&chosen, applied, why));
@@ -74,20 +74,24 @@ fn next(
     search: &Search,
     fit: &Fit,
     chosen: &[SelectedEffect],
-    held_out: &dyn HeldOut,
+    judge: &dyn JudgingRuns,
 ) -> Result<Option<(Applied, Refusal, Fit)>> {
     let mut worst: Option<(f64, Applied, Refusal, Fit)> = None;
     for c in chosen {
         let Some(smaller) = search.without(fit, &c.applied)? else { continue };
-        let gaps = held_out.gaps(&fit.model, &smaller.model)?;
+        let gaps = judge.gaps(&fit.model, &smaller.model)?;
+        // On the runs fitted a name that makes any gap smaller does what it was found for.
+        if judge.are_fitted() && gaps.iter().any(Growth::shrinks) {
+            continue;
+        }
         let Some(growth) = most_grown(&gaps) else {
             let is_weak = !c.applied.effect.basic && c.delta_bic < WEAK * search.margin();
-            if is_weak && held_out.are_own_runs() && remains(fit) && !gaps.iter().any(Growth::shrinks) {
+            if is_weak && judge.are_own_runs() && remains(fit) && !gaps.iter().any(Growth::shrinks) {
                 return Ok(Some((c.applied.clone(), Refusal::NotBorneOut, smaller)));
             }
             continue;
         };
-        let refusal = if held_out.are_fitted() { Refusal::OwnRuns } else { Refusal::HeldOut };
+        let refusal = if judge.are_fitted() { Refusal::OwnRuns } else { Refusal::HeldOut };
         let (factor, why) = (growth.factor(), refusal(growth));
         if worst.as_ref().is_none_or(|(f, ..)| factor > *f) {
             worst = Some((factor, c.applied.clone(), why, smaller));
@@ -96,13 +100,13 @@ fn next(
     if let Some((_, applied, why, smaller)) = worst {
         return Ok(Some((applied, why, smaller)));
     }
-    if held_out.are_fitted() {
+    if judge.are_fitted() {
         return Ok(None);
     }
     // Where only all together make it grow, the one that is worth least goes.
     let least = chosen.iter().min_by(|a, b| a.delta_bic.total_cmp(&b.delta_bic));
     let Some(least) = least else { return Ok(None) };
-    let Some(growth) = most_grown(&held_out.gaps(&fit.model, &search.before.model)?) else { return Ok(None) };
+    let Some(growth) = most_grown(&judge.gaps(&fit.model, &search.before.model)?) else { return Ok(None) };
     let smaller = search.without(fit, &least.applied)?;
     Ok(smaller.map(|smaller| (least.applied.clone(), Refusal::HeldOutTogether(growth), smaller)))
 }

@@ -23,9 +23,10 @@ impl Search<'_> {
     }
 }
 
-/// Whether an effect builds up, and every value of it that is never negative is zero within its deviation.
+/// Whether every value of an effect that is never negative is zero within its deviation. Of one in part that builds up
+/// nothing the simpler one was asked in the same scope already.
 fn is_at_once(c: &SelectedEffect) -> bool {
-    if c.applied.effect.states.is_empty() {
+    if c.applied.effect.states.is_empty() && c.applied.effect.scope.is_some() {
         return false;
     }
     let parameters = c.applied.effect.parameters.values().zip(c.applied.values.iter().zip(&c.std));
@@ -49,7 +50,7 @@ fn limit(whole: &Applied, library: &[Effect]) -> Option<Applied> {
 mod tests {
     use super::*;
     use crate::discrepancy::fixtures::applied;
-    use crate::effects::all;
+    use crate::effects::{Scope, all};
 
     #[test]
     fn a_creep_that_builds_up_over_no_length_is_a_creep() {
@@ -64,7 +65,9 @@ mod tests {
             is_at_once(&SelectedEffect { applied, std, delta_bic: 9.0, p_value: 0.0, rivals: vec![] })
         };
         assert!(of(0.117, whole.clone()) && !of(0.001, whole) && !of(9.0, applied("traverse-creep")));
-        // A creep that no limit holds is another one: where the limit is not known it is not zero.
-        assert!(!of(9.0, Applied { values: vec![0.1, 0.05], ..applied("saturating-creep") }));
+        // Where a limit is not told the creep without one is asked in its place; in a scope that was asked before.
+        let limited = Applied { values: vec![0.1, 0.05], ..applied("saturating-creep") };
+        let within = limited.effect.within(Scope::Above(1.0));
+        assert!(of(9.0, limited.clone()) && !of(9.0, Applied { effect: within.into(), ..limited }));
     }
 }

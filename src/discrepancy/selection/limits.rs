@@ -68,6 +68,6 @@ mod tests {
         // Where a limit is not told the creep without one is asked in its place; in a scope that was asked before.
         let limited = Applied { values: vec![0.1, 0.05], ..applied("saturating-creep") };
         let within = limited.effect.within(Scope::Above(1.0));
-        assert!(of(9.0, limited.clone()) && !of(9.0, Applied { effect: within.into(), ..limited }));
+        assert!(of(9.0, limited.clone()) && !of(9.0, Applied { effect: within, ..limited }));
     }
 }

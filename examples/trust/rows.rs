@@ -33,8 +33,8 @@ fn power_text(case: &Case) -> [String; 2] {
 pub fn cases(outcomes: &[Outcome]) -> String {
     let mut text = String::from(
         "seed,kind,vehicle,drive,duration_s,rate_hz,rows,position_m,heading_rad,interval_mean,jitter,dropouts,gaps,\
-         outliers,noise_told,hidden,from_s,until_s,determined,visible_chi2,nearest_rival,verdict,named,scopes,right,excused,unnamed,\
-         gap_1s_over_floor,gap_5s_over_floor,gap_5s_before_over_floor\n",
+         outliers,noise_told,hidden,from_s,until_s,determined,visible_chi2,nearest_rival,verdict,named,scopes,right,\
+         excused,unnamed,gap_1s_over_floor,gap_5s_over_floor,gap_5s_before_over_floor\n",
     );
     outcomes.iter().for_each(|o| text += &case_row(o));
     text

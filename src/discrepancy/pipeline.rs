@@ -31,7 +31,7 @@ use super::request::{Request, common_roles, horizons};
 use super::selection::choice::{Selected, SelectedEffect};
 use super::selection::odd_run::{is_sought, odd_runs};
 use super::selection::other_vehicle::in_its_place;
-use super::selection::refute::refute;
+use super::selection::refute::{Judging, refute};
 use super::selection::search::first_of;
 use super::selection::select::choose;
 use crate::effects::Applied;
@@ -100,24 +100,10 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
     };
     begin(progress, Stage::HeldOut)?;
     let horizons = horizons(request);
-    let fitted = Judge {
-        records: &data.fitted,
-        are_fitted: true,
-        are_own_runs: false,
-        horizons: &horizons,
-        noise: selected.after.noise(),
-        seed: request.seed,
-    };
-    let selected = refute(&problem, request.library, selected, &fitted, progress)?;
-    let judge = Judge {
-        records: &data.held_out,
-        are_fitted: false,
-        are_own_runs: !request.held_out.is_empty(),
-        horizons: &horizons,
-        noise: selected.after.noise(),
-        seed: request.seed,
-    };
-    let selected = refute(&problem, request.library, selected, &judge, progress)?;
+    let held_out = if request.held_out.is_empty() { Judging::HeldOutEnds } else { Judging::HeldOutRuns };
+    let judge = |records, which| Judge { records, which, horizons: &horizons, seed: request.seed };
+    let [fitted, held_out] = [judge(&data.fitted, Judging::Fitted), judge(&data.held_out, held_out)];
+    let selected = refute(&problem, request.library, selected, &[&fitted, &held_out], progress)?;
     let (selected, other) = in_its_place(&problem, request.library, selected, progress)?;
     let noise = selected.after.noise();
     let before = problem.violations(&model, &noise)?;

@@ -2,6 +2,7 @@
 
 use super::{Course, RandomWalk, Scope};
 use crate::formula::{Expr, Symbol};
+use crate::mechanism::{Definitions, Sample};
 use crate::provenance::Origin;
 use crate::vehicles::Moves;
 use serde::Deserialize;
@@ -262,18 +263,14 @@ impl Effect {
     /// assert_eq!(effects::named("lever-arm").unwrap().amplitude(), None);
     /// ```
     pub fn amplitude(&self) -> Option<usize> {
-        self.parameters.keys().position(|zero| (0..POINTS).all(|point| self.vanishes_at(zero, point)))
-    }
-
-    /// Whether no change of its changes anything at a point where one of its parameters is zero.
-    fn vanishes_at(&self, zero: &str, point: u32) -> bool {
-        let scattered = |name: &str| {
-            let sum: u32 = name.bytes().fold(7 + point, |sum, b| sum.wrapping_mul(31).wrapping_add(b.into()));
-            0.2 + f64::from(sum % 997) / 997.0
+        let samples: Vec<Sample> = (0..POINTS).filter_map(|k| Sample::of(&Definitions::default(), k)).collect();
+        let vanishes = |zero: &String| {
+            let without = |f: &Expr| f.substitute(&|s| (s.as_str() == zero).then(|| Expr::int(0)));
+            let rest: Vec<Expr> = self.changes.values().map(|f| &without(f) - &Expr::sym("it")).collect();
+            let is_zero = |s: &Sample, e: &Expr| s.value(e).is_some_and(|v| v.abs() < 1e-12);
+            samples.iter().all(|s| rest.iter().all(|e| is_zero(s, e)))
         };
-        let value = |s: &Symbol| if s.as_str() == zero { 0.0 } else { scattered(s.as_str()) };
-        let it = scattered("it");
-        self.changes.values().all(|f| f.eval(&value).is_some_and(|v| (v - it).abs() < 1e-12))
+        self.parameters.keys().position(vanishes)
     }
 
     /// All combinations of the parameters' starting values.

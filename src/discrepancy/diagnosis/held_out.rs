@@ -5,7 +5,7 @@ use super::warning::Warning;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::record::sensor_noise::Noise;
 use crate::discrepancy::selection::choice::{GREW, Growth, Selected};
-use crate::discrepancy::selection::refute::JudgingRuns;
+use crate::discrepancy::selection::refute::{Judging, JudgingRuns};
 use crate::discrepancy::shooting::rollout::PredictionError;
 use crate::error::Result;
 use crate::model::Model;
@@ -19,18 +19,14 @@ pub(crate) fn refuted(selected: &Selected) -> impl Iterator<Item = Warning> {
 /// Runs that judge models.
 pub(crate) struct Judge<'a> {
     pub records: &'a [Record],
-    /// Whether they are those fitted.
-    pub are_fitted: bool,
-    /// Whether they are drives of their own, and not the ends of those fitted.
-    pub are_own_runs: bool,
+    pub which: Judging,
     pub horizons: &'a [f64],
-    pub noise: Noise,
     pub seed: u64,
 }
 
 impl JudgingRuns for Judge<'_> {
-    fn are_fitted(&self) -> bool {
-        self.are_fitted
+    fn which(&self) -> Judging {
+        self.which
     }
 
     /// Without a heading each window's start is fitted to it by either model, and the gaps are not of one start.
@@ -38,11 +34,7 @@ impl JudgingRuns for Judge<'_> {
         !self.records.is_empty() && self.records.iter().all(|r| r.has_heading())
     }
 
-    fn are_own_runs(&self) -> bool {
-        self.are_own_runs
-    }
-
-    fn gaps(&self, with: &Model, without: &Model) -> Result<Vec<Growth>> {
+    fn gaps(&self, [with, without]: [&Model; 2], noise: &Noise) -> Result<Vec<Growth>> {
         let [with, without] = [Rollouts::new(with, self.records)?, Rollouts::new(without, self.records)?];
         let mut found = vec![];
         for &horizon_s in self.horizons.iter().filter(|h| with.windows(**h) >= FEWEST_WINDOWS) {
@@ -54,8 +46,7 @@ impl JudgingRuns for Judge<'_> {
             };
             // The floor is asked where something grows; no gap is beyond one that is not a number.
             let grows = [Some(position), heading].into_iter().flatten().any(|[before, after]| after > GREW * before);
-            let floor =
-                if grows { with.floors(&[horizon_s], &self.noise, self.seed)[0] } else { PredictionError::default() };
+            let floor = if grows { with.floors(&[horizon_s], noise, self.seed)[0] } else { PredictionError::default() };
             found.push(Growth { horizon_s, of_heading: false, gap: position, floor: floor.position_rms() });
             found.extend(heading.map(|gap| {
                 let floor = floor.heading_rms().unwrap_or(f64::NAN);

@@ -43,7 +43,7 @@ pub fn says(refused: &Refused, roles: &[String]) -> String {
             format!("held-out runs are predicted no better with {label}, and something remains, so that is not named")
         }
         Refusal::OtherVehicle => format!("another vehicle explains what {label} was found for, so that is not named"),
-        Refusal::OwnRuns(growth) => {
+        Refusal::FittedRuns(growth) => {
             format!("the runs that {label} was fitted to refute it: {}", grows(growth, "it"))
         }
         Refusal::HeldOut(growth) => format!("held-out runs refute {label}: {}", grows(growth, "it")),
@@ -89,7 +89,7 @@ mod tests {
             "held-out runs refute traverse-creep: their heading gap after 5 s grows with it from 0.0100 to 0.0500 rad"
         );
         assert_eq!(
-            said(Refusal::OwnRuns(growth)),
+            said(Refusal::FittedRuns(growth)),
             "the runs that traverse-creep was fitted to refute it: their heading gap after 5 s grows with it from 0.0100 to \
              0.0500 rad"
         );

@@ -57,7 +57,7 @@ pub enum Refusal {
     /// Another vehicle explains the data.
     OtherVehicle,
     /// The runs it was fitted to are predicted worse with it over some seconds, and over none better.
-    OwnRuns(Growth),
+    FittedRuns(Growth),
     /// Held-out runs are predicted worse with it.
     HeldOut(Growth),
     /// Held-out runs are predicted worse with all that was found, and it is worth least of that.

@@ -1,10 +1,11 @@
-//! What held-out runs refute, or those fitted by their own gaps: taken out of a choice after the last of it was made.
+//! What runs refute, those fitted by their own gaps and held-out ones: taken out of a choice after the last of it was made.
 
 use super::search::{Search, SearchState, forget};
 use super::transients;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::estimation::unexplained::remains;
+use crate::discrepancy::record::sensor_noise::Noise;
 use crate::discrepancy::selection::choice::{Growth, Refusal, Refused, Selected, SelectedEffect};
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
@@ -15,33 +16,38 @@ use crate::progress::OnProgress;
 /// runs of their own: it may imitate a part of the rest.
 const WEAK: f64 = 3.0;
 
+/// Which runs judge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Judging {
+    /// Those that were fitted.
+    Fitted,
+    /// The ends of those fitted, which were not.
+    HeldOutEnds,
+    /// Drives of their own.
+    HeldOutRuns,
+}
+
 /// Runs that judge what was found.
 pub(crate) trait JudgingRuns {
-    /// Whether they are those it was fitted to.
-    fn are_fitted(&self) -> bool;
+    /// Which they are.
+    fn which(&self) -> Judging;
 
     /// Whether there are runs that can judge.
     fn can_judge(&self) -> bool;
 
-    /// Whether they are drives of their own.
-    fn are_own_runs(&self) -> bool;
-
-    /// The gaps of position and heading with the first of two models in the place of the second.
-    fn gaps(&self, with: &Model, without: &Model) -> Result<Vec<Growth>>;
+    /// The gaps of position and heading with the first of two models in the place of the second, beside noise.
+    fn gaps(&self, models: [&Model; 2], noise: &Noise) -> Result<Vec<Growth>>;
 }
 
-/// Takes out of a choice what held-out runs, or the runs fitted, are predicted worse with, an effect beside all others or what was found as a
-/// whole.
+/// Takes out of a choice what runs are predicted worse with, an effect beside all others or what was found as a whole; one
+/// judge is asked after the other.
 pub(crate) fn refute(
     problem: &Problem,
     library: &[Effect],
     choice: Selected,
-    judge: &dyn JudgingRuns,
+    judges: &[&dyn JudgingRuns],
     progress: &OnProgress,
 ) -> Result<Selected> {
-    if !judge.can_judge() {
-        return Ok(choice);
-    }
     let Selected {
         before,
         after,
@@ -56,59 +62,91 @@ pub(crate) fn refute(
     let quick = transients::without_transients(library);
     let search = Search::over(problem, &before, &quick);
     let mut grown = SearchState { fit: after, steps, candidates, refused: vec![] };
-    while let Some((applied, why, smaller)) = next(&search, &grown.fit, &chosen, judge)? {
-        forget(&mut missed, &grown.fit, &applied);
-        grown.go_back_to(smaller);
-        refused.push(Refused::of(&chosen, applied, why));
-        // What is left of the others stands or falls anew.
-        let standing = search.keep_standing(&mut grown, None, missed, progress)?;
-        (chosen, missed) = (standing.chosen, standing.missed);
-        refused.extend(standing.refused);
+    let judges: Vec<_> = judges.iter().filter(|j| j.can_judge()).collect();
+    let mut without = if judges.is_empty() { vec![] } else { search.without_each(&grown.fit, &chosen)? };
+    for judge in judges {
+        let noise = grown.fit.noise();
+        while let Some((applied, why, smaller)) = search.refuted(&grown.fit, &chosen, &without, *judge, &noise)? {
+            forget(&mut missed, &grown.fit, &applied);
+            grown.go_back_to(smaller);
+            refused.push(Refused::of(&chosen, applied, why));
+            // What is left of the others stands or falls anew.
+            let standing = search.keep_standing(&mut grown, None, missed, progress)?;
+            (chosen, missed) = (standing.chosen, standing.missed);
+            refused.extend(standing.refused);
+            without = search.without_each(&grown.fit, &chosen)?;
+        }
     }
     let SearchState { fit: after, steps, candidates, .. } = grown;
     Ok(Selected { before, after, chosen, steps, candidates, inconsistent, sampling_sensitive, refused, missed })
 }
 
-/// The next effect to be taken out, why, and the fit without it.
-fn next(
-    search: &Search,
-    fit: &Fit,
-    chosen: &[SelectedEffect],
-    judge: &dyn JudgingRuns,
-) -> Result<Option<(Applied, Refusal, Fit)>> {
-    let mut worst: Option<(f64, Applied, Refusal, Fit)> = None;
-    for c in chosen {
-        let Some(smaller) = search.without(fit, &c.applied)? else { continue };
-        let gaps = judge.gaps(&fit.model, &smaller.model)?;
-        // On the runs fitted a name that makes any gap smaller does what it was found for.
-        if judge.are_fitted() && gaps.iter().any(Growth::shrinks) {
-            continue;
-        }
-        let Some(growth) = most_grown(&gaps) else {
-            let is_weak = !c.applied.effect.basic && c.delta_bic < WEAK * search.margin();
-            if is_weak && judge.are_own_runs() && remains(fit) && !gaps.iter().any(Growth::shrinks) {
-                return Ok(Some((c.applied.clone(), Refusal::NotBorneOut, smaller)));
+impl Search<'_> {
+    /// The fit without each of the chosen effects.
+    fn without_each(&self, fit: &Fit, chosen: &[SelectedEffect]) -> Result<Vec<Option<Fit>>> {
+        chosen.iter().map(|c| self.without(fit, &c.applied)).collect()
+    }
+
+    /// The next effect that runs refute, why, and the fit without it.
+    fn refuted(
+        &self,
+        fit: &Fit,
+        chosen: &[SelectedEffect],
+        without: &[Option<Fit>],
+        judge: &dyn JudgingRuns,
+        noise: &Noise,
+    ) -> Result<Option<(Applied, Refusal, Fit)>> {
+        let mut worst: Option<(Growth, &SelectedEffect, &Fit)> = None;
+        for (c, smaller) in chosen.iter().zip(without) {
+            let Some(smaller) = smaller else { continue };
+            let gaps = judge.gaps([&fit.model, &smaller.model], noise)?;
+            let Some(growth) = refuting(judge.which(), &gaps) else {
+                let is_weak = !c.applied.effect.basic && c.delta_bic < WEAK * self.margin();
+                if is_weak && judge.which() == Judging::HeldOutRuns && remains(fit) && !helps(&gaps) {
+                    return Ok(Some((c.applied.clone(), Refusal::NotBorneOut, smaller.clone())));
+                }
+                continue;
+            };
+            if worst.as_ref().is_none_or(|(most, ..)| growth.factor() > most.factor()) {
+                worst = Some((growth, c, smaller));
             }
-            continue;
+        }
+        let why = match judge.which() {
+            Judging::Fitted => Refusal::FittedRuns,
+            Judging::HeldOutEnds | Judging::HeldOutRuns => Refusal::HeldOut,
         };
-        let refusal = if judge.are_fitted() { Refusal::OwnRuns } else { Refusal::HeldOut };
-        let (factor, why) = (growth.factor(), refusal(growth));
-        if worst.as_ref().is_none_or(|(f, ..)| factor > *f) {
-            worst = Some((factor, c.applied.clone(), why, smaller));
+        match worst {
+            Some((growth, c, smaller)) => Ok(Some((c.applied.clone(), why(growth), smaller.clone()))),
+            None if judge.which() == Judging::Fitted => Ok(None),
+            None => self.refuted_together(fit, chosen, without, judge, noise),
         }
     }
-    if let Some((_, applied, why, smaller)) = worst {
-        return Ok(Some((applied, why, smaller)));
+
+    /// Where only all together make a gap grow, the effect that is worth least, and the fit without it.
+    fn refuted_together(
+        &self,
+        fit: &Fit,
+        chosen: &[SelectedEffect],
+        without: &[Option<Fit>],
+        judge: &dyn JudgingRuns,
+        noise: &Noise,
+    ) -> Result<Option<(Applied, Refusal, Fit)>> {
+        let all = chosen.iter().zip(without);
+        let least = all.min_by(|(a, _), (b, _)| a.delta_bic.total_cmp(&b.delta_bic));
+        let Some((least, Some(smaller))) = least else { return Ok(None) };
+        let growth = most_grown(&judge.gaps([&fit.model, &self.before.model], noise)?);
+        Ok(growth.map(|growth| (least.applied.clone(), Refusal::HeldOutTogether(growth), smaller.clone())))
     }
-    if judge.are_fitted() {
-        return Ok(None);
-    }
-    // Where only all together make it grow, the one that is worth least goes.
-    let least = chosen.iter().min_by(|a, b| a.delta_bic.total_cmp(&b.delta_bic));
-    let Some(least) = least else { return Ok(None) };
-    let Some(growth) = most_grown(&judge.gaps(&fit.model, &search.before.model)?) else { return Ok(None) };
-    let smaller = search.without(fit, &least.applied)?;
-    Ok(smaller.map(|smaller| (least.applied.clone(), Refusal::HeldOutTogether(growth), smaller)))
+}
+
+/// Whether any gap shrinks.
+fn helps(gaps: &[Growth]) -> bool {
+    gaps.iter().any(Growth::shrinks)
+}
+
+/// The gap by which runs refute an effect. On the runs fitted an effect that makes any gap smaller does what it was found for.
+fn refuting(which: Judging, gaps: &[Growth]) -> Option<Growth> {
+    most_grown(gaps).filter(|_| which != Judging::Fitted || !helps(gaps))
 }
 
 /// The gap that grows most, of those that do: what shrinks the gap of the same quantity at another horizon is not refuted.
@@ -131,6 +169,11 @@ mod tests {
         let shrunk = gap([0.1, 0.05], 0.01);
         assert_eq!(most_grown(&[grown[0], grown[1], shrunk]), None);
         assert!(most_grown(&[grown[0], Growth { of_heading: true, ..shrunk }]).is_some());
+        // The runs fitted do not refute what makes their other gap smaller.
+        let heading = Growth { of_heading: true, ..grown[1] };
+        assert!(refuting(Judging::HeldOutRuns, &[heading, shrunk]).is_some());
+        assert_eq!(refuting(Judging::Fitted, &[heading, shrunk]), None);
+        assert_eq!(refuting(Judging::Fitted, &[heading, grown[0]]), Some(heading));
         assert!(gap([0.1, 0.08], 0.01).shrinks() && !gap([0.1, 0.095], 0.01).shrinks());
     }
 }

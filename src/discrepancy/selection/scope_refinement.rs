@@ -1,6 +1,8 @@
-//! The scope of an effect refined: its numbers moved by a coordinate search, its name the first that says the same.
+//! The scope of an effect refined: its numbers moved by a coordinate search (Hooke and Jeeves, 1961) and at last by parabolas,
+//! its name that of the effect which explains most there.
 
 use super::candidates::{place, rounded};
+use super::scope_screen::may_hold_in_part;
 use super::search::{Search, find};
 use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
 use crate::discrepancy::estimation::fit::{Effort, Fit};
@@ -36,8 +38,7 @@ impl Search<'_> {
     /// The effects that may hold where one holds; `None` where it holds always.
     pub(super) fn library_within(&self, own: &Applied) -> Option<Vec<Effect>> {
         let scope = own.effect.scope.as_ref()?;
-        let stateless = self.library.iter().filter(|e| e.states.is_empty() && e.scope.is_none());
-        Some(stateless.map(|e| e.within(scope.clone())).collect())
+        Some(self.library.iter().filter(|e| may_hold_in_part(e)).map(|e| e.within(scope.clone())).collect())
     }
 
     /// The fit with the effect that explains most in the same scope; of those that say the same the first of the library.

@@ -37,6 +37,7 @@ pub(super) struct Proposed {
 }
 
 /// An effect where it vanishes, and which of its parameters are weighed there.
+#[derive(Clone)]
 struct Vanishing {
     applied: Applied,
     weighed: Vec<usize>,
@@ -44,10 +45,10 @@ struct Vanishing {
 
 impl Vanishing {
     /// Of a regular effect at its first start; of another at each, with the parameter at zero that gives its size.
-    fn all_of(effect: &Effect, trailer: Option<usize>, is_regular: bool) -> Vec<Self> {
+    fn all_of(effect: &Effect, trailer: Option<usize>) -> Vec<Self> {
         let starts = effect.starts().into_iter();
         let at = |values: Vec<f64>| Applied::new(effect, trailer, values).freed();
-        if is_regular {
+        if score_test::vanishes_first(effect) {
             let weighed = (0..effect.parameters.len()).collect::<Vec<_>>();
             return starts.take(1).map(|s| Self { applied: at(s), weighed: weighed.clone() }).collect();
         }
@@ -64,23 +65,34 @@ impl Vanishing {
 }
 
 impl Search<'_> {
-    /// The effects that may hold in part: without states, and not in the model yet.
-    pub(super) fn scopable(&self, base: &Fit) -> Vec<(&Effect, Option<usize>)> {
+    /// The effects that may hold in part and are not in the model yet.
+    fn scopable(&self, base: &Fit) -> Vec<(&Effect, Option<usize>)> {
         let known = |e: &Effect, t: Option<usize>| base.model.effects.iter().any(|a| a.stands_for(e, t));
         let all = base.model.applicable(self.library).into_iter();
-        all.filter(|(e, t)| e.states.is_empty() && e.scope.is_none() && !known(e, *t)).collect()
+        all.filter(|(e, t)| may_hold_in_part(e) && !known(e, *t)).collect()
     }
 
     /// Effects with the scopes and courses by which they promise most.
     pub(super) fn proposed(&self, base: &Fit) -> Result<Proposed> {
         let open = self.scopable(base);
         let blocks = Blocks::of_plan(&self.problem.plan);
-        let rows = BlockRows::of(self.problem, &base.model, &blocks)?;
-        let is_regular = |e: &Effect, t: Option<usize>| score_test::is_regular(e, &base.model, t);
-        let vanishing = |(e, t): &(&Effect, Option<usize>)| Vanishing::all_of(e, *t, score_test::vanishes_first(e));
-        let all_of: Vec<Vec<Vanishing>> = open.iter().map(vanishing).collect();
-        let groups = in_groups(all_of);
-        let of_group = |group: &Vec<Vanishing>| self.scopes_of(base, group, &blocks, &rows);
+        let scoped = self.shortlisted(base, &open, &blocks)?;
+        let is_regular = |(e, t): &(&Effect, Option<usize>)| score_test::is_regular(e, &base.model, *t);
+        let regular: Vec<(&Effect, Option<usize>)> = open.into_iter().filter(is_regular).collect();
+        let tried = (regular.len() * blocks.count * TRIED_PER_BLOCK).max(1) as f64;
+        Ok(Proposed { scoped, moving: self.moving(&regular), tried })
+    }
+
+    /// Effects within the scopes by which they promise most, a few of each effect.
+    fn shortlisted(
+        &self,
+        base: &Fit,
+        open: &[(&Effect, Option<usize>)],
+        blocks: &Blocks,
+    ) -> Result<Vec<(Effect, Option<usize>)>> {
+        let rows = BlockRows::of(self.problem, &base.model, blocks)?;
+        let groups = in_groups(open.iter().map(|(e, t)| Vanishing::all_of(e, *t)));
+        let of_group = |group: &Vec<Vanishing>| self.scopes_of(base, group, blocks, &rows);
         let all: Vec<Vec<(Applied, Proposal)>> = groups.par_iter().map(of_group).collect::<Result<_>>()?;
         let mut all: Vec<(Applied, Proposal)> = all.into_iter().flatten().collect();
         let n = base.sample_size;
@@ -91,27 +103,27 @@ impl Search<'_> {
         all.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
         let mut kept: Vec<(Applied, Proposal)> = vec![];
         for (a, p) in all {
-            if kept.iter().any(|(k, q)| k.same_as(&a) && q.scope == p.scope) {
-                continue;
-            }
-            if kept.iter().filter(|(k, _)| k.same_as(&a)).count() < OF_AN_EFFECT && kept.len() < SHORTLIST {
+            let own = || kept.iter().filter(|(k, _)| k.same_as(&a));
+            let is_new = !own().any(|(_, q)| q.scope == p.scope);
+            if is_new && own().count() < OF_AN_EFFECT && kept.len() < SHORTLIST {
                 kept.push((a, p));
             }
         }
-        let regular: Vec<(&Effect, Option<usize>)> = open.into_iter().filter(|(e, t)| is_regular(e, *t)).collect();
-        let tried = (regular.len() * blocks.count * TRIED_PER_BLOCK).max(1) as f64;
-        let scoped = kept.into_iter().map(|(a, p)| (a.effect.within(p.scope), a.trailer)).collect();
+        Ok(kept.into_iter().map(|(a, p)| (a.effect.within(p.scope), a.trailer)).collect())
+    }
+
+    /// Effects with their first parameter moving, with their second one, and so on; none where runs begin at several times,
+    /// for a course is one of a single clock.
+    fn moving(&self, regular: &[(&Effect, Option<usize>)]) -> Vec<Vec<(Effect, Option<usize>)>> {
         let first = self.problem.records.first().map_or(0.0, |r| r.time[0]);
         let since = if first.abs() > STAMP { first } else { 0.0 };
-        // A course is one of a single clock: runs have one where they begin at one time.
-        let begin = self.problem.records.iter().map(|r| r.time[0]);
-        let is_one_clock = begin.into_iter().all(|t| (t - first).abs() < ONE_CLOCK);
+        let is_one_clock = self.problem.records.iter().all(|r| (r.time[0] - first).abs() < ONE_CLOCK);
         let most = regular.iter().filter(|_| is_one_clock).map(|(e, _)| e.parameters.len()).max().unwrap_or(0);
         let nth = |i: usize| {
             let one = |(e, t): &(&Effect, Option<usize>)| Some((e.drifting(e.parameters.keys().nth(i)?, since)?, *t));
             regular.iter().filter_map(one).collect()
         };
-        Ok(Proposed { scoped, moving: (0..most).map(nth).collect(), tried })
+        (0..most).map(nth).collect()
     }
 
     /// The scopes of some effects, from one linearisation of all.
@@ -144,26 +156,24 @@ impl Search<'_> {
     }
 }
 
-/// In groups that share a linearisation: an effect at one value alone, and a user's own by itself, for it may be
-/// undefined somewhere.
-fn in_groups(all: Vec<Vec<Vanishing>>) -> Vec<Vec<Vanishing>> {
-    let most = all.iter().map(Vec::len).max().unwrap_or(0);
-    let mut by_start: Vec<Vec<Vanishing>> = (0..most).map(|_| vec![]).collect();
+/// Whether an effect may hold in part: one without states, which always holds so far.
+pub(super) fn may_hold_in_part(effect: &Effect) -> bool {
+    effect.states.is_empty() && effect.scope.is_none()
+}
+
+/// In groups that share a linearisation, each effect at one value: a user's own by itself, for it may be undefined
+/// somewhere.
+fn in_groups(all: impl Iterator<Item = Vec<Vanishing>>) -> Vec<Vec<Vanishing>> {
+    let mut by_start: Vec<Vec<Vanishing>> = vec![];
     let mut alone = vec![];
-    for of_effect in all {
-        for (start, one) in of_effect.into_iter().enumerate() {
-            match one.applied.effect.origin {
-                Some(_) => alone.push(vec![one]),
-                None => by_start[start].push(one),
-            }
+    for (start, one) in all.flat_map(|of_effect| of_effect.into_iter().enumerate()) {
+        if one.applied.effect.origin.is_some() {
+            alone.push(vec![one]);
+            continue;
         }
+        by_start.resize(by_start.len().max(start + 1), vec![]);
+        by_start[start].push(one);
     }
-    let mut groups = vec![];
-    for mut of_start in by_start {
-        while !of_start.is_empty() {
-            let rest = of_start.split_off(of_start.len().min(TOGETHER));
-            groups.push(std::mem::replace(&mut of_start, rest));
-        }
-    }
-    groups.into_iter().chain(alone).collect()
+    let together = by_start.iter().flat_map(|of_start| of_start.chunks(TOGETHER)).map(<[_]>::to_vec);
+    together.chain(alone).collect()
 }

@@ -62,6 +62,7 @@ pub fn fit_of(model: Model) -> Fit {
         sample_size: 1000.0,
         unexplained: vec![0.0; 3],
         residual_correlation_time: 1.0,
+        value_correlation_times: vec![],
         noise_correlation_time: 1.0,
         initial_state_dof: 0.0,
     }

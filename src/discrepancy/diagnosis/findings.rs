@@ -111,7 +111,8 @@ pub(crate) fn per_run(
 pub(crate) fn covariance(fit: &Fit) -> Option<Covariance> {
     let c = fit.covariance.as_ref().filter(|c| !c.is_empty())?;
     let of = |a: &Applied| a.effect.parameters.keys().map(|p| format!("{} {p}", a.label())).collect::<Vec<_>>();
-    let rows = c.row_iter().map(|row| row.iter().map(|v| v * fit.variance_inflation()).collect());
+    let row = |i: usize| (0..c.ncols()).filter_map(|j| fit.covariance_of(i, j)).collect();
+    let rows = (0..c.nrows()).map(row);
     Some(Covariance { names: fit.model.free_effects().flat_map(of).collect(), matrix: rows.collect() })
 }
 

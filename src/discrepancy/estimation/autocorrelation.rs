@@ -51,18 +51,21 @@ pub fn integrated_correlation(series: &[Vec<f64>]) -> f64 {
     1.0 + 2.0 * sum
 }
 
-/// The integrated correlation of what a fit leaves unexplained, each kind of jump by the deviance it is worth.
-pub fn of_what_remains(linear: &[Vec<LinearisedWindow>], unexplained: &[f64]) -> f64 {
-    let kinds = || (0..unexplained.len()).filter(|c| unexplained[*c] > NOTICEABLE);
-    let weight: f64 = kinds().map(|c| unexplained[c]).sum();
-    if weight <= 0.0 {
-        return 1.0;
-    }
+/// The integrated correlation of each kind of jump that a fit needs; 1 of those that it does not need.
+pub fn of_each_kind(linear: &[Vec<LinearisedWindow>], unexplained: &[f64]) -> Vec<f64> {
     let rates = |c: usize| -> Vec<Vec<f64>> {
         let of_window = |w: &LinearisedWindow| w.mismatch.get(c).map(|m| m / w.duration.sqrt());
         linear.iter().map(|segment| segment.iter().filter_map(of_window).collect()).collect()
     };
-    kinds().map(|c| unexplained[c] * integrated_correlation(&rates(c))).sum::<f64>() / weight
+    let of = |(c, worth): (usize, &f64)| if *worth > NOTICEABLE { integrated_correlation(&rates(c)) } else { 1.0 };
+    unexplained.iter().enumerate().map(of).collect()
+}
+
+/// The integrated correlation of what a fit leaves unexplained, each kind of jump by the deviance it is worth.
+pub fn of_what_remains(each: &[f64], unexplained: &[f64]) -> f64 {
+    let noticeable = || each.iter().zip(unexplained).filter(|(_, worth)| **worth > NOTICEABLE);
+    let weight: f64 = noticeable().map(|(_, worth)| worth).sum();
+    if weight > 0.0 { noticeable().map(|(tau, worth)| tau * worth).sum::<f64>() / weight } else { 1.0 }
 }
 
 /// Probability that white noise is taken for coloured, at each scale.

@@ -9,6 +9,9 @@ const MANY: usize = 2;
 /// What a fit leaves of the variance of what another leaves unexplained, at most, where it explains most of it.
 const LEFT: f64 = 0.04;
 
+/// What is left of a variance that is explained by half.
+const HALF: f64 = 0.5;
+
 /// Whether motion remains that a fit does not explain.
 pub fn remains(fit: &Fit) -> bool {
     remaining(fit).next().is_some()
@@ -27,10 +30,20 @@ pub(crate) fn is_wanted(named: &Fit) -> bool {
     remains(named) || named.model.free_effects().count() >= MANY
 }
 
+/// The variances of a fit's jumps beyond those that the noise of its inputs is known to make.
+fn beyond_known(fit: &Fit) -> Vec<f64> {
+    fit.variances.process().iter().map(|c| (c.variance - c.known).max(0.0)).collect()
+}
+
+/// Whether a fit leaves nothing, or at some constraint less than half of the variance of what another leaves there.
+pub(crate) fn explains_half(fit: &Fit, than: &Fit) -> bool {
+    let [now, before] = [fit, than].map(beyond_known);
+    !remains(fit) || remaining(than).any(|c| now[c] < HALF * before[c])
+}
+
 /// Whether a fit leaves nothing, or far less than another: beside a large rest a scope may imitate whatever is there.
 pub(crate) fn explains_most(fit: &Fit, than: &Fit) -> bool {
-    let left = |fit: &Fit| fit.variances.process().iter().map(|c| c.variance).collect::<Vec<f64>>();
-    let (now, before) = (left(fit), left(than));
+    let [now, before] = [fit, than].map(beyond_known);
     let worst = |c: usize| before[c] * than.unexplained[c];
     let most = (0..before.len()).max_by(|a, b| worst(*a).total_cmp(&worst(*b)));
     !remains(fit) || most.is_some_and(|c| now[c] < LEFT * before[c])
@@ -39,7 +52,25 @@ pub(crate) fn explains_most(fit: &Fit, than: &Fit) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::discrepancy::fixtures::{fit_of, unicycle};
+    use crate::discrepancy::fixtures::{fit_of, noise_of, unicycle};
+
+    /// Half of what another left at one constraint, beyond what the noise of the inputs makes.
+    #[test]
+    fn half_is_explained_where_one_constraint_is() {
+        let of = |variances: [f64; 3], unexplained: [f64; 3], known: f64| Fit {
+            unexplained: unexplained.to_vec(),
+            variances: noise_of(0, [1e-6; 2], &variances).knowing([0.0, 0.0, known]),
+            ..fit_of(unicycle(&[]))
+        };
+        let before = of([1e-6, 1e-4, 1e-4], [0.0, 90.0, 900.0], 0.0);
+        let left = |across: f64, yaw: f64| explains_half(&of([1e-6, across, yaw], [0.0, 90.0, 900.0], 0.0), &before);
+        assert!(left(1e-4, 4e-5) && left(4e-5, 1e-4) && !left(6e-5, 6e-5));
+        // Of a rest there was nothing at the first constraint.
+        assert!(!explains_half(&of([1e-9, 1e-4, 1e-4], [0.0, 90.0, 900.0], 0.0), &before));
+        assert!(explains_half(&of([1e-6, 1e-4, 1e-4], [0.0; 3], 0.0), &before));
+        let noisy = |yaw: f64| of([1e-6, 1e-4, yaw], [0.0, 0.0, 900.0], 9e-5);
+        assert!(explains_half(&noisy(9.4e-5), &noisy(1e-4)) && !explains_half(&noisy(9.6e-5), &noisy(1e-4)));
+    }
 
     /// Noise that is alike over rows makes jumps of nothing; jumps that are alike over windows are no less there.
     #[test]

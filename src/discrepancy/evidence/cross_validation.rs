@@ -81,7 +81,11 @@ impl Problem {
         let part = if self.records.len() >= FEWEST_PARTS { Part::Run } else { Part::Third };
         let [new, old] = [self.linear(fit)?, self.linear(than)?];
         let gained = self.gains([&in_units_of(fit, than), than], [&new, &old], part, Share::predicted);
-        Ok(gained.map(|g| Gains { total: total(&g), parts: counts(&g, SAME * than.variance_inflation()) }))
+        Ok(gained.map(|g| Gains {
+            total: total(&g),
+            parts: counts(&g, SAME * than.variance_inflation()),
+            count: g.len(),
+        }))
     }
 
     /// By how much of deviance a model whose values other parts give misses the parts less than another does: runs, or
@@ -148,9 +152,16 @@ pub(crate) struct Gains {
     pub total: f64,
     /// How many gain, and how many lose.
     pub parts: (usize, usize),
+    /// How many there are.
+    pub count: usize,
 }
 
 impl Gains {
+    /// Whether every part gains.
+    pub(crate) fn is_everywhere(&self) -> bool {
+        self.parts.0 == self.count
+    }
+
     /// Whether most parts, and all together, gain.
     pub(crate) fn is_gain(&self) -> bool {
         self.total > 0.0 && self.parts.0 > self.parts.1
@@ -369,9 +380,11 @@ mod tests {
     /// Most parts and all together.
     #[test]
     fn a_gain_is_one_of_most_parts() {
-        let gains = |total: f64, parts| Gains { total, parts }.is_gain();
+        let gains = |total: f64, parts| Gains { total, parts, count: 3 }.is_gain();
         assert!(gains(1.0, (2, 1)) && gains(1.0, (3, 0)));
         assert!(!gains(1.0, (1, 1)) && !gains(-1.0, (2, 1)) && !gains(1.0, (0, 0)));
+        let everywhere = |parts| Gains { total: 1.0, parts, count: 3 }.is_everywhere();
+        assert!(everywhere((3, 0)) && !everywhere((2, 0)) && !everywhere((2, 1)));
     }
 
     #[test]

@@ -71,14 +71,14 @@ pub(crate) fn spreads(fit: &Fit) -> Vec<Option<Spread>> {
         let p = fit.p.len();
         let covariance = inverse(&form.view((0, 0), (p, p)).into_owned())?;
         let values = -(&covariance * form.view((0, p), (p, 1)).column(0));
-        Some((values, covariance * fit.variance_inflation()))
+        Some((values, covariance))
     });
     let runs: Vec<_> = runs.enumerate().filter_map(|(run, told)| Some((run, told?))).collect();
     let of = |i: usize| {
         let each = runs.iter().map(|(run, (step, covariance))| RunValue {
             run: *run,
             value: fit.p[i] + step[i],
-            variance: covariance[(i, i)],
+            variance: covariance[(i, i)] * fit.inflation_of(i),
         });
         Spread::of(each.collect())
     };

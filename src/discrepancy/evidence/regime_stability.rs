@@ -4,9 +4,11 @@
 //! another value wherever the imitated thing is larger. The windows of one regime get a value of their own beside the
 //! common one, and the difference d is judged by its deviation:
 //!
-//! χ² = dᵀ·(τ·C)⁻¹·d, with the covariance C of d, all else free, and τ values that say what one independent value would.
+//! χ² = dᵀ·(τ·C + T)⁻¹·d, with the covariance C of d, all else free, τ values that say what one independent value would,
+//! and T what values that differ from run to run make of a regime that runs are driven in one by one.
 
 use super::cross_validation::Along;
+use super::heterogeneity::{Spread, spreads};
 use crate::discrepancy::estimation::elimination::eliminate;
 use crate::discrepancy::estimation::fit::{Fit, inverse};
 use crate::discrepancy::estimation::problem::Problem;
@@ -73,6 +75,8 @@ impl Problem {
         let linear = linearise(&equations, &fit.p, &self.records, &self.plan, &fit.window_states);
         let Some(linear) = linear else { return Ok(vec![]) };
         let regimes = self.regimes();
+        let apart = between_runs(fit);
+        let runs: Vec<usize> = self.plan.iter().map(|s| s.record).collect();
         let mut at = 0;
         let of_effect = |effect: &Applied| {
             let own = at..at + effect.values.len();
@@ -81,7 +85,12 @@ impl Problem {
             if is_term(effect) || effect.effect.scope.is_some() || effect.effect.walk.is_some() {
                 return None;
             }
-            let each = regimes.iter().filter_map(|(r, inside)| difference(fit, &linear, *r, inside, own.clone()));
+            let of_regime = |(r, inside): &(Regime, Inside)| {
+                let of_runs = imbalance(&runs, inside);
+                let apart: Vec<f64> = apart[own.clone()].iter().map(|variance| variance * of_runs).collect();
+                difference(fit, &linear, *r, inside, own.clone(), &apart)
+            };
+            let each = regimes.iter().filter_map(of_regime);
             Some((effect.clone(), each.collect()))
         };
         Ok(fit.model.free_effects().filter_map(of_effect).collect())
@@ -146,7 +155,32 @@ fn mean_inputs(record: &Record, rows: &Range<usize>) -> Vec<f64> {
     sum
 }
 
-fn difference(fit: &Fit, linear: &Along, regime: Regime, inside: &Inside, own: Range<usize>) -> Option<Difference> {
+/// The variance of every value of a fit between runs, where it is more than their noise.
+fn between_runs(fit: &Fit) -> Vec<f64> {
+    let real = |s: &Option<Spread>| s.as_ref().filter(|s| s.is_real()).map_or(0.0, |s| s.tau * s.tau);
+    spreads(fit).iter().map(real).collect()
+}
+
+/// By how much of its variance between runs a value differs between a regime and the rest: Σ (w − w′)² over the runs, with
+/// the shares of the regime's windows and of the others that lie in each; zero where every run has both alike.
+fn imbalance(runs: &[usize], inside: &Inside) -> f64 {
+    let mut counts = vec![[0.0; 2]; runs.iter().max().map_or(0, |last| last + 1)];
+    for (run, windows) in runs.iter().zip(inside) {
+        windows.iter().for_each(|is_inside| counts[*run][usize::from(*is_inside)] += 1.0);
+    }
+    let all = [0, 1].map(|side| counts.iter().map(|c: &[f64; 2]| c[side]).sum::<f64>());
+    counts.iter().map(|[out, within]| (within / all[1] - out / all[0]).powi(2)).sum()
+}
+
+/// The difference of an effect's values between a regime and the rest; `apart` is the variance that the runs alone make of it.
+fn difference(
+    fit: &Fit,
+    linear: &Along,
+    regime: Regime,
+    inside: &Inside,
+    own: Range<usize>,
+    apart: &[f64],
+) -> Option<Difference> {
     let (p, k) = (fit.p.len(), own.len());
     let segment = |(windows, inside): (&Vec<LinearisedWindow>, &Vec<bool>)| {
         windows.iter().zip(inside).map(|(w, i)| widened(w, p, own.clone(), *i)).collect()
@@ -156,7 +190,11 @@ fn difference(fit: &Fit, linear: &Along, regime: Regime, inside: &Inside, own: R
     let covariance = inverse(&information)?;
     let step = -(&covariance * gradient);
     let d = DVector::from_fn(k, |i, _| step[p + i]);
-    let spread = DMatrix::from_fn(k, k, |i, j| covariance[(p + i, p + j)]) * fit.variance_inflation();
+    let spread = DMatrix::from_fn(k, k, |i, j| {
+        let inflation = fit.inflation_of(own.start + i) * fit.inflation_of(own.start + j);
+        let of_runs = if i == j { apart[i] } else { 0.0 };
+        covariance[(p + i, p + j)] * inflation.sqrt() + of_runs
+    });
     let far = |i: usize| d[i] * d[i] / spread[(i, i)];
     let most = (0..k).max_by(|a, b| far(*a).total_cmp(&far(*b)))?;
     let outside = fit.p[own.start + most] + step[own.start + most];
@@ -228,6 +266,19 @@ mod tests {
         assert!(!worst(0.0).is_real(), "{:?}", worst(0.0));
         let told = worst(1.0);
         assert!(told.is_real() && told.regime == Regime::Large(0), "{told:?}");
+    }
+
+    /// Two runs, the one in the regime and the other not, differ by what both scatter; runs that are half in it by nothing.
+    #[test]
+    fn a_regime_of_its_own_runs_differs_by_what_runs_do() {
+        let (all, none, half) = (vec![true; 4], vec![false; 4], vec![true, false, true, false]);
+        assert!((imbalance(&[0, 1], &vec![all.clone(), none.clone()]) - 2.0).abs() < 1e-12);
+        assert!(imbalance(&[0, 1], &vec![half.clone(), half.clone()]) < 1e-12);
+        assert!(
+            (imbalance(&[0, 1, 2, 3], &vec![all.clone(), all.clone(), none.clone(), none.clone()]) - 1.0).abs() < 1e-12
+        );
+        // A run that was cut is one run.
+        assert!(imbalance(&[0, 0, 1], &vec![all, none, half]) < 1e-12);
     }
 
     /// Values of one sign within a factor of two are one effect by a law that is not quite right.

@@ -16,6 +16,7 @@ mod scope_refinement;
 mod scope_screen;
 pub(crate) mod scopes;
 pub(crate) mod search;
+mod second_choice;
 pub mod select;
 pub(crate) mod stability;
 pub(crate) mod stepwise;

@@ -176,7 +176,10 @@ fn distance(fit: &Fit, others: &Fit, effect: &Applied) -> Option<f64> {
         .zip(neutral_at_zero(others, &there))
         .map(|((i, _), (j, _))| (*i, j))
         .collect();
-    let (own, known) = (fit.covariance.as_ref()?, others.covariance.as_ref()?);
+    if [fit, others].iter().any(|f| f.covariance.is_none()) {
+        return None;
+    }
+    let of = |fit: &Fit, (i, j): (usize, usize)| fit.covariance_of(i, j).unwrap_or(0.0);
     let spread = spreads(others);
     let between = |j: usize| spread[j].as_ref().filter(|s| s.is_real()).map_or(0.0, |s| s.tau * s.tau);
     let n = pairs.len();
@@ -184,7 +187,7 @@ fn distance(fit: &Fit, others: &Fit, effect: &Applied) -> Option<f64> {
     let c = DMatrix::from_fn(n, n, |a, b| {
         let (i, j) = ((pairs[a].0, pairs[b].0), (pairs[a].1, pairs[b].1));
         let apart = if a == b { between(j.0) } else { 0.0 };
-        own[i] * fit.variance_inflation() + known[j] * others.variance_inflation() + apart
+        of(fit, i) + of(others, j) + apart
     });
     let widest = (0..n).max_by(|a, b| {
         let far = |k: usize| d[k] * d[k] / c[(k, k)];

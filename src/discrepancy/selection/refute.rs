@@ -101,7 +101,7 @@ impl Search<'_> {
             let Some(smaller) = smaller else { continue };
             let gaps = judge.gaps([&fit.model, &smaller.model], noise)?;
             let Some(growth) = refuting(judge.which(), &gaps) else {
-                let is_weak = !c.applied.effect.basic && c.delta_bic < WEAK * self.margin();
+                let is_weak = !c.applied.effect.basic && careful_worth(fit, smaller) < WEAK * self.margin();
                 if is_weak && judge.which() == Judging::HeldOutRuns && remains(fit) && !helps(&gaps) {
                     return Ok(Some((c.applied.clone(), Refusal::NotBorneOut, smaller.clone())));
                 }
@@ -137,6 +137,12 @@ impl Search<'_> {
         let growth = most_grown(&judge.gaps([&fit.model, &self.before.model], noise)?);
         Ok(growth.map(|growth| (least.applied.clone(), Refusal::HeldOutTogether(growth), smaller.clone())))
     }
+}
+
+/// ΔBIC where windows hang together as much as anywhere in what remains, for what an effect explains may be a part of it.
+fn careful_worth(fit: &Fit, smaller: &Fit) -> f64 {
+    let n = fit.sample_size.max(smaller.sample_size);
+    (smaller.deviance - fit.deviance) / fit.variance_inflation() - (fit.size() - smaller.size()) * n.ln()
 }
 
 /// Whether any gap shrinks.

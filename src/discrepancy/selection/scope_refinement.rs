@@ -6,7 +6,7 @@ use super::scope_screen::may_hold_in_part;
 use super::search::{Search, find};
 use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
 use crate::discrepancy::estimation::fit::{Effort, Fit};
-use crate::discrepancy::estimation::unexplained::{explains_most, remains};
+use crate::discrepancy::estimation::unexplained::{explains_half, explains_most, remains};
 use crate::discrepancy::evidence::information_criterion::bic;
 use crate::discrepancy::shooting::windows::WINDOW;
 use crate::effects::{Applied, Effect, Scope};
@@ -68,7 +68,9 @@ impl Search<'_> {
             return Ok(fit);
         }
         let mut best = fit;
-        for _ in 0..ROUNDS {
+        // An edge in the wrong place hides a part of what a scope explains, and not most of it.
+        let rounds = if explains_half(&best, base) { ROUNDS } else { 0 };
+        for _ in 0..rounds {
             let moved = self.with_scope_moved(&best, own)?;
             best = self.refit(&moved)?.unwrap_or(moved);
             if explains_most(&best, base) {

@@ -5,6 +5,7 @@ use super::input_sampling::{InputSampling, keep_sampled};
 use super::refusals::Standing;
 use super::scopes;
 use super::search::{Search, SearchState, find};
+use super::second_choice::second_choice;
 use super::stability;
 use super::stability::Stable;
 use super::transients;
@@ -82,7 +83,19 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &O
         (chosen, missed) = (again.chosen, again.missed);
     }
     let SearchState { fit: after, steps, candidates, .. } = grown;
-    Ok(Some(Selected { before, after, chosen, steps, candidates, inconsistent, sampling_sensitive, refused, missed }))
+    let choice = Selected {
+        before: before.clone(),
+        after,
+        chosen,
+        steps,
+        candidates,
+        inconsistent,
+        sampling_sensitive,
+        refused,
+        missed,
+    };
+    let second = second_choice(&selection, &choice, progress)?;
+    Ok(Some(second.unwrap_or(choice)))
 }
 
 impl Search<'_> {
@@ -124,7 +137,7 @@ impl Search<'_> {
     /// The same with the probability and the rivals of each: asked once, of what stands.
     pub(crate) fn examined(&self, fit: &Fit, weighed: Vec<Weighed>) -> Result<Vec<SelectedEffect>> {
         let one = |Weighed { effect, without }: Weighed| {
-            let gain = (without.deviance - fit.deviance).max(0.0) / fit.variance_inflation();
+            let gain = (without.deviance - fit.deviance).max(0.0) / fit.inflation_beside(&without);
             let p_value = self.p_value(&without, &effect.applied, gain)?;
             let rivals = self.rivals(fit, &effect.applied)?;
             Ok(SelectedEffect { p_value, rivals, ..effect })

@@ -55,6 +55,13 @@ pub(crate) fn search(selection: &Search, found: SearchState, progress: &OnProgre
     Ok(stable)
 }
 
+/// Keeps of what was found what parts of the data share.
+pub(crate) fn shared(selection: &Search, found: SearchState, progress: &OnProgress) -> Result<Stable> {
+    let mut stable = Stable { grown: found, inconsistent: vec![], scatter: None };
+    stable.keep_shared(selection, progress)?;
+    Ok(stable)
+}
+
 impl Stable {
     /// Drops what the parts do not share, one after another, what has no name first; whether anything went.
     fn keep_shared(&mut self, selection: &Search, progress: &OnProgress) -> Result<bool> {
@@ -70,29 +77,30 @@ impl Stable {
     }
 
     /// Of the effects that their scatter over the parts does not bear out the one that predicts the parts least, those
-    /// without a name first; and the fit without it.
+    /// without a name first and those that every vehicle has last; and the fit without it.
     fn least_borne_out(&self, selection: &Search) -> Result<Option<(Applied, Fit)>> {
         let Some(scatter) = &self.scatter else { return Ok(None) };
         let fit = &self.grown.fit;
         let seen = visible_places(selection, fit)?;
-        let mut least: Option<(bool, f64, Applied, Fit)> = None;
+        let mut least: Option<((bool, bool, f64), Applied, Fit)> = None;
         for effect in inconsistent(fit, scatter) {
             let Some(smaller) = selection.without(fit, &effect)? else { return Ok(None) };
             let gains = selection.problem.gains_by_parts(fit, &smaller)?;
             // What every vehicle has more or less of differs between runs by more than their noise, and is there: unless
-            // so much is left where it acts that it stands in for a law.
+            // so much is left where it acts that it stands in for a law. Alike is what has one direction in all parts, or
+            // predicts each of them better from the others.
             let is_law = seen.iter().any(|place| acts_at(&effect, place));
-            let is_there = effect.effect.basic && !is_law && scatter.is_one_way(fit, &effect);
+            let is_shared = scatter.is_one_way(fit, &effect) || gains.is_some_and(|g| g.is_everywhere());
+            let is_there = effect.effect.basic && !is_law && is_shared;
             if is_there && gains.is_some_and(|g| g.is_gain()) {
                 continue;
             }
-            let (named, gain) = (!is_term(&effect), gains.map_or(f64::NEG_INFINITY, |g| g.total));
-            let is_less = |other: &(bool, f64, Applied, Fit)| (named, gain) < (other.0, other.1);
-            if least.as_ref().is_none_or(is_less) {
-                least = Some((named, gain, effect, smaller));
+            let rank = (!is_term(&effect), effect.effect.basic, gains.map_or(f64::NEG_INFINITY, |g| g.total));
+            if least.as_ref().is_none_or(|(other, ..)| rank < *other) {
+                least = Some((rank, effect, smaller));
             }
         }
-        Ok(least.map(|(_, _, effect, smaller)| (effect, smaller)))
+        Ok(least.map(|(_, effect, smaller)| (effect, smaller)))
     }
 
     /// The search for names from what is shared on, without what is not.

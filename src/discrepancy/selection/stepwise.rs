@@ -93,7 +93,7 @@ impl Search<'_> {
 }
 
 /// Whether two models have the same effects free, whatever their values.
-fn same_effects(a: &Model, b: &Model) -> bool {
+pub(super) fn same_effects(a: &Model, b: &Model) -> bool {
     let within = |a: &Model, b: &Model| a.free_effects().all(|e| b.free_effects().any(|o| o.same_as(e)));
     within(a, b) && within(b, a)
 }

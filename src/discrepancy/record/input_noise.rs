@@ -43,9 +43,9 @@ pub(crate) struct InputNoise {
 }
 
 /// White noise less than this share of an input, root mean square, is none: so little is not told from its own course.
-const LEAST: f64 = 0.01;
+const LEAST: f64 = 0.001;
 /// Steps are told from less than that.
-const LEAST_STEP: f64 = 0.002;
+const LEAST_STEP: f64 = 0.0005;
 /// Of white noise the differences from the neighbours' cubic are correlated by −0.8 from row to row.
 const WHITE: f64 = -0.6;
 

@@ -73,7 +73,7 @@ impl Search<'_> {
             let few = Search { most: BESIDE, ..*self };
             let more = if remains(&fit) { few.grown(&fit, progress)? } else { SearchState::from(&fit) };
             trail.extend(more.steps);
-            if is_second && remains(&more.fit) {
+            if is_second && (remains(&more.fit) || bends_a_course(&more.fit)) {
                 break;
             }
             // Where the first leaves most of what was there, no second one leaves nothing.
@@ -167,6 +167,13 @@ fn moves_alike(fit: &Fit, effect: &Applied) -> bool {
     let Some(each) = each.as_ref().filter(|_| fit.runs > 1) else { return fit.runs < 2 };
     let bears_out = |v: &&RunValue| v.value * v.value / v.variance > BORNE_OUT;
     each.values.iter().filter(bears_out).count() > 1 && each.is_along(effect.values[rate])
+}
+
+/// Whether an effect stands in part at the place of a parameter that moves with time: what a line leaves there is how else
+/// that parameter moves.
+fn bends_a_course(fit: &Fit) -> bool {
+    let courses = || partial(fit).filter(|e| e.effect.course.is_some());
+    partial(fit).any(|e| courses().any(|other| !other.same_as(e) && other.effect.place == e.effect.place))
 }
 
 /// The most promising candidates, a few of each kind of scope, and of each effect.

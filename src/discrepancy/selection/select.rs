@@ -33,10 +33,12 @@ pub(crate) const CLOSE: f64 = 6.0;
 
 /// A gain so large that the exact law of chance gains does not matter.
 const BEYOND_DOUBT: f64 = 60.0;
-/// Data sets drawn for the law of chance gains: a few, and more where these do not decide.
+/// Data sets drawn for the law of chance gains: a few, and more where these do not decide and are fitted quickly.
 const DRAWS: [usize; 2] = [19, 99];
 /// A probability that few draws decide: a gain so far beyond their largest is not reached by more of them.
 const DECIDED: f64 = 1e-6;
+/// Rows beyond which the few must do: of more data more draws would take minutes.
+const QUICK_ROWS: usize = 5000;
 
 /// Times a law is sought again after names fell beside it, at most.
 const LAWS_AGAIN: usize = 2;
@@ -155,7 +157,8 @@ impl Search<'_> {
         }
         let [few, many] = DRAWS.map(|draws| move || self.problem.chance_gains(without, applied, draws, 0));
         let p_value = few()?.p_value(gain);
-        if p_value < DECIDED { Ok(p_value) } else { Ok(many()?.p_value(gain)) }
+        let rows: usize = self.problem.records.iter().map(|r| r.rows.len()).sum();
+        if p_value < DECIDED || rows > QUICK_ROWS { Ok(p_value) } else { Ok(many()?.p_value(gain)) }
     }
 
     /// Effects that explain the data as well in the place of a chosen one, where and when that holds.

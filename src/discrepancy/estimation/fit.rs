@@ -11,7 +11,6 @@ use crate::discrepancy::initial_state::hidden_states;
 use crate::discrepancy::record::sensor_noise::Noise;
 use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
 use crate::discrepancy::shooting::windows::{Segment, WindowStates};
-use crate::effects::Applied;
 use crate::effects::Scope;
 use crate::error::Result;
 use crate::model::{Equations, Model};
@@ -63,37 +62,6 @@ pub struct Fit {
 pub const FEWEST_RUNS: usize = 4;
 
 impl Fit {
-    /// How many values say what one independent value would: rows that are alike, times windows that are alike.
-    pub fn variance_inflation(&self) -> f64 {
-        self.noise_correlation_time * self.residual_correlation_time
-    }
-
-    /// The same of one value: windows are alike for it as far as the jumps that it is told beside are.
-    pub fn inflation_of(&self, value: usize) -> f64 {
-        let of_windows = self.value_correlation_times.get(value).copied().unwrap_or(self.residual_correlation_time);
-        self.noise_correlation_time * of_windows
-    }
-
-    /// The same of what a smaller fit lacks, the most of its values.
-    pub fn inflation_beside(&self, smaller: &Fit) -> f64 {
-        let is_new = |e: &Applied| !smaller.model.free_effects().any(|other| other.same_as(e));
-        let owners = self.model.free_effects().flat_map(|e| std::iter::repeat_n(is_new(e), e.values.len()));
-        let new = owners.enumerate().filter(|(_, is_new)| *is_new).map(|(i, _)| self.inflation_of(i));
-        new.reduce(f64::max).unwrap_or_else(|| self.variance_inflation())
-    }
-
-    /// The covariance of two values by the noise alone, alike values counted once; `None` where the data leave a direction
-    /// open.
-    pub fn covariance_of(&self, i: usize, j: usize) -> Option<f64> {
-        let inflation = (self.inflation_of(i) * self.inflation_of(j)).sqrt();
-        self.covariance.as_ref().map(|c| c[(i, j)] * inflation)
-    }
-
-    /// The variance of a value by the noise alone, alike values counted once; `None` where the data leave a direction open.
-    pub fn variance(&self, value: usize) -> Option<f64> {
-        self.covariance_of(value, value)
-    }
-
     /// How many numbers it has taken from the data: values, those of scopes, and how hidden states began.
     pub fn size(&self) -> f64 {
         let of_scopes = self.model.free_effects().filter_map(|e| e.effect.scope.as_ref()).map(Scope::cost);
@@ -145,7 +113,7 @@ impl Problem {
         let unexplained = if effort.variances { unexplained(&point, &v) } else { vec![0.0; v.process().len()] };
         let of_kinds = autocorrelation::of_each_kind(&point.linear, &unexplained);
         let residual_correlation_time = autocorrelation::of_what_remains(&of_kinds, &unexplained);
-        let value_correlation_times = value_correlation_times(&point, &v, &of_kinds);
+        let value_correlation_times = value_correlation_times(&point, &v, &of_kinds).unwrap_or_default();
         let noise_correlation_time = if effort.variances { autocorrelation::of_noise(&point.linear) } else { 1.0 };
         let initial_state_dof = self.initial_state_dof(&equations, &point);
         Ok(Some(Fit {
@@ -242,24 +210,25 @@ fn unexplained(point: &Point, v: &NoiseModel) -> Vec<f64> {
 const VARIED: f64 = 0.1;
 
 /// For each value the mean of the kinds' correlations, each by the share ∂ ln var/∂ ln q that the kind of jumps has in the
-/// variance of the value; empty where no kind has one, or the shares cannot be told.
-fn value_correlation_times(point: &Point, v: &NoiseModel, of_kinds: &[f64]) -> Vec<f64> {
+/// variance of the value; `None` where no kind has one, or the shares cannot be told.
+fn value_correlation_times(point: &Point, v: &NoiseModel, of_kinds: &[f64]) -> Option<Vec<f64>> {
+    if of_kinds.iter().all(|tau| *tau <= 1.0) {
+        return None;
+    }
     let p = point.p.len();
-    let by_kind = |c: usize| -> Option<Vec<f64>> {
+    let here = inverse(&point.eliminated.normal().0)?.diagonal();
+    let more = |c: usize| {
         let mut varied = v.clone();
         varied.process_mut()[c].variance *= 1.0 + VARIED;
-        let more = inverse(&eliminate(&point.linear, &varied, p)?.normal().0)?;
-        Some((0..p).map(|i| more[(i, i)]).collect())
+        Some(inverse(&eliminate(&point.linear, &varied, p)?.normal().0)?.diagonal() - &here)
     };
-    let here = inverse(&point.eliminated.normal().0).filter(|_| of_kinds.iter().any(|tau| *tau > 1.0));
-    let varied = here.is_some().then(|| (0..of_kinds.len()).map(by_kind).collect::<Option<Vec<_>>>()).flatten();
-    let (Some(here), Some(varied)) = (here, varied) else { return vec![] };
+    let by_kind: Vec<DVector<f64>> = (0..of_kinds.len()).map(more).collect::<Option<_>>()?;
     let of_value = |i: usize| {
-        let shares = || varied.iter().map(|more| (more[i] - here[(i, i)]).max(0.0));
+        let shares = || by_kind.iter().map(|more| more[i].max(0.0));
         let all: f64 = shares().sum();
         if all > 0.0 { shares().zip(of_kinds).map(|(share, tau)| share * tau).sum::<f64>() / all } else { 1.0 }
     };
-    (0..p).map(of_value).collect()
+    Some((0..p).map(of_value).collect())
 }
 
 /// The number of values that count as independent in a fit.
@@ -298,41 +267,6 @@ pub(crate) fn inverse(information: &DMatrix<f64>) -> Option<DMatrix<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::discrepancy::fixtures::{equations, logged, unicycle};
-
-    /// A slow sideways motion that no effect explains makes a creep sideways less certain, and says nothing of the yaw rate.
-    #[test]
-    fn windows_that_are_alike_sideways_are_not_for_the_yaw_rate() {
-        let time = (0..1800).map(|i| 0.05 * f64::from(i)).collect::<Vec<f64>>();
-        let (exact, p) = equations(&[("yaw-rate-scale", &[0.05])]);
-        let mut record =
-            logged((&exact, &p), time, [&|t| 2.0 + (0.7 * t).sin(), &|t| 0.3 * (0.5 * t).cos()], &[0.0; 3], 1e-3);
-        let mut off = [0.0; 2];
-        for i in 1..record.time.len() {
-            let (heading, across) = (record.columns[2][i], 0.002 * (0.2 * record.time[i]).sin());
-            off = [off[0] - across * heading.sin(), off[1] + across * heading.cos()];
-            record.columns[0][i] += off[0];
-            record.columns[1][i] += off[1];
-        }
-        let problem = Problem::new(vec![record], None, None);
-        let fitted = |effects: &[(&str, &[f64])]| {
-            let model = unicycle(effects);
-            let starts = problem.starts(&model).unwrap();
-            problem.fit(&model, &starts, &problem.variances, Effort::FULL).unwrap().unwrap()
-        };
-        let [yaw, creep]: [(&str, &[f64]); 2] = [("yaw-rate-scale", &[0.01]), ("traverse-creep", &[0.01])];
-        let both = fitted(&[yaw, creep]);
-        let [of_yaw, of_creep] = [0, 1].map(|i| both.inflation_of(i) / both.noise_correlation_time);
-        assert!(both.residual_correlation_time > 3.0 && of_creep > 3.0, "{of_creep}");
-        assert!(of_yaw < 1.5, "{of_yaw} of {}", both.residual_correlation_time);
-        // What a smaller fit lacks has its own.
-        let [no_yaw, no_creep] = [fitted(&[creep]), fitted(&[yaw])].map(|smaller| both.inflation_beside(&smaller));
-        assert_eq!([no_yaw, no_creep], [both.inflation_of(0), both.inflation_of(1)]);
-        assert_eq!(both.inflation_beside(&both), both.variance_inflation());
-        let covariance = both.covariance_of(0, 1).unwrap() / both.covariance.as_ref().unwrap()[(0, 1)];
-        assert!((covariance * covariance - no_yaw * no_creep).abs() < 1e-9 * no_yaw * no_creep);
-    }
-
     #[test]
     fn what_jumps_counts_once_a_window() {
         assert_eq!(independent(900.0, 60.0, 0.0), 900.0);

@@ -11,3 +11,4 @@ pub mod rate_regression;
 mod rate_sums;
 pub mod unexplained;
 pub mod variance_components;
+mod variance_inflation;

@@ -85,6 +85,11 @@ pub(crate) fn spreads(fit: &Fit) -> Vec<Option<Spread>> {
     (0..fit.p.len()).map(of).collect()
 }
 
+/// τ² of a value, where it is more than the noise of the runs.
+pub(crate) fn variance_between_runs(spread: &Option<Spread>) -> f64 {
+    spread.as_ref().filter(|s| s.is_real()).map_or(0.0, |s| s.tau * s.tau)
+}
+
 /// Mean weighted by 1/(v + τ²), and its standard deviation.
 fn weighted(values: &[RunValue], between: f64) -> (f64, f64) {
     let weights = || values.iter().map(|v| (1.0 / (v.variance + between), v.value));

@@ -18,10 +18,18 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Gains smaller than this are none.
 const NONE: f64 = 0.02;
 const EFFORT: Effort = Effort { passes: 12, enough: 1e-4, variances: false };
+
+/// Data sets that are drawn: a few, and more where these do not decide and are fitted quickly (Besag & Clifford, 1991).
+const DRAWS: [usize; 2] = [19, 99];
+/// A probability that few draws decide: a gain so far beyond their largest is not reached by more of them.
+const DECIDED: f64 = 1e-6;
+/// Rows beyond which the few must do: of more data more draws would take minutes.
+const QUICK_ROWS: usize = 5000;
 
 /// What chance gains look like.
 #[derive(Clone, Debug)]
@@ -67,11 +75,31 @@ pub fn is_regular(effect: &Applied) -> bool {
 }
 
 impl Problem {
+    /// The probability that an effect gains so much by chance.
+    ///
+    /// # Errors
+    /// When the model's formulas are malformed.
+    pub(crate) fn chance_p_value(&self, without: &Fit, effect: &Applied, gain: f64) -> Result<f64> {
+        let [few, many] = DRAWS;
+        let mut chance = self.chance_gains(without, effect, few, 0)?;
+        let rows: usize = self.records.iter().map(|r| r.rows.len()).sum();
+        if chance.p_value(gain) >= DECIDED && rows <= QUICK_ROWS {
+            chance.gains.extend(self.gains_of_draws(without, effect, few..many, 0)?);
+        }
+        Ok(chance.p_value(gain))
+    }
+
     /// What an effect gains on so many data sets drawn from a fit without it.
     ///
     /// # Errors
     /// When the model's formulas are malformed.
     pub fn chance_gains(&self, without: &Fit, effect: &Applied, draws: usize, seed: u64) -> Result<NullDistribution> {
+        let gains = self.gains_of_draws(without, effect, 0..draws, seed)?;
+        Ok(NullDistribution { k: effect.values.len(), gains })
+    }
+
+    /// The gains on some of the data sets that a seed draws, each by a stream of its own.
+    fn gains_of_draws(&self, without: &Fit, effect: &Applied, draws: Range<usize>, seed: u64) -> Result<Vec<f64>> {
         let equations = without.model.equations(&[])?;
         let one = |i: usize| -> Result<Option<f64>> {
             let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -79,8 +107,8 @@ impl Problem {
             let Some((drawn, starts)) = self.drawn(&equations, without, &mut random) else { return Ok(None) };
             drawn.gain(&without.model, effect, &starts, &without.variances)
         };
-        let gains: Vec<Option<f64>> = (0..draws).into_par_iter().map(one).collect::<Result<_>>()?;
-        Ok(NullDistribution { k: effect.values.len(), gains: gains.into_iter().flatten().collect() })
+        let gains: Vec<Option<f64>> = draws.into_par_iter().map(one).collect::<Result<_>>()?;
+        Ok(gains.into_iter().flatten().collect())
     }
 
     /// By how much an effect improves the deviance, from wherever a fit of it may begin.

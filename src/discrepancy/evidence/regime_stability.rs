@@ -8,7 +8,7 @@
 //! and T what values that differ from run to run make of a regime that runs are driven in one by one.
 
 use super::cross_validation::Along;
-use super::heterogeneity::{Spread, spreads};
+use super::heterogeneity::{spreads, variance_between_runs};
 use crate::discrepancy::estimation::elimination::eliminate;
 use crate::discrepancy::estimation::fit::{Fit, inverse};
 use crate::discrepancy::estimation::problem::Problem;
@@ -75,7 +75,7 @@ impl Problem {
         let linear = linearise(&equations, &fit.p, &self.records, &self.plan, &fit.window_states);
         let Some(linear) = linear else { return Ok(vec![]) };
         let regimes = self.regimes();
-        let apart = between_runs(fit);
+        let apart: Vec<f64> = spreads(fit).iter().map(variance_between_runs).collect();
         let runs: Vec<usize> = self.plan.iter().map(|s| s.record).collect();
         let mut at = 0;
         let of_effect = |effect: &Applied| {
@@ -155,12 +155,6 @@ fn mean_inputs(record: &Record, rows: &Range<usize>) -> Vec<f64> {
     sum
 }
 
-/// The variance of every value of a fit between runs, where it is more than their noise.
-fn between_runs(fit: &Fit) -> Vec<f64> {
-    let real = |s: &Option<Spread>| s.as_ref().filter(|s| s.is_real()).map_or(0.0, |s| s.tau * s.tau);
-    spreads(fit).iter().map(real).collect()
-}
-
 /// By how much of its variance between runs a value differs between a regime and the rest: Σ (w − w′)² over the runs, with
 /// the shares of the regime's windows and of the others that lie in each; zero where every run has both alike.
 fn imbalance(runs: &[usize], inside: &Inside) -> f64 {
@@ -191,9 +185,8 @@ fn difference(
     let step = -(&covariance * gradient);
     let d = DVector::from_fn(k, |i, _| step[p + i]);
     let spread = DMatrix::from_fn(k, k, |i, j| {
-        let inflation = fit.inflation_of(own.start + i) * fit.inflation_of(own.start + j);
         let of_runs = if i == j { apart[i] } else { 0.0 };
-        covariance[(p + i, p + j)] * inflation.sqrt() + of_runs
+        covariance[(p + i, p + j)] * fit.joint_inflation(own.start + i, own.start + j) + of_runs
     });
     let far = |i: usize| d[i] * d[i] / spread[(i, i)];
     let most = (0..k).max_by(|a, b| far(*a).total_cmp(&far(*b)))?;

@@ -13,7 +13,7 @@ use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
 use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::estimation::unexplained::remains;
-use crate::discrepancy::evidence::heterogeneity::{RunValue, Spread, spreads};
+use crate::discrepancy::evidence::heterogeneity::{RunValue, Spread, spreads, variance_between_runs};
 use crate::discrepancy::evidence::wald_test::neutral_at_zero;
 use crate::discrepancy::localisation::constraint_residuals::ConstraintResiduals;
 use crate::discrepancy::selection::choice::Selected;
@@ -181,12 +181,11 @@ fn distance(fit: &Fit, others: &Fit, effect: &Applied) -> Option<f64> {
     }
     let of = |fit: &Fit, (i, j): (usize, usize)| fit.covariance_of(i, j).unwrap_or(0.0);
     let spread = spreads(others);
-    let between = |j: usize| spread[j].as_ref().filter(|s| s.is_real()).map_or(0.0, |s| s.tau * s.tau);
     let n = pairs.len();
     let d = DVector::from_iterator(n, pairs.iter().map(|(i, j)| fit.p[*i] - others.p[*j]));
     let c = DMatrix::from_fn(n, n, |a, b| {
         let (i, j) = ((pairs[a].0, pairs[b].0), (pairs[a].1, pairs[b].1));
-        let apart = if a == b { between(j.0) } else { 0.0 };
+        let apart = if a == b { variance_between_runs(&spread[j.0]) } else { 0.0 };
         of(fit, i) + of(others, j) + apart
     });
     let widest = (0..n).max_by(|a, b| {

@@ -1,6 +1,7 @@
 //! Names that were found and do not stand: what a fit asks for is no finding by that alone.
 
 use super::input_noise;
+use super::input_sampling::{InputSampling, keep_sampled};
 use super::search::{Search, SearchState, find, first_of, forget};
 use crate::discrepancy::estimation::bounds::is_possible;
 use crate::discrepancy::estimation::fit::Fit;
@@ -31,6 +32,20 @@ pub(crate) struct Standing {
 }
 
 impl Search<'_> {
+    /// Drops what comes and goes with how often the inputs are logged, which is told first, and then what does not stand.
+    pub(crate) fn keep_sampled_and_standing(
+        &self,
+        grown: &mut SearchState,
+        scatter: Option<Jackknife>,
+        progress: &OnProgress,
+    ) -> Result<(Vec<Applied>, Standing)> {
+        let InputSampling { dropped, missed } = keep_sampled(self, grown, progress)?;
+        // Where something went, the values no longer stand where they stood.
+        let scatter = scatter.filter(|_| dropped.is_empty());
+        let standing = self.keep_standing(grown, scatter.as_ref(), missed, progress)?;
+        Ok((dropped, standing))
+    }
+
     /// Drops what does not stand, one effect after another.
     ///
     /// `missed` is what the interpolation of the inputs may make up of each value.

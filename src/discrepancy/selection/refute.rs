@@ -5,6 +5,7 @@ use super::transients;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::estimation::unexplained::remains;
+use crate::discrepancy::evidence::information_criterion::careful_delta_bic;
 use crate::discrepancy::record::sensor_noise::Noise;
 use crate::discrepancy::selection::choice::{Growth, Refusal, Refused, Selected, SelectedEffect};
 use crate::effects::{Applied, Effect};
@@ -96,12 +97,14 @@ impl Search<'_> {
         judge: &dyn JudgingRuns,
         noise: &Noise,
     ) -> Result<Option<(Applied, Refusal, Fit)>> {
+        let gaps_without = |smaller: &Model| judge.gaps([&fit.model, smaller], noise);
         let mut worst: Option<(Growth, &SelectedEffect, &Fit)> = None;
         for (c, smaller) in chosen.iter().zip(without) {
             let Some(smaller) = smaller else { continue };
-            let gaps = judge.gaps([&fit.model, &smaller.model], noise)?;
+            let gaps = gaps_without(&smaller.model)?;
             let Some(growth) = refuting(judge.which(), &gaps) else {
-                let is_weak = !c.applied.effect.basic && careful_worth(fit, smaller) < WEAK * self.margin();
+                let n = fit.sample_size.max(smaller.sample_size);
+                let is_weak = !c.applied.effect.basic && careful_delta_bic(fit, smaller, n) < WEAK * self.margin();
                 if is_weak && judge.which() == Judging::HeldOutRuns && remains(fit) && !helps(&gaps) {
                     return Ok(Some((c.applied.clone(), Refusal::NotBorneOut, smaller.clone())));
                 }
@@ -115,34 +118,22 @@ impl Search<'_> {
             Judging::Fitted => Refusal::FittedRuns,
             Judging::HeldOutEnds | Judging::HeldOutRuns => Refusal::HeldOut,
         };
-        match worst {
-            Some((growth, c, smaller)) => Ok(Some((c.applied.clone(), why(growth), smaller.clone()))),
-            None if judge.which() == Judging::Fitted => Ok(None),
-            None => self.refuted_together(fit, chosen, without, judge, noise),
+        if let Some((growth, c, smaller)) = worst {
+            return Ok(Some((c.applied.clone(), why(growth), smaller.clone())));
         }
-    }
-
-    /// Where only all together make a gap grow, the effect that is worth least, and the fit without it.
-    fn refuted_together(
-        &self,
-        fit: &Fit,
-        chosen: &[SelectedEffect],
-        without: &[Option<Fit>],
-        judge: &dyn JudgingRuns,
-        noise: &Noise,
-    ) -> Result<Option<(Applied, Refusal, Fit)>> {
-        let all = chosen.iter().zip(without);
-        let least = all.min_by(|(a, _), (b, _)| a.delta_bic.total_cmp(&b.delta_bic));
-        let Some((least, Some(smaller))) = least else { return Ok(None) };
-        let growth = most_grown(&judge.gaps([&fit.model, &self.before.model], noise)?);
+        let Some((least, smaller)) = worth_least(chosen, without).filter(|_| judge.which() != Judging::Fitted) else {
+            return Ok(None);
+        };
+        // Where only all together make a gap grow, the effect that is worth least goes.
+        let growth = most_grown(&gaps_without(&self.before.model)?);
         Ok(growth.map(|growth| (least.applied.clone(), Refusal::HeldOutTogether(growth), smaller.clone())))
     }
 }
 
-/// ΔBIC where windows hang together as much as anywhere in what remains, for what an effect explains may be a part of it.
-fn careful_worth(fit: &Fit, smaller: &Fit) -> f64 {
-    let n = fit.sample_size.max(smaller.sample_size);
-    (smaller.deviance - fit.deviance) / fit.variance_inflation() - (fit.size() - smaller.size()) * n.ln()
+/// The effect that is worth least, and the fit without it.
+fn worth_least<'a>(chosen: &'a [SelectedEffect], without: &'a [Option<Fit>]) -> Option<(&'a SelectedEffect, &'a Fit)> {
+    let (least, smaller) = chosen.iter().zip(without).min_by(|(a, _), (b, _)| a.delta_bic.total_cmp(&b.delta_bic))?;
+    Some((least, smaller.as_ref()?))
 }
 
 /// Whether any gap shrinks.

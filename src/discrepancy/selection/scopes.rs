@@ -238,3 +238,24 @@ fn best_of_each_kind(fits: Vec<(Applied, Fit)>) -> Vec<(Applied, Fit)> {
 pub(crate) fn partial(fit: &Fit) -> impl Iterator<Item = &Applied> {
     fit.model.free_effects().filter(|e| is_partial(e) && !is_term(e))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::fixtures::{fit_of, unicycle};
+    use crate::effects::named;
+
+    /// Beside a bias that moves another effect of the yaw input in part is how else it moves; one across the vehicle is not.
+    #[test]
+    fn what_a_line_leaves_is_no_effect_of_its_own() {
+        let moving = named("yaw-rate-bias").unwrap().drifting("bias", 0.0).unwrap();
+        let course = Applied { values: vec![0.01, 0.002], ..Applied::new(&moving, None, vec![0.0; 2]) }.freed();
+        let bends = |id: &str| {
+            let within = named(id).unwrap().within(Scope::Times(vec![[f64::NEG_INFINITY, 9.8]]));
+            let model = unicycle(&[]).with_effect(course.clone());
+            bends_a_course(&fit_of(model.with_effect(Applied::new(&within, None, vec![0.01]).freed())))
+        };
+        assert!(bends("odometry-yaw-per-speed") && bends("yaw-rate-scale") && !bends("traverse-creep"));
+        assert!(!bends_a_course(&fit_of(unicycle(&[]).with_effect(course.clone()))));
+    }
+}

@@ -4,7 +4,6 @@
 //! it the right one is not alike in all runs. When the false one is contradicted, the right one is asked again.
 
 use super::choice::{Refusal, Selected};
-use super::input_sampling::{InputSampling, keep_sampled};
 use super::refusals::Standing;
 use super::search::{Search, SearchState, still_open};
 use super::stability::{self, Stable};
@@ -33,10 +32,8 @@ pub(crate) fn second_choice(selection: &Search, choice: &Selected, progress: &On
         return Ok(None);
     }
     let Stable { mut grown, inconsistent, scatter } = stability::shared(&selection, found, progress)?;
-    let InputSampling { dropped, missed } = keep_sampled(&selection, &mut grown, progress)?;
-    let scatter = scatter.filter(|_| dropped.is_empty());
-    let Standing { chosen, refused, missed } =
-        selection.keep_standing(&mut grown, scatter.as_ref(), missed, progress)?;
+    let (dropped, standing) = selection.keep_sampled_and_standing(&mut grown, scatter, progress)?;
+    let Standing { chosen, refused, missed } = standing;
     let n = grown.fit.sample_size.max(after.sample_size);
     if chosen.len() <= choice.chosen.len() || delta_bic(&grown.fit, after, n) <= selection.margin() {
         return Ok(None);

@@ -33,13 +33,6 @@ pub(crate) const CLOSE: f64 = 6.0;
 
 /// A gain so large that the exact law of chance gains does not matter.
 const BEYOND_DOUBT: f64 = 60.0;
-/// Data sets drawn for the law of chance gains: a few, and more where these do not decide and are fitted quickly.
-const DRAWS: [usize; 2] = [19, 99];
-/// A probability that few draws decide: a gain so far beyond their largest is not reached by more of them.
-const DECIDED: f64 = 1e-6;
-/// Rows beyond which the few must do: of more data more draws would take minutes.
-const QUICK_ROWS: usize = 5000;
-
 /// Times a law is sought again after names fell beside it, at most.
 const LAWS_AGAIN: usize = 2;
 
@@ -80,25 +73,15 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &O
         let found = unnamed_terms::without_fallen(&selection, &grown, &fallen, imitated, progress)?;
         let Some(found) = found else { break };
         grown = found;
-        let InputSampling { dropped, missed: of_values } = keep_sampled(&selection, &mut grown, progress)?;
+        let (dropped, again) = selection.keep_sampled_and_standing(&mut grown, None, progress)?;
         sampling_sensitive.extend(dropped);
-        let again = selection.keep_standing(&mut grown, None, of_values, progress)?;
         refused.extend(again.refused);
         (chosen, missed) = (again.chosen, again.missed);
     }
     let SearchState { fit: after, steps, candidates, .. } = grown;
-    let choice = Selected {
-        before: before.clone(),
-        after,
-        chosen,
-        steps,
-        candidates,
-        inconsistent,
-        sampling_sensitive,
-        refused,
-        missed,
-    };
-    let second = second_choice(&selection, &choice, progress)?;
+    let choice =
+        Selected { before, after, chosen, steps, candidates, inconsistent, sampling_sensitive, refused, missed };
+    let second = second_choice(&Search::over(problem, &choice.before, &quick), &choice, progress)?;
     Ok(Some(second.unwrap_or(choice)))
 }
 
@@ -155,10 +138,7 @@ impl Search<'_> {
         if parametric_bootstrap::is_regular(applied) || gain > BEYOND_DOUBT {
             return Ok(tail(gain, k));
         }
-        let [few, many] = DRAWS.map(|draws| move || self.problem.chance_gains(without, applied, draws, 0));
-        let p_value = few()?.p_value(gain);
-        let rows: usize = self.problem.records.iter().map(|r| r.rows.len()).sum();
-        if p_value < DECIDED || rows > QUICK_ROWS { Ok(p_value) } else { Ok(many()?.p_value(gain)) }
+        self.problem.chance_p_value(without, applied, gain)
     }
 
     /// Effects that explain the data as well in the place of a chosen one, where and when that holds.

@@ -4,7 +4,7 @@ use super::output::{pretty, print};
 use super::user_catalogues::UserCatalogues;
 use clap::{Args, ValueEnum};
 use creepage::Result;
-use creepage::describe::{CreepLimits, json, latex, text};
+use creepage::describe::{CreepLimits, GivenPoint, json, latex, text};
 use creepage::mechanism::Limits;
 use std::path::PathBuf;
 
@@ -16,6 +16,7 @@ Example:
   creepage describe examples/runs/steering/model.toml --format latex > model.tex
   creepage describe report/model.patched.toml --rotation-limits=-0.2,0.2 --traverse-limits=-0.1,0.1
   creepage describe examples/bus/model.toml
+  creepage describe examples/runs/steering/model.toml --at \"phi=0.3,x'=1\"
   creepage describe report/model.patched.toml --effects examples/effects/my_effects.toml
 
 A coefficient that the model gives is named by its regime; limits tell creep from sliding, and name every coefficient.")]
@@ -32,8 +33,16 @@ pub struct Arguments {
     /// Limits of traverse creep: side-slip at and beyond them
     #[arg(long, value_name = "E2,E1", allow_hyphen_values = true, value_parser = limits)]
     traverse_limits: Option<Limits>,
+    /// Adds value, gradient and Hessian of every constraint at a point of coordinates, rates and coefficients, by dual
+    /// numbers; q=… and q'=… give all coordinates and all rates in their order
+    #[arg(long, value_name = "NAME=VALUE,…", value_parser = point)]
+    at: Option<GivenPoint>,
     #[command(flatten)]
     own: UserCatalogues,
+}
+
+fn point(text: &str) -> std::result::Result<GivenPoint, String> {
+    text.parse().map_err(|e: creepage::Error| e.to_string())
 }
 
 fn limits(text: &str) -> std::result::Result<Limits, String> {
@@ -51,7 +60,11 @@ enum Format {
 pub fn run(arguments: &Arguments) -> Result<()> {
     let model = arguments.own.model(&arguments.model)?;
     let limits = CreepLimits { rotation: arguments.rotation_limits, traverse: arguments.traverse_limits };
-    let description = creepage::describe(&model).map_err(|e| e.at_file(&arguments.model))?.with_limits(limits);
+    let description = match &arguments.at {
+        Some(point) => creepage::describe_at(&model, point),
+        None => creepage::describe(&model),
+    };
+    let description = description.map_err(|e| e.at_file(&arguments.model))?.with_limits(limits);
     print(&match arguments.format {
         Format::Text => text(&description),
         Format::Latex => latex(&description),

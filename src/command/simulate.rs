@@ -4,11 +4,11 @@ use super::output::print;
 use super::progress::ProgressLine;
 use super::runs::not_an_input;
 use super::user_catalogues::UserCatalogues;
-use clap::Args;
-use creepage::dynamics::simulate_file;
+use clap::{Args, ValueEnum};
+use creepage::dynamics::{simulate_file, simulate_file_by};
 use creepage::files::{Initial, Inputs, ModelFile, write_whole_by};
 use creepage::model::Model;
-use creepage::motion::{Integrator, Signals, Table, simulate_model};
+use creepage::motion::{Integrator, Method, Signals, Table, simulate_model};
 use creepage::{Error, Result};
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -22,7 +22,11 @@ Example:
   creepage simulate report/model.patched.toml --inputs IN.csv --out path.csv --effects examples/effects/my_effects.toml
 
 Begins at the model's [initial], or at the pose in the first row of the inputs, or at the origin.
-A model with [dynamics] moves by forces: the columns of the inputs are then forces and torques.")]
+A model with [dynamics] moves by forces: the columns of the inputs are then forces and torques.
+
+The result does not hang on the method; what takes the work does. Two that share no code are a check of each other:
+  creepage simulate MODEL.toml --inputs IN.csv --out a.csv
+  creepage simulate MODEL.toml --inputs IN.csv --out b.csv --integrator dopri5")]
 pub struct Arguments {
     /// The model
     #[arg(value_name = "MODEL.toml")]
@@ -33,7 +37,13 @@ pub struct Arguments {
     /// Where the trajectory goes, CSV
     #[arg(long, value_name = "OUT.csv")]
     out: PathBuf,
-    /// Relative tolerance of the integration
+    /// The integrator; without it order 8, or the stiff one where a model has friction
+    #[arg(long, value_enum, value_name = "METHOD")]
+    integrator: Option<Choice>,
+    /// The longest step of rk4, s
+    #[arg(long, default_value_t = 1e-3, value_parser = step, value_name = "S")]
+    step: f64,
+    /// Relative tolerance of the integration; rk4 reads none
     #[arg(long, default_value_t = 1e-10, value_parser = tolerance)]
     rtol: f64,
     /// Absolute tolerance of the integration
@@ -41,6 +51,37 @@ pub struct Arguments {
     atol: f64,
     #[command(flatten)]
     own: UserCatalogues,
+}
+
+/// A method that can be chosen.
+#[derive(Clone, Copy, ValueEnum)]
+enum Choice {
+    /// Dormand and Prince, order 5 (the crate ode_solvers)
+    Dopri5,
+    /// the classical Runge–Kutta method of order 4 in even steps (the crate ode_solvers)
+    Rk4,
+    /// Dormand and Prince, order 8 (our own; that of ode_solvers 0.6.2 has order 1)
+    Dop853,
+    /// Radau IIA of order 5, implicit, for stiff equations (the crate differential-equations)
+    Radau5,
+}
+
+impl Choice {
+    fn method(self, step: f64) -> Method {
+        match self {
+            Choice::Dopri5 => Method::Dopri5,
+            Choice::Rk4 => Method::Rk4 { step },
+            Choice::Dop853 => Method::Dop853,
+            Choice::Radau5 => Method::Radau5,
+        }
+    }
+}
+
+fn step(text: &str) -> std::result::Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(s) if (1e-9..=1e6).contains(&s) => Ok(s),
+        _ => Err("a step lies within 1e-9 and 1e6 s".into()),
+    }
 }
 
 fn tolerance(text: &str) -> std::result::Result<f64, String> {
@@ -64,11 +105,15 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     if !quiet {
         progress.warn(&arguments.inputs, &inputs.warnings);
     }
-    let integrator = Integrator { max_steps: most_steps(inputs.time.len()), ..integrator };
+    let chosen = arguments.integrator.map(|choice| choice.method(arguments.step));
+    let method = chosen.unwrap_or(integrator.method);
+    let integrator = Integrator { method, max_steps: most_steps(inputs.time.len()), ..integrator };
+    let integrator = even_steps(integrator, &inputs.time)?;
     let (signals, start) = begun(file, &inputs);
-    let table = match &file.dynamics {
-        Some(_) => simulate_file(file, &signals, &inputs.time, &start, &integrator)?,
-        None => {
+    let table = match (&file.dynamics, chosen) {
+        (Some(_), None) => simulate_file(file, &signals, &inputs.time, &start, &integrator)?,
+        (Some(_), Some(_)) => simulate_file_by(file, &signals, &inputs.time, &start, &integrator)?,
+        (None, _) => {
             let model = Model::from_file(file, library, &inputs.roles)?;
             let start: Vec<f64> = [start.x, start.y, start.heading].into_iter().chain(start.trailer_headings).collect();
             simulate_model(&model, &signals, &inputs.time, &start, &integrator)?
@@ -93,6 +138,22 @@ fn begun(file: &ModelFile, inputs: &Inputs) -> (Signals, Initial) {
 /// Enough for rows far apart, and an end in seconds for a motion no integrator can follow.
 fn most_steps(rows: usize) -> u32 {
     u32::try_from(rows).unwrap_or(u32::MAX).saturating_mul(100).saturating_add(1_000_000)
+}
+
+/// The most even steps of a run: some ten seconds of work.
+const MOST_EVEN_STEPS: f64 = 1e7;
+
+/// The integrator with room for the steps that even ones take: as many as the time has, and one a row more.
+fn even_steps(integrator: Integrator, times: &[f64]) -> Result<Integrator> {
+    let Method::Rk4 { step } = integrator.method else { return Ok(integrator) };
+    let duration = times.last().zip(times.first()).map_or(0.0, |(to, from)| to - from);
+    let steps = (duration / step).ceil();
+    if steps > MOST_EVEN_STEPS {
+        return Err(Error::input(format!("{duration} s in steps of {step} s are {steps} steps"))
+            .help(format!("give a --step of {} s or more", duration / MOST_EVEN_STEPS)));
+    }
+    let rows = u32::try_from(times.len()).unwrap_or(u32::MAX);
+    Ok(Integrator { max_steps: rows.saturating_add(steps as u32), ..integrator })
 }
 
 fn at_origin(file: &ModelFile) -> Initial {

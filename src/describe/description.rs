@@ -1,6 +1,6 @@
 //! The description of a model: everything that follows from it, in formulas.
 
-use super::{ConstraintEntry, CreepLimits, Signature, Structure, Symbols};
+use super::{ConstraintEntry, CreepLimits, DerivativesAt, GivenPoint, Signature, Structure, Symbols};
 use crate::effects::Applied;
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
@@ -40,6 +40,8 @@ pub struct Description {
     pub beside_rows: Vec<Symbol>,
     /// The effects the model includes.
     pub effects: Vec<EffectInModel>,
+    /// Derivatives of the constraints at a point that was asked for.
+    pub derivatives: Option<DerivativesAt>,
 }
 
 /// name = formula; for a state, its rate.
@@ -117,6 +119,7 @@ impl Description {
                 .collect(),
             effects: model.effects.iter().map(|e| EffectInModel::of(e, &plain)).collect(),
             symbols: Symbols::of(model, &definitions, &BTreeSet::new())?,
+            derivatives: None,
             coordinates,
             constraints,
         };
@@ -140,6 +143,14 @@ impl Description {
             c.coefficient.limits = limits.of(c.kind.regimes);
         }
         self
+    }
+
+    /// The description with the derivatives of the model's constraints at a point.
+    ///
+    /// # Errors
+    /// As [`DerivativesAt::of`].
+    pub fn with_derivatives_at(self, model: &Model, point: &GivenPoint) -> Result<Self> {
+        Ok(Self { derivatives: Some(DerivativesAt::of(model, point)?), ..self })
     }
 
     /// Values of the coefficients in the model as it stands, and whether its motion keeps to their rows.

@@ -16,6 +16,14 @@ use serde_json::{Map, Value, json as object};
 /// # Ok::<(), creepage::Error>(())
 /// ```
 pub fn json(d: &Description) -> Value {
+    let mut found = whole(d);
+    if let (Some(at), Some(entries)) = (&d.derivatives, found.as_object_mut()) {
+        entries.insert("derivatives_at".into(), at.json());
+    }
+    found
+}
+
+fn whole(d: &Description) -> Value {
     let s = &d.symbols;
     object!({
         "schema": 1,

@@ -29,6 +29,9 @@ pub fn latex(d: &Description) -> String {
     symbols(&mut out, d);
     let _ = writeln!(out, "\\section{{Constraints}}\nEvery row times the rates of the coordinates is zero.");
     d.constraints.iter().for_each(|c| constraint(&mut out, &d.symbols, c));
+    if let Some(derivatives) = &d.derivatives {
+        derivatives.latex(&mut out, &|s| d.symbols.latex_symbol(s));
+    }
     pfaffian(&mut out, d);
     structure(&mut out, d);
     motion(&mut out, d);

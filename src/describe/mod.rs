@@ -13,6 +13,7 @@
 //! ```
 
 mod constraint;
+mod derivatives_at;
 mod description;
 mod effects;
 mod found;
@@ -37,6 +38,8 @@ mod vehicles;
 pub use constraint::ConstraintEntry;
 #[doc(hidden)]
 pub use constraint::Part;
+#[doc(hidden)]
+pub use derivatives_at::{DerivativesAt, GivenPoint};
 pub use description::{Description, Equation};
 #[doc(hidden)]
 pub use description::{EffectInModel, MAX_TRAILERS};

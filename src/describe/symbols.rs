@@ -73,7 +73,7 @@ fn renamed(used: &BTreeSet<Symbol>) -> BTreeMap<Symbol, Symbol> {
 }
 
 /// The values the model fixes: parameters, and what is defined by them alone.
-fn values(model: &Model, definitions: &Definitions) -> Result<BTreeMap<Symbol, f64>> {
+pub(super) fn values(model: &Model, definitions: &Definitions) -> Result<BTreeMap<Symbol, f64>> {
     let mut values = model.values();
     for (name, formula) in definitions.sorted()? {
         if let Some(v) = formula.eval(&|s| values.get(s).copied().unwrap_or(f64::NAN)) {

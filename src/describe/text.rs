@@ -22,6 +22,9 @@ pub fn text(d: &Description) -> String {
          not listed is zero everywhere.",
     );
     d.constraints.iter().enumerate().for_each(|(i, c)| constraint(&mut page, i + 1, c));
+    if let Some(derivatives) = &d.derivatives {
+        derivatives.text(&mut page);
+    }
     pfaffian(&mut page, d);
     structure(&mut page, d);
     motion(&mut page, d);

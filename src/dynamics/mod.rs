@@ -38,7 +38,7 @@ pub use contact::Contact;
 pub use derive::Formulas;
 pub use description::Dynamics;
 #[doc(hidden)]
-pub use file::{known, known_on, simulate_file};
+pub use file::{known, known_on, simulate_file, simulate_file_by};
 #[doc(hidden)]
 pub use law::LawParameter;
 pub use law::{Law, laws};

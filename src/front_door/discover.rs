@@ -3,7 +3,7 @@
 use super::discovery::Discovery;
 use super::model::Model;
 use super::options::Options;
-use crate::describe::Description;
+use crate::describe::{Description, GivenPoint};
 use crate::discrepancy::check::check_aligned;
 use crate::discrepancy::discover::discover_aligned;
 use crate::discrepancy::identifiability::{Check, Checked};
@@ -112,8 +112,28 @@ pub fn check_with(model: &Model, runs: &[Run], options: &Options) -> Result<Chec
 /// # Errors
 /// When an effect of the model does not apply to its vehicle.
 pub fn describe(model: &Model) -> Result<Description> {
+    Description::of(&vehicle_of(model)?)
+}
+
+/// As [`describe`](crate::describe), with the first and second derivatives of every constraint at a point, by dual numbers.
+///
+/// ```
+/// let car = creepage::Model::new("car", &[("wheel_radius", 0.3), ("wheelbase", 2.6)])?;
+/// let at = creepage::describe_at(&car, &"phi=0.3,x'=1".parse()?)?;
+/// assert!(creepage::describe::text(&at).contains("dg/d(phi) = 0.95"));
+/// # Ok::<(), creepage::Error>(())
+/// ```
+///
+/// # Errors
+/// As [`describe`](crate::describe), and when the point names what no constraint has.
+pub fn describe_at(model: &Model, point: &GivenPoint) -> Result<Description> {
+    let vehicle = vehicle_of(model)?;
+    Description::of(&vehicle)?.with_derivatives_at(&vehicle, point)
+}
+
+fn vehicle_of(model: &Model) -> Result<VehicleModel> {
     let roles: Vec<String> = model.file.columns.inputs.iter().map(|i| i.role.clone()).collect();
-    Description::of(&VehicleModel::from_file(&model.file, &model.library, &roles)?)
+    VehicleModel::from_file(&model.file, &model.library, &roles)
 }
 
 /// The motion of a model over the inputs of a run, from the first pose of the run, at the times of its poses.

@@ -15,6 +15,7 @@ mod constraint_type;
 mod contact;
 mod definitions;
 pub(crate) mod distribution_basis;
+mod dual_jacobian;
 pub(crate) mod exact_linear_algebra;
 mod form;
 pub(crate) mod growth_vector;
@@ -48,6 +49,8 @@ pub(crate) use contact::tangent;
 pub use contact::{Direction, Rolling, sigma_closed_form};
 #[doc(hidden)]
 pub use definitions::Definitions;
+#[doc(hidden)]
+pub use dual_jacobian::DualJacobian;
 #[doc(hidden)]
 pub use form::Form;
 pub use growth_vector::Growth;

@@ -1,6 +1,7 @@
 //! The claims of the paper and of users, and the ledger of them.
 
 mod checks;
+mod coverage;
 mod generated;
 mod ledger;
 #[path = "../support/mod.rs"]

@@ -12,6 +12,7 @@ mod hostile_names;
 mod killed;
 #[path = "../support/known.rs"]
 mod known;
+mod libraries;
 mod odd_paths;
 mod output;
 mod own_states;

@@ -244,3 +244,50 @@ fn a_trial_step_may_leave_the_domain() {
         assert!((rows[0][0] - 1e-4).abs() < 1e-8, "{method:?}: {}", rows[0][0]);
     }
 }
+
+/// y′ = cos(t)·y for the crate itself.
+struct Swing;
+
+impl ode_solvers::System<f64, ode_solvers::SVector<f64, 1>> for Swing {
+    fn system(&self, t: f64, y: &ode_solvers::SVector<f64, 1>, dy: &mut ode_solvers::SVector<f64, 1>) {
+        swing(t, y.as_slice(), dy.as_mut_slice());
+    }
+}
+
+/// Why the integrator of order 8 is not the crate's: with c₁₂ = 0 in its table, where 1 belongs, the last stage sees the time of
+/// the first, and the error falls with the first power of the step. When this test fails the crate has mended it.
+#[test]
+fn the_dop853_of_the_crate_has_order_one_where_the_rate_reads_the_time() {
+    let error = |h: f64| {
+        let start = ode_solvers::SVector::<f64, 1>::new(1.0);
+        // One step after another: tolerances so loose that none is refused, and none longer than h.
+        let (loose, sparse) = (1e6, ode_solvers::OutputType::Sparse);
+        let mut s = ode_solvers::Dop853::from_param(
+            Swing,
+            0.0,
+            2.0,
+            h,
+            start,
+            loose,
+            loose,
+            0.9,
+            0.0,
+            0.333,
+            6.0,
+            h,
+            h,
+            100_000,
+            u32::MAX,
+            sparse,
+        );
+        s.integrate().unwrap();
+        (s.y_out().last().unwrap()[0] - 2f64.sin().exp()).abs()
+    };
+    let (coarse, fine) = (error(0.02), error(0.01));
+    println!("the crate's Dop853: {coarse:.2e} at steps of 0.02, {fine:.2e} at 0.01, order {:.2}", order(coarse, fine));
+    assert!(order(coarse, fine) < 1.5 && fine > 1e-6, "{coarse} {fine}");
+    // Ours, at steps as long.
+    let ours = with(Method::Dop853, 1e6);
+    let times: Vec<f64> = (1..=100).map(|i| 0.02 * f64::from(i)).collect();
+    assert!(run_swing(&ours, &times).0 < 1e-13);
+}

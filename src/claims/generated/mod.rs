@@ -14,6 +14,7 @@
 //! [`vehicles`] makes those that the theorems speak of, which creep *near* an ideal motion: none of their wheels is
 //! loose. [`loose_vehicles`] makes any.
 
+mod constrained_motion;
 mod describe;
 mod moving;
 mod plane;
@@ -21,6 +22,7 @@ mod stand;
 mod strategy;
 mod vehicle;
 
+pub use constrained_motion::ConstrainedMotion;
 pub use moving::{Contact, Moving};
 pub use stand::{Facing, Placed};
 pub use strategy::{any_drive, loose_vehicles, moving, vehicles};

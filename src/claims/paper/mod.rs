@@ -3,6 +3,7 @@
 mod blade;
 mod direction;
 mod domain;
+mod dual_numbers;
 mod editorial;
 mod falling_cat;
 mod finite;
@@ -41,6 +42,7 @@ pub fn all() -> Vec<Claim> {
         rotation::claims(),
         traverse::claims(),
         direction::claims(),
+        dual_numbers::claims(),
         regimes::claims(),
         wheel::claims(),
         simulation::claims(),

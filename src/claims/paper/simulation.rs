@@ -1,5 +1,6 @@
 //! Section 4: the simulation of Fig. 7 and the energy rule.
 
+use crate::claims::generated::{ConstrainedMotion, Generated, any_drive, vehicles};
 use crate::claims::simulated::{Creep, model, undefined};
 use crate::claims::{
     Claim, DerivedFormulas, Domain, Fault, Outcome, Sampling, Statement, Status, Verdict, at_points, near, proving,
@@ -85,13 +86,112 @@ fn energy_rule() -> Claim {
              vehicle. Which rates are scaled and when is the paper's to say and it does not; reading A is adopted.",
         )
         .chapter(CHAPTER)
-        .code(&["src/model/equations.rs"])
+        .code(&["src/model/equations.rs", "src/claims/generated/constrained_motion.rs", CONSERVATIVE])
         .tests(&["tests/reports/fig7.rs"])
         .sample(
             "energies of generated vehicles with up to three trailers through the compiled equations",
             &[("lambda", "sqrt(E_ideal/E_crept)")],
             |s, sampling| sampling.cases(bodies(), Bodies::shown, |b| scaled_energy(s, b)),
         )
+        .sample(
+            "vehicles of the generator with any mass matrix, their rates from the constraints alone",
+            &[("lambda", "sqrt(E_ideal/E_crept)")],
+            |s, sampling| sampling.one_in(4).cases(weighed(), Weighed::shown, |b| scaled_by_constraints(s, b)),
+        )
+        .sample(
+            "a wheel of any mass, radius and inertias driven by the laws of reading A as the figures use them",
+            &[("energy", "I*w^2 + (m*r^2 + J)*u^2")],
+            |s, sampling| sampling.cases(wheels(), shown_wheel, |w| driven_by_reading_a(s, w)),
+        )
+}
+
+/// A vehicle of the generator with measured rates, creeps and a mass matrix L·Lᵀ.
+#[derive(Clone, Debug)]
+struct Weighed {
+    vehicle: Generated,
+    rates: Vec<f64>,
+    creeps: Vec<f64>,
+    /// Rows of L, as long as any vehicle needs.
+    masses: Vec<Vec<f64>>,
+}
+
+/// Coordinates of a vehicle with five wheels, two castors and three trailers at most.
+const MOST_COORDINATES: usize = 16;
+
+fn weighed() -> impl Strategy<Value = Weighed> + Sync {
+    let numbers = |n: usize| prop::collection::vec(-1.0..1.0f64, n);
+    let masses = prop::collection::vec(numbers(MOST_COORDINATES), MOST_COORDINATES);
+    (vehicles(any_drive(), 2, 3), numbers(6), numbers(MOST_COORDINATES), masses)
+        .prop_map(|(vehicle, rates, creeps, masses)| Weighed { vehicle, rates, creeps, masses })
+}
+
+impl Weighed {
+    fn shown(&self) -> Vec<(String, String)> {
+        let lists = [("rates", &self.rates), ("creeps", &self.creeps)];
+        let lists = lists.map(|(name, values)| (name.to_string(), format!("{values:?}")));
+        [self.vehicle.shown(), lists.to_vec()].concat()
+    }
+
+    /// Twice the kinetic energy q̇ᵀ·L·Lᵀ·q̇.
+    fn energy(&self, rates: &[f64]) -> f64 {
+        let sum = |row: &Vec<f64>| row.iter().zip(rates).map(|(l, v)| l * v).sum::<f64>().powi(2);
+        self.masses.iter().take(rates.len()).map(sum).sum()
+    }
+}
+
+/// Steered wheels and castors stand: their angles are no rates that the rule scales.
+fn scaled_by_constraints(s: &Statement, b: &Weighed) -> Verdict {
+    let motion = ConstrainedMotion::of(&b.vehicle, false).filter(|_| b.vehicle.is_regular()).ok_or(Fault::Outside)?;
+    let turns = |name: &str| name == "phi" || name.starts_with("theta");
+    let measured: Vec<f64> =
+        motion.measured().zip(&b.rates).map(|(name, rate)| if turns(name) { *rate } else { 0.0 }).collect();
+    let energy = |creeps: &[f64], lambda: f64| {
+        let measured: Vec<f64> = measured.iter().map(|rate| lambda * rate).collect();
+        motion.rates(motion.start(), &measured, creeps).map(|rates| b.energy(&rates)).ok_or(Fault::Outside)
+    };
+    let creeps: Vec<f64> = b.creeps.iter().take(motion.coefficients()).map(|e| 0.4 * e).collect();
+    let (e_ideal, e_crept) = (energy(&vec![0.0; creeps.len()], 1.0)?, energy(&creeps, 1.0)?);
+    let at = |name: &str| match name {
+        "E_ideal" => Some(e_ideal),
+        "E_crept" => Some(e_crept),
+        _ => None,
+    };
+    let lambda = value_said(s, "lambda", &at)?;
+    if lambda.is_sign_negative() {
+        return Err(Fault::False("the vehicle would drive backwards".into()));
+    }
+    near("the energy over the ideal one", energy(&creeps, lambda)? / e_ideal, 1.0, 1e-8)
+}
+
+/// r, m, I, J, w, u_0, g, t, and the two creeps.
+const NAMES: [&str; 10] = ["r", "m", "I", "J", "w", "u_0", "g", "t", "e_rc", "e_tc"];
+
+fn wheels() -> impl Strategy<Value = Vec<f64>> + Sync {
+    let (length, mass, rate, creep) = (|| 0.1..2.0f64, || 0.2..5.0f64, || 0.5..4.0f64, || -0.4..0.4f64);
+    ((length(), mass(), mass(), mass()), (rate(), rate(), -0.2..0.2f64, 0.0..2.0f64), (creep(), creep()))
+        .prop_map(|((r, m, i, j), (w, u, g, t), (e_rc, e_tc))| vec![r, m, i, j, w, u, g, t, e_rc, e_tc])
+}
+
+fn shown_wheel(values: &Vec<f64>) -> Vec<(String, String)> {
+    NAMES.iter().zip(values).map(|(name, v)| ((*name).to_string(), v.to_string())).collect()
+}
+
+/// m·|v|² + I·φ̇² + J·θ̇² with the rates that the code of reading A gives, v from the coefficients of creep.
+fn driven_by_reading_a(s: &Statement, values: &[f64]) -> Verdict {
+    let of = |name: &str| NAMES.iter().position(|n| *n == name).map(|i| values[i]);
+    let value = |name: &str| match name {
+        "side" => Some(1.0),
+        "u" => Some(of("u_0")? + of("g")? * of("t")?),
+        _ => of(name),
+    };
+    let laws = Reading::A.spelled().map_err(|e| undefined(&e))?;
+    let rate = |law: &crate::formula::Expr| law.eval(&|s: &Symbol| value(s.as_str()).unwrap_or(f64::NAN));
+    let rates: Option<Vec<f64>> = laws.iter().map(rate).collect();
+    let [yaw, wheel] = rates.ok_or(Fault::Outside)?[..] else { return Err(Fault::Undefined("two rates".into())) };
+    let [r, m, i, j, .., e_rc, e_tc] = values[..] else { return Err(Fault::Undefined("ten values".into())) };
+    let (forward, inertia) = (r * (1.0 - e_rc) * wheel, i * yaw.powi(2) + j * wheel.powi(2));
+    let energy = m * (forward.powi(2) + (e_tc * forward).powi(2)) + inertia;
+    near("the energy", energy, value_said(s, "energy", &value)?, 1e-11)
 }
 
 /// A vehicle with creeps, a configuration, inputs and an energy.

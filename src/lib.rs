@@ -37,6 +37,7 @@
 //! |---|---|
 //! | [`discover()`], [`discover_with()`] | finds where model and runs disagree, names the missing effect, adds it to the model |
 //! | [`check()`], [`check_with()`] | says before any fit what runs can tell of a model |
+//! | [`fit()`] | fits just the effects that are named: values and covariance, and no selection |
 //! | [`describe()`] | the constraints of a model with their equations, Jacobians and growth vector |
 //! | [`simulate()`], [`sweep()`] | the motion of a model; a table of the motions of many cases |
 //! | [`verify()`] | runs the claims of the paper, each with its evidence |
@@ -108,7 +109,7 @@ pub use discrepancy::report::{Report, Verdict};
 pub use error::{Error, Kind as ErrorKind, Result};
 pub use files::Run;
 pub use front_door::{
-    Discovery, Model, Options, Pose, check, check_with, describe, describe_at, discover, discover_with, simulate,
+    Discovery, Model, Options, Pose, check, check_with, describe, describe_at, discover, discover_with, fit, simulate,
     sweep, verify,
 };
 pub use progress::{OnProgress, Progress, Stage};

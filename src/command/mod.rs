@@ -5,6 +5,7 @@ mod completions;
 mod describe;
 mod discover;
 mod figures;
+mod fit;
 mod init;
 mod lists;
 mod man;
@@ -46,6 +47,7 @@ enum Command {
     Init(init::Arguments),
     Check(check::Arguments),
     Discover(discover::Arguments),
+    Fit(fit::Arguments),
     Simulate(simulate::Arguments),
     Sweep(sweep::Arguments),
     Describe(describe::Arguments),
@@ -74,6 +76,7 @@ impl Cli {
             Command::Init(arguments) => init::run(&arguments, self.common.quiet),
             Command::Check(arguments) => check::run(&arguments, self.common.quiet),
             Command::Discover(arguments) => discover::run(&arguments, self.common.quiet),
+            Command::Fit(arguments) => fit::run(&arguments, self.common.quiet),
             Command::Simulate(arguments) => simulate::run(&arguments, self.common.quiet),
             Command::Sweep(arguments) => sweep::run(&arguments, self.common.quiet),
             Command::Describe(arguments) => describe::run(&arguments),

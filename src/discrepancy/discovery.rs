@@ -102,7 +102,7 @@ pub(crate) fn report(request: &Request, data: &Data, verdict: Verdict, found: Fi
     }
 }
 
-fn why_dropped(request: &Request, data: &Data) -> BTreeMap<String, usize> {
+pub(crate) fn why_dropped(request: &Request, data: &Data) -> BTreeMap<String, usize> {
     let mut why_dropped: BTreeMap<String, usize> = BTreeMap::new();
     let each = request.runs.iter().chain(request.held_out).flat_map(|r| &r.why_dropped);
     each.for_each(|(why, n)| *why_dropped.entry(why.clone()).or_default() += n);
@@ -111,7 +111,7 @@ fn why_dropped(request: &Request, data: &Data) -> BTreeMap<String, usize> {
 }
 
 /// Where the answer comes from: every file that was read, by its hash.
-fn provenance(request: &Request) -> Provenance {
+pub(crate) fn provenance(request: &Request) -> Provenance {
     let runs = || request.runs.iter().chain(request.held_out);
     let mut hashes: BTreeMap<String, String> =
         runs().map(|r| (r.path.to_string_lossy().into_owned(), r.sha256.clone())).collect();

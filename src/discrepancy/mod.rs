@@ -12,6 +12,8 @@
 //! traverse constraint, and the third is yaw. With q = 0 a run is one trajectory; with large q windows stand
 //! alone. q and σ are estimated with the parameters, so noise, unexplained motion and effects are told apart.
 
+pub mod calibration;
+pub mod calibration_report;
 pub mod check;
 pub mod clock_alignment;
 pub mod diagnosis;

@@ -32,6 +32,8 @@ pub use model::known::{Known, KnownDynamics, KnownEffect, KnownInput, KnownLaw, 
 pub use model::measurement::{Initial, InputTiming, Noise, Sensor};
 pub use model::model_file::ModelFile;
 pub use model::patch::VEHICLES_FILE;
+#[doc(hidden)]
+pub use model::prior_entry::KnownBefore;
 pub use model::scope_entry::{CourseEntry, Motion};
 pub(crate) use output_path::{check_target, unwritable};
 pub use sweep::axis::{Axis, AxisValues, Distribution, Sampled};

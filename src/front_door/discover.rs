@@ -4,6 +4,9 @@ use super::discovery::Discovery;
 use super::model::Model;
 use super::options::Options;
 use crate::describe::{Description, GivenPoint};
+use crate::discrepancy::calibration::calibrate::calibrate;
+use crate::discrepancy::calibration::targets::Target;
+use crate::discrepancy::calibration_report::Calibration;
 use crate::discrepancy::check::check_aligned;
 use crate::discrepancy::discover::discover_aligned;
 use crate::discrepancy::identifiability::{Check, Checked};
@@ -12,6 +15,7 @@ use crate::error::Result;
 use crate::files::Run;
 use crate::model::Model as VehicleModel;
 use crate::motion::{Integrator, Signals, Table, simulate_model};
+use crate::progress::unheard;
 
 /// Finds where a model and measured runs disagree, names the missing effect, and adds it to the model.
 ///
@@ -101,6 +105,33 @@ pub fn check_with(model: &Model, runs: &[Run], options: &Options) -> Result<Chec
     check_aligned(&of, options.clock_offset, options.progress)
 }
 
+/// Fits just these effects to runs: values, deviations and covariance, and no selection.
+///
+/// An effect on one of several inputs or trailers is named `ID@INPUT` or `ID@TRAILER`. Priors and bounds are those of the
+/// model's `[[effects]]`.
+///
+/// ```
+/// use creepage::{Model, Run};
+/// let model = Model::read("examples/runs/cornering/model.toml")?;
+/// let runs = [Run::read("examples/runs/cornering/eights.csv", &model)?];
+/// let fitted = creepage::fit(&model, &runs, &["cornering-creep", "lever-arm"])?;
+/// let slide = &fitted.effects[0].parameters["mass_over_bT"];
+/// assert!((slide.value - 0.11).abs() < 4.0 * slide.std.unwrap());
+/// assert_eq!(fitted.covariance.unwrap().names, ["cornering-creep mass_over_bT", "lever-arm a", "lever-arm b"]);
+/// # Ok::<(), creepage::Error>(())
+/// ```
+///
+/// # Errors
+/// As [`discover`](crate::discover), and when a name does not mean one effect of the vehicle.
+pub fn fit(model: &Model, runs: &[Run], effects: &[&str]) -> Result<Calibration> {
+    model.file.no_forces("fit")?;
+    VehicleModel::check_motion(&model.file)?;
+    let targets: Vec<Target> = effects.iter().map(|text| text.parse()).collect::<Result<_>>()?;
+    let (file, library) = (&model.file, &model.library[..]);
+    let request = Request { file, runs, held_out: &[], library, horizons: &[], seed: 0 };
+    Ok(calibrate(&request, &targets, None, &unheard)?.calibration)
+}
+
 /// The constraints of a model with equations, Jacobians, growth vector and RT signature.
 ///
 /// ```
@@ -115,7 +146,7 @@ pub fn describe(model: &Model) -> Result<Description> {
     Description::of(&vehicle_of(model)?)
 }
 
-/// As [`describe`](crate::describe), with the first and second derivatives of every constraint at a point, by dual numbers.
+/// As [`describe`](crate::describe()), with the first and second derivatives of every constraint at a point, by dual numbers.
 ///
 /// ```
 /// let car = creepage::Model::new("car", &[("wheel_radius", 0.3), ("wheelbase", 2.6)])?;
@@ -125,7 +156,7 @@ pub fn describe(model: &Model) -> Result<Description> {
 /// ```
 ///
 /// # Errors
-/// As [`describe`](crate::describe), and when the point names what no constraint has.
+/// As [`describe`](crate::describe()), and when the point names what no constraint has.
 pub fn describe_at(model: &Model, point: &GivenPoint) -> Result<Description> {
     let vehicle = vehicle_of(model)?;
     Description::of(&vehicle)?.with_derivatives_at(&vehicle, point)

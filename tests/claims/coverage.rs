@@ -50,13 +50,14 @@ fn sign(v: &Exact) -> &'static str {
 fn note_wheels(drawn: &Drawn, vehicle: &Generated) {
     let Some(wheels) = vehicle.wheels() else { return drawn.note("nowhere to turn about") };
     drawn.note(format!("{:?}", vehicle.drive));
+    let axle = wheels.iter().find(|w| w.name.starts_with("axle")).unwrap_or(&wheels[0]);
     let further: Vec<&Placed> = wheels.iter().filter(|w| w.k > 10).collect();
     drawn.note(format!("{} further wheels", further.len()));
     for wheel in further {
         drawn.note(match wheel.facing {
             Facing::Castor => "further castor".to_string(),
             Facing::Steered => "further steered wheel".into(),
-            Facing::Fixed(_) => format!("further wheel {}", beside(wheel, &wheels[0])),
+            Facing::Fixed(_) => format!("further wheel {}", beside(wheel, axle)),
         });
         drawn.note(if wheel.place[1].to_f64() < 0.0 { "to the right" } else { "to the left" });
     }

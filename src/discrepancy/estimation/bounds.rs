@@ -10,7 +10,7 @@ use nalgebra::DVector;
 const LEAST_SHARE: f64 = 0.04;
 
 /// Where a fit stops: a positive value short of zero.
-fn range_of(p: &Parameter) -> [f64; 2] {
+pub fn range_of(p: &Parameter) -> [f64; 2] {
     if p.positive { [p.range[0].max(p.size * LEAST_SHARE), p.range[1]] } else { p.range }
 }
 

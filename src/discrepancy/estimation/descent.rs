@@ -2,6 +2,7 @@
 
 use super::bounds::Bounds;
 use super::elimination::{ReducedForm, eliminate};
+use super::priors::Priors;
 use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
@@ -40,6 +41,8 @@ pub(crate) struct Windows<'a> {
     pub equations: &'a Equations,
     /// Noise and jumps.
     pub v: &'a NoiseModel,
+    /// What is known of the parameters beside the data.
+    pub priors: &'a Priors,
 }
 
 /// Windows linearised at parameters and at poses of their starts.
@@ -58,8 +61,15 @@ impl Windows<'_> {
     /// The linearisation at parameters and poses; `None` where the motion is undefined.
     pub fn at(&self, p: DVector<f64>, starts: WindowStates) -> Option<Point> {
         let linear = linearise(self.equations, p.as_slice(), self.records, self.plan, &starts)?;
-        let eliminated = eliminate(&linear, self.v, p.len())?;
+        let eliminated = self.eliminated(&linear, &p)?;
         Some(Point { p, starts, linear, eliminated })
+    }
+
+    /// What is left of windows when the poses are eliminated, with what was known before.
+    pub fn eliminated(&self, linear: &[Vec<LinearisedWindow>], p: &DVector<f64>) -> Option<ReducedForm> {
+        let mut found = eliminate(linear, self.v, p.len())?;
+        self.priors.add_to(&mut found, &self.equations.free, p);
+        Some(found)
     }
 }
 
@@ -93,6 +103,11 @@ pub(crate) struct Descent<'a> {
 }
 
 impl Descent<'_> {
+    /// What a point costs as it is.
+    fn cost(&self, here: &Point) -> f64 {
+        misfit(&here.linear, self.windows.v) + self.windows.priors.cost(&self.windows.equations.free, &here.p)
+    }
+
     /// The point at which a descent ends.
     pub fn from(&self, here: Point) -> Point {
         minimise(self, here, &DAMPING, self.effort.passes).here
@@ -115,7 +130,7 @@ impl LeastSquares for Descent<'_> {
     /// A whole step gains what is promised once the poses have followed, a shortened one what is there.
     fn gain(&self, here: &Point, next: &Point, share: f64) -> f64 {
         match share < 1.0 {
-            true => misfit(&here.linear, self.windows.v) - misfit(&next.linear, self.windows.v),
+            true => self.cost(here) - self.cost(next),
             false => here.eliminated.cost() - next.eliminated.cost(),
         }
     }

@@ -3,7 +3,7 @@
 use super::autocorrelation;
 use super::bounds::Bounds;
 use super::descent::{Descent, Point, Windows};
-use super::elimination::{ReducedForm, eliminate};
+use super::elimination::ReducedForm;
 use super::problem::Problem;
 use super::variance_components;
 use crate::discrepancy::estimation::noise_model::{Component, NoiseModel};
@@ -101,7 +101,9 @@ impl Problem {
                 let better = variance_components::improve(&point.linear, v.clone(), point.p.len(), first_step);
                 let settled = better.close_to(&v);
                 v = better;
-                let Some(e) = eliminate(&point.linear, &v, point.p.len()) else { return Ok(None) };
+                let Some(e) = self.windows_by(&equations, &v).eliminated(&point.linear, &point.p) else {
+                    return Ok(None);
+                };
                 point.eliminated = e;
                 point = Descent { windows: self.windows_by(&equations, &v), bounds: &bounds, effort, is_near: true }
                     .from(point);
@@ -110,10 +112,11 @@ impl Problem {
                 }
             }
         }
-        let unexplained = if effort.variances { unexplained(&point, &v) } else { vec![0.0; v.process().len()] };
+        let at = |v: &NoiseModel| self.windows_by(&equations, v).eliminated(&point.linear, &point.p);
+        let unexplained = if effort.variances { unexplained(&point, &v, &at) } else { vec![0.0; v.process().len()] };
         let of_kinds = autocorrelation::of_each_kind(&point.linear, &unexplained);
         let residual_correlation_time = autocorrelation::of_what_remains(&of_kinds, &unexplained);
-        let value_correlation_times = value_correlation_times(&point, &v, &of_kinds).unwrap_or_default();
+        let value_correlation_times = value_correlation_times(&point, &v, &of_kinds, &at).unwrap_or_default();
         let noise_correlation_time = if effort.variances { autocorrelation::of_noise(&point.linear) } else { 1.0 };
         let initial_state_dof = self.initial_state_dof(&equations, &point);
         Ok(Some(Fit {
@@ -127,7 +130,7 @@ impl Problem {
     }
 
     fn windows_by<'a>(&'a self, equations: &'a Equations, v: &'a NoiseModel) -> Windows<'a> {
-        Windows { records: &self.records, plan: &self.plan, equations, v }
+        Windows { records: &self.records, plan: &self.plan, equations, v, priors: &self.priors }
     }
 
     /// H⁻¹·(Σ g gᵀ)·H⁻¹ with the gradient g of each run: what runs of the same kind would scatter by, whatever the
@@ -196,11 +199,11 @@ impl Problem {
 }
 
 /// What each component of the process noise is needed for.
-fn unexplained(point: &Point, v: &NoiseModel) -> Vec<f64> {
+fn unexplained(point: &Point, v: &NoiseModel, at: &impl Fn(&NoiseModel) -> Option<ReducedForm>) -> Vec<f64> {
     let here = variance_components::deviance(&point.linear, v, &point.eliminated);
     let needed = |(c, jump): (usize, &Component)| {
         let calm = Some(v.clone().without_jump(c)).filter(|calm| jump.is_estimated && calm != v)?;
-        let e = eliminate(&point.linear, &calm, point.p.len())?;
+        let e = at(&calm)?;
         Some(variance_components::deviance(&point.linear, &calm, &e) - here)
     };
     v.process().iter().enumerate().map(|jump| needed(jump).unwrap_or(0.0)).collect()
@@ -211,7 +214,12 @@ const VARIED: f64 = 0.1;
 
 /// For each value the mean of the kinds' correlations, each by the share ∂ ln var/∂ ln q that the kind of jumps has in the
 /// variance of the value; `None` where no kind has one, or the shares cannot be told.
-fn value_correlation_times(point: &Point, v: &NoiseModel, of_kinds: &[f64]) -> Option<Vec<f64>> {
+fn value_correlation_times(
+    point: &Point,
+    v: &NoiseModel,
+    of_kinds: &[f64],
+    at: &impl Fn(&NoiseModel) -> Option<ReducedForm>,
+) -> Option<Vec<f64>> {
     if of_kinds.iter().all(|tau| *tau <= 1.0) {
         return None;
     }
@@ -220,7 +228,7 @@ fn value_correlation_times(point: &Point, v: &NoiseModel, of_kinds: &[f64]) -> O
     let more = |c: usize| {
         let mut varied = v.clone();
         varied.process_mut()[c].variance *= 1.0 + VARIED;
-        Some(inverse(&eliminate(&point.linear, &varied, p)?.normal().0)?.diagonal() - &here)
+        Some(inverse(&at(&varied)?.normal().0)?.diagonal() - &here)
     };
     let by_kind: Vec<DVector<f64>> = (0..of_kinds.len()).map(more).collect::<Option<_>>()?;
     let of_value = |i: usize| {

@@ -6,6 +6,7 @@ pub(crate) mod descent;
 pub mod elimination;
 pub mod fit;
 pub mod noise_model;
+pub mod priors;
 pub mod problem;
 pub mod rate_regression;
 mod rate_sums;

@@ -1,5 +1,6 @@
 //! Runs cut into windows, and what is known of their noise.
 
+use super::priors::Priors;
 use crate::discrepancy::estimation::noise_model::{NoiseModel, Start};
 use crate::discrepancy::initial_state::heading_from_path;
 use crate::discrepancy::record::local_polynomial;
@@ -23,6 +24,8 @@ pub struct Problem {
     pub plan: Vec<Segment>,
     /// Where the variances start, and which of them are estimated.
     pub variances: NoiseModel,
+    /// What is known of values before any run; nothing where effects are searched for.
+    pub priors: Priors,
 }
 
 impl Problem {
@@ -59,7 +62,7 @@ impl Problem {
             variances.process_mut()[ACROSS].is_estimated = false;
             variances.process_mut()[YAW].is_estimated &= !is_defined;
         }
-        Self { records, plan, variances }
+        Self { records, plan, variances, priors: Priors::default() }
     }
 
     /// The same with what the noise of its inputs makes of a model's windows.

@@ -13,6 +13,7 @@ use crate::discrepancy::estimation::descent::Windows;
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::noise_model::NoiseModel;
+use crate::discrepancy::estimation::priors::Priors;
 use crate::discrepancy::estimation::problem::{Problem, starts};
 use crate::discrepancy::initial_state::hidden_states;
 use crate::discrepancy::record::run_record::Record;
@@ -198,7 +199,8 @@ impl<'a> PredictedExperiment<'a> {
         let equations = other.model.free_equations().ok()?;
         let records = [self.driven(m, &truth.model)?];
         let plan = plan(&records);
-        let windows = Windows { records: &records, plan: &plan, equations: &equations, v: &self.variances };
+        let (v, nothing) = (&self.variances, Priors::default());
+        let windows = Windows { records: &records, plan: &plan, equations: &equations, v, priors: &nothing };
         let left = PredictedFit { windows, other }.left(starts(&other.model, &records, &plan).ok()?)?;
         Some(left + other.charge(self.sample_size) - truth.charge(self.sample_size)).filter(|w| w.is_finite())
     }

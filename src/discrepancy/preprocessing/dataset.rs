@@ -36,6 +36,15 @@ pub(crate) struct Data {
 impl Data {
     /// The records of a request's runs.
     pub fn of(request: &Request, model: &Model) -> Result<Self> {
+        Self::cut(request, model, FITTED_SHARE)
+    }
+
+    /// The same with all rows fitted where no run is held out.
+    pub fn whole(request: &Request, model: &Model) -> Result<Self> {
+        Self::cut(request, model, 1.0)
+    }
+
+    fn cut(request: &Request, model: &Model, share: f64) -> Result<Self> {
         let timing = request.file.input_timing;
         let each = |runs: &[Run]| -> Result<Vec<PreparedRun>> {
             runs.par_iter().map(|r| PreparedRun::of(r, model, timing)).collect()
@@ -52,7 +61,8 @@ impl Data {
         let records = |runs: Vec<PreparedRun>| runs.into_iter().map(|r| r.record).collect::<Vec<Record>>();
         let whole = records(runs);
         let (fitted, held_out): (Vec<Record>, Vec<Record>) = match judged.is_empty() {
-            true => whole.iter().map(|r| r.split(FITTED_SHARE)).unzip(),
+            true if share < 1.0 => whole.iter().map(|r| r.split(share)).unzip(),
+            true => (whole, vec![]),
             false => (whole, records(judged)),
         };
         let clean = |records: &[Record]| -> Result<(Vec<Record>, Vec<usize>)> {

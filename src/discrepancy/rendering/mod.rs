@@ -1,5 +1,6 @@
 //! Report, page and pictures for people: every sentence of an answer is made here.
 
+pub mod calibration_text;
 pub mod check_text;
 pub(crate) mod defect_text;
 pub(crate) mod effect_names;

@@ -1,6 +1,7 @@
 //! `[[effects]]`: the effects that a model already includes, with their values.
 
 use super::known::{Known, KnownEffect, KnownInput, KnownParameter};
+use super::prior_entry::{KnownBefore, read_known};
 use super::scope_entry::{CourseEntry, read_course, read_scope};
 use crate::effects::Scope;
 use crate::error::{Error, Result};
@@ -24,6 +25,8 @@ pub struct EffectEntry {
     pub course: Option<CourseEntry>,
     /// Its parameters, in their own units.
     pub parameters: BTreeMap<String, f64>,
+    /// What is known of its parameters before any run, for `fit`.
+    pub known: BTreeMap<String, KnownBefore>,
     /// The line of the model file where the entry begins; 0 for one that is not in a file.
     pub line: usize,
     /// The file of effects that defines it, for an effect of a user's own that is to be written into a model file.
@@ -71,7 +74,7 @@ pub(crate) fn read_effects(
 fn read_entry(section: &Section, known: &Known, trailers: usize, inputs: &[&KnownInput]) -> Result<EffectEntry> {
     let id = section.need("id", "id = \"…\"; `creepage effects` lists the ids")?;
     let effect = find(&id, known)?;
-    let mut keys = vec!["id", "scope", "course"];
+    let mut keys = vec!["id", "scope", "course", "prior", "bounds"];
     keys.extend((effect.per_input || effect.input_optional).then_some("input"));
     keys.extend(effect.per_trailer.then_some("trailer"));
     keys.extend(effect.parameters.iter().map(|p| p.name.as_str()));
@@ -89,6 +92,7 @@ fn read_entry(section: &Section, known: &Known, trailers: usize, inputs: &[&Know
         input,
         scope: read_scope(section)?,
         course: read_course(section, effect)?,
+        known: read_known(section, effect)?,
         parameters,
         line: section.source.line(section.at),
         defined_in: None,

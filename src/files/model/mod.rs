@@ -7,4 +7,5 @@ pub(crate) mod measurement;
 pub(crate) mod model_file;
 pub(crate) mod parameters;
 pub(crate) mod patch;
+pub(crate) mod prior_entry;
 pub(crate) mod scope_entry;

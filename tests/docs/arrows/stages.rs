@@ -1,7 +1,7 @@
 //! The stages of the crate in their order, and the stage of a file.
 
 /// The stages in their order, folders and files below `src`. Stages of one line are level: none of them imports another.
-const STAGES: [&[&str]; 47] = [
+const STAGES: [&[&str]; 48] = [
     &["error"],
     &["provenance", "wording", "number_format", "progress", "numerics"],
     &["formula"],
@@ -22,6 +22,7 @@ const STAGES: [&[&str]; 47] = [
     &["picture"],
     &["claims"],
     &["discrepancy/report"],
+    &["discrepancy/calibration_report"],
     &["discrepancy/request"],
     &["discrepancy/record"],
     &["discrepancy/initial_state"],
@@ -38,7 +39,7 @@ const STAGES: [&[&str]; 47] = [
     &["discrepancy/rendering"],
     &["discrepancy/discovery"],
     &["discrepancy/pipeline"],
-    &["discrepancy/check", "discrepancy/discover"],
+    &["discrepancy/check", "discrepancy/discover", "discrepancy/calibration"],
     &["discrepancy/fleet"],
     &["discrepancy/fixtures"],
     &["discrepancy"],

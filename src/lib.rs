@@ -75,6 +75,8 @@ pub mod equivalence;
 #[doc(hidden)]
 pub mod error;
 #[doc(hidden)]
+pub mod export;
+#[doc(hidden)]
 pub mod extensions;
 #[doc(hidden)]
 pub mod figures;

@@ -4,6 +4,7 @@ mod check;
 mod completions;
 mod describe;
 mod discover;
+mod export;
 mod figures;
 mod fit;
 mod init;
@@ -48,6 +49,7 @@ enum Command {
     Check(check::Arguments),
     Discover(discover::Arguments),
     Fit(fit::Arguments),
+    Export(export::Arguments),
     Simulate(simulate::Arguments),
     Sweep(sweep::Arguments),
     Describe(describe::Arguments),
@@ -77,6 +79,7 @@ impl Cli {
             Command::Check(arguments) => check::run(&arguments, self.common.quiet),
             Command::Discover(arguments) => discover::run(&arguments, self.common.quiet),
             Command::Fit(arguments) => fit::run(&arguments, self.common.quiet),
+            Command::Export(arguments) => export::run(&arguments, self.common.quiet),
             Command::Simulate(arguments) => simulate::run(&arguments, self.common.quiet),
             Command::Sweep(arguments) => sweep::run(&arguments, self.common.quiet),
             Command::Describe(arguments) => describe::run(&arguments),

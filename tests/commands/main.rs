@@ -8,6 +8,7 @@ mod daily_use;
 #[path = "../support/digits.rs"]
 mod digits;
 mod edges;
+mod export;
 mod fit;
 mod hostile_names;
 mod killed;

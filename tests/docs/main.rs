@@ -127,6 +127,7 @@ fn no_document_with_commands_is_left_out() {
         "book/src/guide/init.md",
         "book/src/guide/check.md",
         "book/src/guide/fit.md",
+        "book/src/guide/export.md",
         "book/src/guide/clocks.md",
         "book/src/guide/formats.md",
         "book/src/guide/sweep.md",

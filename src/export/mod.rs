@@ -1,0 +1,23 @@
+//! Export: a model with its findings as what a robot reads.
+//!
+//! | target | what is written |
+//! |---|---|
+//! | `ros2-diff-drive` | parameters of ROS 2's `diff_drive_controller` |
+//! | `ros2-steering` | parameters of ROS 2's `steering_controllers_library` and `tricycle_controller` |
+//! | `vesc` | gains and offsets of a VESC driver, as F1TENTH cars have it |
+//! | `wpilib` | constants of WPILib's kinematics |
+//! | `json` | corrected parameters and corrections |
+//! | `c`, `cpp`, `python`, `rust` | a step of the model with its Jacobian, without dependencies |
+//!
+//! What a target cannot say stands in a comment of it, and in [`Exported::unsaid`].
+
+mod code;
+mod corrections;
+mod exported;
+mod language;
+mod parameters;
+
+pub use code::Code;
+pub use exported::Exported;
+pub use language::Language;
+pub use parameters::{Gains, Target};

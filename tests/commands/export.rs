@@ -1,0 +1,321 @@
+//! `creepage export`: parameters read back, and code compiled and run against `simulate`.
+
+use crate::program::{creepage, stderr};
+use serde_json::Value;
+use std::fmt::Write;
+use std::path::Path;
+use std::process::Command;
+use tempfile::TempDir;
+
+const DRIVE: &str = "vehicle = \"differential-drive\"\n[parameters]\nwheel_radius = 0.06\ntrack_width = 0.32\n";
+const CAR: &str = "vehicle = \"car\"\n[parameters]\nwheel_radius = 0.3\nwheelbase = 2.6\n";
+
+fn effect(id: &str, values: &[(&str, f64)]) -> String {
+    let values: String = values.iter().map(|(name, v)| format!("{name} = {v:?}\n")).collect();
+    format!("[[effects]]\nid = \"{id}\"\n{values}")
+}
+
+fn folder(model: &str) -> TempDir {
+    let dir = tempfile::tempdir().unwrap();
+    std::fs::write(dir.path().join("model.toml"), model).unwrap();
+    dir
+}
+
+/// What is written, what is said beside, and the exit code.
+fn exported(model: &str, target: &str, more: &[&str]) -> (String, String, Option<i32>) {
+    let dir = folder(model);
+    let output = creepage(dir.path(), &[&["export", "model.toml", "--as", target], more].concat());
+    (String::from_utf8(output.stdout.clone()).unwrap(), stderr(&output), output.status.code())
+}
+
+/// The value of a line `name: value`.
+fn line(text: &str, name: &str) -> f64 {
+    let found = text.lines().find_map(|l| l.trim().strip_prefix(&format!("{name}: ")));
+    found.unwrap_or_else(|| panic!("no {name} in {text}")).parse().unwrap()
+}
+
+#[test]
+fn a_controller_gets_its_numbers() {
+    let creeps = [
+        effect("track-width", &[("scale", 0.035)]),
+        effect("wheel-radius-mismatch", &[("scale", -0.01)]),
+        effect("rotation-creep", &[("e_rc", 0.02)]),
+    ];
+    let model = format!("{DRIVE}{}", creeps.concat());
+    let (yaml, said, code) = exported(&model, "ros2-diff-drive", &[]);
+    assert_eq!((code, said.as_str()), (Some(0), ""));
+    assert_eq!((line(&yaml, "wheel_separation"), line(&yaml, "wheel_radius")), (0.32, 0.06));
+    let multipliers = ["wheel_separation", "left_wheel_radius", "right_wheel_radius"];
+    let found = multipliers.map(|name| line(&yaml, &format!("{name}_multiplier")));
+    for (found, wanted) in found.into_iter().zip([1.035, 0.99 * 0.98, 0.98]) {
+        assert!((found - wanted).abs() < 1e-15, "{found} {wanted}");
+    }
+    let java = exported(&model, "wpilib", &[]).0;
+    assert!(java.contains("public static final double kTrackwidthMeters = 0.3312;"), "{java}");
+    let json: Value = serde_json::from_str(&exported(&model, "json", &[]).0).unwrap();
+    assert_eq!(json["corrections"]["wheel_separation_multiplier"], 1.035);
+}
+
+/// A VESC turns a wanted speed into a motor's, and a wanted angle into a servo's: commanded so, the vehicle does what is wanted.
+#[test]
+fn a_vesc_does_what_is_wanted() {
+    let car = [
+        effect("wheel-radius", &[("scale", 0.05)]),
+        effect("steering-gain", &[("scale", 0.1)]),
+        effect("steering-offset", &[("offset", 0.02)]),
+        effect("wheelbase", &[("scale", -0.02)]),
+    ];
+    let model = format!("{CAR}{}", car.concat());
+    let given = [
+        "--speed-to-erpm-gain",
+        "4000",
+        "--steering-angle-to-servo-gain=-1.2",
+        "--steering-angle-to-servo-offset",
+        "0.53",
+    ];
+    let (yaml, said, code) = exported(&model, "vesc", &given);
+    assert_eq!((code, said.as_str()), (Some(0), ""), "{said}");
+    let of = |name: &str| line(&yaml, name);
+    // The vehicle drives 1.05 times what the old gain says, and steers to 1.1·δ + 0.02.
+    assert!((of("speed_to_erpm_gain") * 1.05 - 4000.0).abs() < 1e-9);
+    for wanted in [-0.3, 0.0, 0.2] {
+        let servo = of("steering_angle_to_servo_gain") * wanted + of("steering_angle_to_servo_offset");
+        let logged = (servo - 0.53) / -1.2;
+        assert!((1.1 * logged + 0.02 - wanted).abs() < 1e-12, "{wanted} {logged}");
+    }
+    assert!((of("wheelbase") - 2.6 * 0.98).abs() < 1e-12);
+    // Gains that are not given stand as factors.
+    assert!(exported(&model, "vesc", &[]).0.contains("# speed_to_erpm_gain: the one you have, times"));
+    let ros = exported(&model, "ros2-steering", &[]);
+    assert_eq!(ros.2, Some(3));
+    assert!(
+        (line(&ros.0, "wheelbase") - 2.548).abs() < 1e-12 && ros.0.contains("put it into the steering joint"),
+        "{ros:?}"
+    );
+}
+
+#[test]
+fn what_a_target_cannot_say_is_said() {
+    let slides = effect("cornering-creep", &[("mass_over_bT", 0.11)]);
+    let part = "[[effects]]\nid = \"track-width\"\nscale = 0.1\nscope = { from = 3.0 }\n";
+    let tracked = effect("lever-arm", &[("a", 0.1), ("b", -0.05)]);
+    let (yaml, said, code) = exported(&format!("{DRIVE}{slides}{part}{tracked}"), "ros2-diff-drive", &[]);
+    assert_eq!(code, Some(3));
+    for effect in ["cornering-creep: mass_over_bT = 0.11", "track-width: scale = 0.1, from 3"] {
+        assert!(yaml.contains(&format!("# no place here for {effect}")) && said.contains(effect), "{yaml}\n{said}");
+    }
+    assert_eq!(line(&yaml, "wheel_separation_multiplier"), 1.0);
+    assert!(yaml.contains("static_transform_publisher --x 0.1 --y -0.05"), "{yaml}");
+    let (_, said, code) = exported(CAR, "ros2-diff-drive", &[]);
+    assert!(code == Some(2) && said.contains("the model is a car"), "{said}");
+    let (code, said, _) = exported(&format!("{DRIVE}{part}"), "python", &[]);
+    assert!(code.contains("# left out: track-width") && said.contains("track-width"), "{code}");
+}
+
+/// A model, constant values for its inputs, and as many seconds.
+struct Drive {
+    model: String,
+    inputs: Vec<(&'static str, f64)>,
+}
+
+const SECONDS: f64 = 1.0;
+const STEPS: usize = 4000;
+
+fn drives() -> Vec<Drive> {
+    let robot = [
+        effect("track-width", &[("scale", 0.035)]),
+        effect("unequal-rotation-creep", &[("e_left", 0.02), ("e_right", -0.01)]),
+        effect("cornering-creep", &[("mass_over_bT", 0.11)]),
+    ];
+    let car = [
+        effect("understeer", &[("gradient", 0.02)]),
+        effect("steering-offset", &[("offset", 0.01)]),
+        effect("saturating-creep", &[("c", 0.03), ("limit", 0.2)]),
+        effect("side-slope", &[("rate", 0.05), ("direction", 0.7)]),
+    ];
+    let train = "vehicle = \"n-trailer\"\ntractor = \"unicycle\"\n[parameters]\nwheel_radius = 0.5\n\
+                 trailer_lengths = [1.2, 0.8]\nhitch_offsets = [0.1, 0.0]\n";
+    let creeps = format!("{}trailer = 2\n", effect("trailer-traverse-creep", &[("e_tc", 0.1)]));
+    vec![
+        Drive {
+            model: format!("{DRIVE}{}", robot.concat()),
+            inputs: vec![("wheel_rate_left", 9.0), ("wheel_rate_right", 12.5)],
+        },
+        Drive { model: format!("{CAR}{}", car.concat()), inputs: vec![("wheel_rate", 11.0), ("steering_angle", 0.21)] },
+        Drive { model: format!("{train}{creeps}"), inputs: vec![("wheel_rate", 2.0), ("yaw_rate", 0.4)] },
+    ]
+}
+
+/// The states at the beginning and at the end, as `simulate` has them.
+fn simulated(folder: &Path, drive: &Drive) -> [Vec<f64>; 2] {
+    let names: Vec<&str> = drive.inputs.iter().map(|(n, _)| *n).collect();
+    let values: Vec<String> = drive.inputs.iter().map(|(_, v)| v.to_string()).collect();
+    let rows: String = (0..=10).map(|i| format!("{},{}\n", f64::from(i) / 10.0 * SECONDS, values.join(","))).collect();
+    std::fs::write(folder.join("in.csv"), format!("time,{}\n{rows}", names.join(","))).unwrap();
+    let arguments =
+        ["simulate", "model.toml", "--inputs", "in.csv", "--out", "path.csv", "--rtol", "1e-13", "--atol", "1e-14"];
+    let output = creepage(folder, &arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = std::fs::read_to_string(folder.join("path.csv")).unwrap();
+    let header: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+    let is_state = |name: &str| !["time", "speed", "lateral_speed", "yaw_rate"].contains(&name);
+    let row = |line: &str| -> Vec<f64> {
+        header.iter().zip(line.split(',')).filter(|(name, _)| is_state(name)).map(|(_, v)| v.parse().unwrap()).collect()
+    };
+    [row(text.lines().nth(1).unwrap()), row(text.lines().last().unwrap())]
+}
+
+/// A program around exported code that prints the state at the end and the Jacobian of its first step.
+fn program(language: &str, start: &[f64], inputs: &[f64]) -> String {
+    let list = |v: &[f64]| v.iter().map(|v| format!("{v:?}")).collect::<Vec<_>>().join(", ");
+    let (z, u, dt) = (list(start), list(inputs), SECONDS / STEPS as f64);
+    match language {
+        "python" => format!(
+            "\nz, u = [{z}], [{u}]\n_, first = step(z, u, 0.1)\nfor _ in range({STEPS}):\n    z, _ = step(z, u, {dt})\n\
+             print(*(repr(float(v)) for v in z))\nfor row in first:\n    print(*(repr(float(v)) for v in row))\n"
+        ),
+        "rust" => format!(
+            "fn main() {{\n    let (mut z, u) = ([{z}], [{u}]);\n    let first = step(&z, &u, 0.1).1;\n    for _ in 0..{STEPS} {{ z = step(&z, &u, {dt}).0; }}\n    \
+             for row in [&z[..]].into_iter().chain(first.iter().map(|r| &r[..])) {{\n        \
+             println!(\"{{}}\", row.iter().map(|v| format!(\"{{v:?}}\")).collect::<Vec<_>>().join(\" \"));\n    }}\n}}\n"
+        ),
+        _ => format!(
+            "#include <stdio.h>\nint main(void) {{\n    double z[] = {{{z}}}, first[] = {{{z}}}, u[] = {{{u}}};\n    \
+             double f[CREEPAGE_N][CREEPAGE_N + CREEPAGE_M], other[CREEPAGE_N][CREEPAGE_N + CREEPAGE_M];\n    \
+             creepage_step(first, u, 0.1, f);\n    for (int i = 0; i < {STEPS}; i++) creepage_step(z, u, {dt}, other);\n    \
+             for (int i = 0; i < CREEPAGE_N; i++) printf(\"%.17g \", z[i]);\n    printf(\"\\n\");\n    \
+             for (int i = 0; i < CREEPAGE_N; i++) {{ for (int j = 0; j < CREEPAGE_N + CREEPAGE_M; j++) printf(\"%.17g \", f[i][j]); printf(\"\\n\"); }}\n    \
+             (void)creepage_covariance; (void)creepage_parameter_names; return 0;\n}}\n"
+        ),
+    }
+}
+
+/// Rows of numbers that a program prints; `None` where its compiler is not installed.
+fn ran(folder: &Path, language: &str, code: &str) -> Option<Vec<Vec<f64>>> {
+    let (file, compiler): (&str, &[&str]) = match language {
+        "c" => ("step.c", &["cc", "-std=c99", "-O1", "-Wall", "-Wextra", "-Werror", "-o", "step", "step.c", "-lm"]),
+        "cpp" => (
+            "step.cpp",
+            &[
+                "c++",
+                "-std=c++11",
+                "-O1",
+                "-Wall",
+                "-Wextra",
+                "-Werror",
+                "-Wno-unused-function",
+                "-o",
+                "step",
+                "step.cpp",
+            ],
+        ),
+        "rust" => ("step.rs", &["rustc", "--edition", "2021", "-O", "-o", "step", "step.rs"]),
+        _ => ("step.py", &["python3", "--version"]),
+    };
+    std::fs::write(folder.join(file), code).unwrap();
+    let built = Command::new(compiler[0]).args(&compiler[1..]).current_dir(folder).output().ok()?;
+    assert!(built.status.success(), "{language}: {}\n{code}", String::from_utf8_lossy(&built.stderr));
+    let mut run = match language {
+        "python" => Command::new("python3"),
+        _ => Command::new(folder.join("step")),
+    };
+    if language == "python" {
+        run.arg(file);
+    }
+    let output = run.current_dir(folder).output().unwrap();
+    assert!(output.status.success(), "{language}: {}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).unwrap();
+    Some(text.lines().map(|l| l.split_whitespace().map(|v| v.parse().unwrap()).collect()).collect())
+}
+
+/// Values in the order in which the code says it takes its inputs.
+fn in_order(folder: &Path, drive: &Drive) -> Vec<f64> {
+    let code = String::from_utf8(creepage(folder, &["export", "model.toml", "--as", "c"]).stdout).unwrap();
+    let line = code.lines().find_map(|l| l.strip_prefix("// Inputs u: ")).unwrap();
+    let names = line.split(';').next().unwrap().split(", ");
+    names.map(|name| drive.inputs.iter().find(|(n, _)| *n == name).unwrap().1).collect()
+}
+
+#[test]
+fn exported_code_moves_as_simulate_does() {
+    let mut ran_at_all = String::new();
+    for drive in drives() {
+        let dir = folder(&drive.model);
+        let [start, end] = simulated(dir.path(), &drive);
+        let inputs = in_order(dir.path(), &drive);
+        let mut first: Option<Vec<Vec<f64>>> = None;
+        for language in ["rust", "c", "cpp", "python"] {
+            let output = creepage(dir.path(), &["export", "model.toml", "--as", language]);
+            assert_eq!(output.status.code(), Some(0), "{language}: {}", stderr(&output));
+            let mut code = String::from_utf8(output.stdout).unwrap();
+            code += &program(language, &start, &inputs);
+            let Some(found) = ran(dir.path(), language, &code) else {
+                println!("{language}: no compiler here");
+                continue;
+            };
+            let _ = write!(ran_at_all, "{language} ");
+            for (found, wanted) in found[0].iter().zip(&end) {
+                assert!(
+                    (found - wanted).abs() < 1e-12 * (1.0 + wanted.abs()),
+                    "{language}: {found} {wanted}\n{}",
+                    drive.model
+                );
+            }
+            // All languages say the same, and the same as differences of the step do.
+            let reference = first.get_or_insert_with(|| found.clone());
+            for (row, wanted) in found.iter().zip(reference.iter()) {
+                assert!(row.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12 * (1.0 + b.abs())), "{language}");
+            }
+        }
+        differences(dir.path(), &start, &inputs, &first.unwrap()[1..]);
+    }
+    assert!(ran_at_all.contains("rust"), "{ran_at_all}");
+}
+
+/// A Jacobian against central differences, by the Rust code once more.
+fn differences(folder: &Path, start: &[f64], inputs: &[f64], jacobian: &[Vec<f64>]) {
+    let whole: Vec<f64> = start.iter().chain(inputs).copied().collect();
+    let output = creepage(folder, &["export", "model.toml", "--as", "rust"]);
+    let code = String::from_utf8(output.stdout).unwrap();
+    let n = start.len();
+    let mut calls = String::new();
+    for j in 0..whole.len() {
+        for side in [-1e-5, 1e-5] {
+            let mut at = whole.clone();
+            at[j] += side;
+            let (z, u) = at.split_at(n);
+            let joined = r#".0.map(|v| v.to_string()).join(" ")"#;
+            let _ = writeln!(calls, "    println!(\"{{}}\", step(&{z:?}, &{u:?}, 0.1){joined});");
+        }
+    }
+    let text = format!("{code}fn main() {{\n{calls}}}\n");
+    let rows = ran(folder, "rust", &text).unwrap();
+    for j in 0..whole.len() {
+        for i in 0..n {
+            let slope = (rows[2 * j + 1][i] - rows[2 * j][i]) / 2e-5;
+            assert!((slope - jacobian[i][j]).abs() < 1e-7 * (1.0 + slope.abs()), "{i} {j}: {slope} {}", jacobian[i][j]);
+        }
+    }
+}
+
+#[test]
+fn the_covariance_of_a_fit_goes_with_the_code() {
+    let dir = folder(&format!("{DRIVE}{}", effect("track-width", &[("scale", 0.035)])));
+    std::fs::write(
+        dir.path().join("fit.json"),
+        r#"{"covariance": {"names": ["track-width scale"], "matrix": [[4e-6]]}}"#,
+    )
+    .unwrap();
+    let with = |file: &str| creepage(dir.path(), &["export", "model.toml", "--as", "python", "--covariance", file]);
+    let output = with("fit.json");
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("PARAMETER_NAMES = [\"track-width scale\"]\nCOVARIANCE = [[4e-6]]"), "{text}");
+    std::fs::write(dir.path().join("none.json"), "{}").unwrap();
+    for (file, says) in
+        [("none.json", "has no covariance"), ("nowhere.json", "cannot be read"), ("model.toml", "is no JSON")]
+    {
+        let output = with(file);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains(says), "{}", stderr(&output));
+    }
+}

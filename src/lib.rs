@@ -111,8 +111,8 @@ pub use discrepancy::report::{Report, Verdict};
 pub use error::{Error, Kind as ErrorKind, Result};
 pub use files::Run;
 pub use front_door::{
-    Discovery, Model, Options, Pose, check, check_with, describe, describe_at, discover, discover_with, fit, simulate,
-    sweep, verify,
+    Discovery, Model, Options, Pose, check, check_with, describe, describe_with, discover, discover_with, fit,
+    simulate, sweep, verify,
 };
 pub use progress::{OnProgress, Progress, Stage};
 

@@ -1,9 +1,27 @@
 //! Simulated motions for claims: a model driven by formulas of time.
 
 use super::sampling::Fault;
-use crate::error::Error;
+use crate::error::{Error, Result};
+use crate::model::Model;
+use crate::motion::{Integrator, Method, driven_by};
 
-pub use crate::motion::{Creep, assembled as model, driven};
+pub use crate::motion::{Creep, assembled as model};
+
+/// As [`driven`](crate::motion::driven) by the crate `ode_solvers`, so that a claim does not rest on the code that fits and
+/// `simulate` use.
+///
+/// # Errors
+/// As [`driven`](crate::motion::driven).
+pub fn driven(
+    model: &Model,
+    inputs: &[(&str, &str)],
+    constants: &[f64],
+    start: &[f64],
+    times: &[f64],
+) -> Result<Vec<Vec<f64>>> {
+    let exact = Integrator { method: Method::Dopri5, ..Integrator::default() }.with_tolerance(1e-12, 1e-13);
+    driven_by(model, inputs, constants, start, times, &exact)
+}
 
 /// A failed run of the program is never a result about the claim.
 pub fn undefined(error: &Error) -> Fault {

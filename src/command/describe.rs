@@ -5,6 +5,7 @@ use super::user_catalogues::UserCatalogues;
 use clap::{Args, ValueEnum};
 use creepage::Result;
 use creepage::describe::{CreepLimits, GivenPoint, json, latex, text};
+use creepage::formula::Symbol;
 use creepage::mechanism::Limits;
 use std::path::PathBuf;
 
@@ -37,6 +38,9 @@ pub struct Arguments {
     /// numbers; q=… and q'=… give all coordinates and all rates in their order
     #[arg(long, value_name = "NAME=VALUE,…", value_parser = point)]
     at: Option<GivenPoint>,
+    /// Rates that are measured beside those that the inputs give, such as phi_1' of a trailer: the signature hangs on them
+    #[arg(long, value_name = "RATE,RATE", value_delimiter = ',')]
+    measured: Vec<String>,
     #[command(flatten)]
     own: UserCatalogues,
 }
@@ -60,10 +64,8 @@ enum Format {
 pub fn run(arguments: &Arguments) -> Result<()> {
     let model = arguments.own.model(&arguments.model)?;
     let limits = CreepLimits { rotation: arguments.rotation_limits, traverse: arguments.traverse_limits };
-    let description = match &arguments.at {
-        Some(point) => creepage::describe_at(&model, point),
-        None => creepage::describe(&model),
-    };
+    let measured: Vec<Symbol> = arguments.measured.iter().map(|s| Symbol::new(s)).collect();
+    let description = creepage::describe_with(&model, &measured, arguments.at.as_ref());
     let description = description.map_err(|e| e.at_file(&arguments.model))?.with_limits(limits);
     print(&match arguments.format {
         Format::Text => text(&description),

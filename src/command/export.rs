@@ -4,7 +4,7 @@ use super::output::print;
 use super::runs::not_an_input;
 use super::user_catalogues::UserCatalogues;
 use clap::{Args, ValueEnum};
-use creepage::export::{Code, Exported, Gains, Language, Target};
+use creepage::export::{Code, Exported, Gains, Language, Target, patched_description};
 use creepage::files::{ModelFile, write_whole};
 use creepage::model::Model;
 use creepage::{Error, Result};
@@ -18,6 +18,7 @@ Examples:
   creepage export report/model.patched.toml --as ros2-diff-drive
   creepage export report/model.patched.toml --as vesc --speed-to-erpm-gain 4614 --steering-angle-to-servo-gain=-1.2135 \\
     --steering-angle-to-servo-offset 0.5304
+  creepage export report/model.patched.toml --as urdf --urdf robot.urdf --tracked marker --out robot.calibrated.urdf
   creepage export report/model.patched.toml --as c --covariance report/report.json --out model_step.h
 
 What the target has no place for stands in a comment of it and on standard error; the exit code is then 3. Code has a step of
@@ -35,6 +36,12 @@ pub struct Arguments {
     /// Of code: the report or the answer of `fit --format json` whose covariance goes with it
     #[arg(long, value_name = "REPORT.json")]
     covariance: Option<PathBuf>,
+    /// Of urdf: the robot's description
+    #[arg(long, value_name = "ROBOT.urdf", required_if_eq("target", "urdf"))]
+    urdf: Option<PathBuf>,
+    /// Of urdf: the link of the tracked frame, whose joint gets its place
+    #[arg(long, value_name = "LINK")]
+    tracked: Option<String>,
     /// Of vesc: the gain that the driver has
     #[arg(long, value_name = "GAIN", allow_negative_numbers = true, value_parser = number)]
     speed_to_erpm_gain: Option<f64>,
@@ -62,6 +69,8 @@ enum Choice {
     Vesc,
     /// constants for WPILib's kinematics
     Wpilib,
+    /// the description given by --urdf with corrected radii, wheel joints and tracked frame
+    Urdf,
     /// parameters, corrections and effects for programs
     Json,
     /// a step with its Jacobian in C99
@@ -77,7 +86,7 @@ enum Choice {
 /// Carries out the command.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     if let Some(out) = &arguments.out {
-        let inputs: Vec<&Path> = [Some(&arguments.model), arguments.covariance.as_ref()]
+        let inputs: Vec<&Path> = [Some(&arguments.model), arguments.covariance.as_ref(), arguments.urdf.as_ref()]
             .into_iter()
             .flatten()
             .map(PathBuf::as_path)
@@ -96,6 +105,10 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
         Choice::Ros2Steering => Target::Ros2Steering.export(file, gains),
         Choice::Vesc => Target::Vesc.export(file, gains),
         Choice::Wpilib => Target::Wpilib.export(file, gains),
+        Choice::Urdf => {
+            let urdf = arguments.urdf.as_deref().ok_or_else(|| Error::input("--urdf is missing"))?;
+            patched_description(file, urdf, arguments.tracked.as_deref())
+        }
         Choice::Json => Target::Json.export(file, gains),
         Choice::C => code(arguments, file, library, Language::C),
         Choice::Cpp => code(arguments, file, library, Language::Cpp),

@@ -78,6 +78,14 @@ impl Description {
     /// # Errors
     /// When an effect does not apply, formulas use each other in a circle, or there are more than [`MAX_TRAILERS`].
     pub fn of(model: &Model) -> Result<Self> {
+        Self::of_measuring(model, &[])
+    }
+
+    /// The same where some rates are measured beside those that the logged inputs give.
+    ///
+    /// # Errors
+    /// As [`Description::of`] and [`Structure::of_measuring`].
+    pub fn of_measuring(model: &Model, also: &[Symbol]) -> Result<Self> {
         if model.trailers.len() > MAX_TRAILERS {
             let found = model.trailers.len();
             return Err(Error::input(format!("{found} trailers are too many to write out"))
@@ -103,7 +111,7 @@ impl Description {
             trailers: model.trailers.len(),
             pfaffian: constraints.iter().map(entry).collect(),
             signature: Signature::of(&found),
-            structure: Structure::of(model)?,
+            structure: Structure::of_measuring(model, also)?,
             undetermined,
             definitions: sorted.map(|(name, f)| Equation { name: name.clone(), formula: f.clone() }).collect(),
             states: model

@@ -54,8 +54,9 @@ pub struct Realised {
 
 impl Realised {
     /// The same sets at two configurations, or in words why there are none.
-    pub(super) fn of(model: &Model, mechanism: &Mechanism, points: &[Point; 2]) -> Found<Self> {
-        let measured = measured(model, mechanism);
+    pub(super) fn of(model: &Model, mechanism: &Mechanism, points: &[Point; 2], also: &[Symbol]) -> Found<Self> {
+        let mut measured = measured(model, mechanism);
+        measured.extend(also.iter().filter(|s| !measured.contains(s)).cloned().collect::<Vec<_>>());
         let at = |p: &Point| mechanism.realisation(&measured, p).map_err(|e| e.message().to_string());
         let (first, second) = (at(&points[0])?, at(&points[1])?);
         let same = first.sets == second.sets && first.passive == second.passive;

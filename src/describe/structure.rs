@@ -5,7 +5,7 @@ use super::found::Found;
 use super::general::General;
 use super::holonomy::{Holonomy, vector};
 use super::realised::Realised;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
 use crate::model::{Model, mechanism, trailer_heading};
 
@@ -66,6 +66,27 @@ impl Structure {
     /// # Errors
     /// When an effect does not apply, or formulas use each other in a circle.
     pub fn of(model: &Model) -> Result<Self> {
+        Self::of_measuring(model, &[])
+    }
+
+    /// The structure where some rates are measured beside those that the logged inputs give: the signature is a function of
+    /// what is measured.
+    ///
+    /// ```
+    /// use creepage::describe::Structure;
+    /// use creepage::model::{Model, Trailer};
+    /// let trailers = [Trailer { length: 1.2, hitch: 0.1 }, Trailer { length: 0.8, hitch: 0.0 }];
+    /// let train = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap().with_trailers(&trailers);
+    /// let of = |measured: &[&str]| {
+    ///     let measured: Vec<_> = measured.iter().map(|s| (*s).into()).collect();
+    ///     Structure::of_measuring(&train, &measured).unwrap().realisation.unwrap().signature.to_string()
+    /// };
+    /// assert_eq!([of(&[]), of(&["phi_1'"]), of(&["phi_1'", "phi_2'"])], ["R T^3", "R T^2", "R T"]);
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Structure::of`]; when a name is no rate of a coordinate.
+    pub fn of_measuring(model: &Model, also: &[Symbol]) -> Result<Self> {
         let trailers = model.trailer_count();
         if trailers > TRAILERS_OF_RANKS {
             // The rows of a long train take long to write down and are not needed.
@@ -81,7 +102,13 @@ impl Structure {
             true => Holonomy::of(&mechanism, &points),
             false => Err(too_long(TRAILERS_OF_GROWTH, trailers)),
         };
-        let realisation = Realised::of(model, &mechanism, &points);
+        let is_rate = |s: &&Symbol| coordinates.iter().any(|q| q.rate() == **s);
+        if let Some(other) = also.iter().find(|s| !is_rate(s)) {
+            let rates: Vec<String> = coordinates.iter().map(|q| q.rate().to_string()).collect();
+            return Err(Error::input(format!("{other} is no rate of the model that could be measured"))
+                .help(format!("write one of {}", rates.join(", "))));
+        }
+        let realisation = Realised::of(model, &mechanism, &points, also);
         Ok(Self { coordinates, open, holonomy, realisation })
     }
 

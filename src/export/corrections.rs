@@ -77,6 +77,20 @@ impl Corrections {
     }
 }
 
+/// What has no place in a target, and where the tracked frame is unless that is said: lines for comments, and the effects.
+pub(super) fn lines_of_the_rest(found: &Corrections, also: &[String], with_place: bool) -> (Vec<String>, Vec<String>) {
+    let unsaid: Vec<String> = found.others.iter().chain(also).cloned().collect();
+    let mut lines: Vec<String> = unsaid.iter().map(|effect| format!("no place here for {effect}")).collect();
+    if with_place && !found.is_at_reference() {
+        let [x, y, yaw] = found.place;
+        lines.push(format!("the tracked frame on the body: x {x} m, y {y} m, yaw {yaw} rad; in ROS 2"));
+        lines.push(format!(
+            "ros2 run tf2_ros static_transform_publisher --x {x} --y {y} --yaw {yaw} --frame-id base_link --child-frame-id tracked"
+        ));
+    }
+    (lines, unsaid)
+}
+
 /// Where a text comes from; no name of a file breaks its line.
 pub(super) fn origin(file: &ModelFile) -> String {
     printable(&format!("From {}, by creepage {}.", file.path.display(), env!("CARGO_PKG_VERSION")))

@@ -6,6 +6,7 @@
 //! | `ros2-steering` | parameters of ROS 2's `steering_controllers_library` and `tricycle_controller` |
 //! | `vesc` | gains and offsets of a VESC driver, as F1TENTH cars have it |
 //! | `wpilib` | constants of WPILib's kinematics |
+//! | `urdf` | a given description with corrected wheels and tracked frame |
 //! | `json` | corrected parameters and corrections |
 //! | `c`, `cpp`, `python`, `rust` | a step of the model with its Jacobian, without dependencies |
 //!
@@ -16,8 +17,10 @@ mod corrections;
 mod exported;
 mod language;
 mod parameters;
+mod robot_description;
 
 pub use code::Code;
 pub use exported::Exported;
 pub use language::Language;
 pub use parameters::{Gains, Target};
+pub use robot_description::patched_description;

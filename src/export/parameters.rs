@@ -1,6 +1,6 @@
 //! Targets that are parameters: controllers of ROS 2, a VESC driver, constants of WPILib, JSON.
 
-use super::corrections::{Corrections, origin, written};
+use super::corrections::{Corrections, lines_of_the_rest, origin, written};
 use super::exported::Exported;
 use crate::error::{Error, Result};
 use crate::files::ModelFile;
@@ -87,20 +87,8 @@ impl Parameters<'_> {
 
     /// What has no place in a target, as comments, and by name.
     fn rest(&self, text: &mut String, comment: &str, also: &[String]) -> Vec<String> {
-        let unsaid: Vec<String> = self.found.others.iter().chain(also).cloned().collect();
-        for effect in &unsaid {
-            let _ = writeln!(text, "{comment} no place here for {effect}");
-        }
-        let [x, y, yaw] = self.found.place;
-        if !self.found.is_at_reference() {
-            let _ =
-                writeln!(text, "{comment} the tracked frame on the body: x {x} m, y {y} m, yaw {yaw} rad; in ROS 2");
-            let _ = writeln!(
-                text,
-                "{comment} ros2 run tf2_ros static_transform_publisher --x {x} --y {y} --yaw {yaw} --frame-id base_link \
-                 --child-frame-id tracked"
-            );
-        }
+        let (lines, unsaid) = lines_of_the_rest(self.found, also, true);
+        lines.iter().for_each(|line| text.push_str(&format!("{comment} {line}\n")));
         unsaid
     }
 

@@ -13,6 +13,7 @@ use crate::discrepancy::identifiability::{Check, Checked};
 use crate::discrepancy::request::Request;
 use crate::error::Result;
 use crate::files::Run;
+use crate::formula::Symbol;
 use crate::model::Model as VehicleModel;
 use crate::motion::{Integrator, Signals, Table, simulate_model};
 use crate::progress::unheard;
@@ -146,20 +147,28 @@ pub fn describe(model: &Model) -> Result<Description> {
     Description::of(&vehicle_of(model)?)
 }
 
-/// As [`describe`](crate::describe()), with the first and second derivatives of every constraint at a point, by dual numbers.
+/// As [`describe`](crate::describe()), of what is measured and at a point.
+///
+/// `measured` are rates that are measured beside those that the logged inputs give: the signature hangs on them. At a point the
+/// first and second derivatives of every constraint are given as numbers, by dual numbers.
 ///
 /// ```
 /// let car = creepage::Model::new("car", &[("wheel_radius", 0.3), ("wheelbase", 2.6)])?;
-/// let at = creepage::describe_at(&car, &"phi=0.3,x'=1".parse()?)?;
-/// assert!(creepage::describe::text(&at).contains("dg/d(phi) = 0.95"));
+/// let at = creepage::describe_with(&car, &["phi'".into()], Some(&"phi=0.3,x'=1".parse()?))?;
+/// let text = creepage::describe::text(&at);
+/// assert!(text.contains("dg/d(phi) = 0.95") && text.contains("measured: phi'"), "{text}");
 /// # Ok::<(), creepage::Error>(())
 /// ```
 ///
 /// # Errors
-/// As [`describe`](crate::describe()), and when the point names what no constraint has.
-pub fn describe_at(model: &Model, point: &GivenPoint) -> Result<Description> {
+/// As [`describe`](crate::describe()), and when the model has no such rate, or the point names what no constraint has.
+pub fn describe_with(model: &Model, measured: &[Symbol], at: Option<&GivenPoint>) -> Result<Description> {
     let vehicle = vehicle_of(model)?;
-    Description::of(&vehicle)?.with_derivatives_at(&vehicle, point)
+    let description = Description::of_measuring(&vehicle, measured)?;
+    match at {
+        Some(point) => description.with_derivatives_at(&vehicle, point),
+        None => Ok(description),
+    }
 }
 
 fn vehicle_of(model: &Model) -> Result<VehicleModel> {

@@ -7,7 +7,7 @@ mod options;
 mod run;
 mod verify;
 
-pub use discover::{check, check_with, describe, describe_at, discover, discover_with, fit, simulate};
+pub use discover::{check, check_with, describe, describe_with, discover, discover_with, fit, simulate};
 pub use discovery::Discovery;
 pub use model::Model;
 pub use options::Options;

@@ -1,6 +1,6 @@
 //! A model of the catalogue with effects of the library, driven by formulas of time.
 
-use super::{Formulas, Integrator, Method, simulate};
+use super::{Formulas, Integrator, simulate};
 use crate::effects;
 use crate::effects::Applied;
 use crate::error::{Error, Result};
@@ -47,13 +47,26 @@ pub fn driven(
     start: &[f64],
     times: &[f64],
 ) -> Result<Vec<Vec<f64>>> {
+    driven_by(model, inputs, constants, start, times, &Integrator::default().with_tolerance(1e-12, 1e-13))
+}
+
+/// As [`driven`], by an integrator of one's own.
+///
+/// # Errors
+/// As [`driven`].
+pub(crate) fn driven_by(
+    model: &Model,
+    inputs: &[(&str, &str)],
+    constants: &[f64],
+    start: &[f64],
+    times: &[f64],
+    by: &Integrator,
+) -> Result<Vec<Vec<f64>>> {
     let constants: Vec<_> = constants.iter().enumerate().map(|(i, v)| (format!("c_{i}").as_str().into(), *v)).collect();
     let formula = |input: &String| {
         let found = inputs.iter().find(|(name, _)| name == input).map(|(_, f)| *f);
         Expr::parse(found.ok_or_else(|| Error::run(format!("the input {input} has no formula")))?)
     };
     let drive = Formulas::new(&model.inputs.iter().map(formula).collect::<Result<Vec<_>>>()?, &constants)?;
-    // By other code than that of fits and of `simulate`: a claim does not rest on it.
-    let exact = Integrator { method: Method::Dopri5, ..Integrator::default() }.with_tolerance(1e-12, 1e-13);
-    simulate(&model.equations(&[])?, &[], &drive, start, times, &exact)
+    simulate(&model.equations(&[])?, &[], &drive, start, times, by)
 }

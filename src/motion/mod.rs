@@ -11,6 +11,7 @@ pub mod sensitivity;
 mod simulate;
 mod trajectory;
 
+pub(crate) use catalogue_model::driven_by;
 #[doc(hidden)]
 pub use catalogue_model::{Creep, assembled, driven};
 #[doc(hidden)]

@@ -116,3 +116,24 @@ fn a_point_that_no_constraint_has_is_refused() {
         assert!(message.contains(says), "{point}: {message}");
     }
 }
+
+/// The signature hangs on what is measured: a train whose trailer headings are measured needs no coefficient for them.
+#[test]
+fn the_signature_is_a_function_of_what_is_measured() {
+    let dir = tempfile::tempdir().unwrap();
+    let text = "vehicle = \"n-trailer\"\ntractor = \"unicycle\"\n[parameters]\nwheel_radius = 0.5\ntrailer_lengths = [1.2, 0.8]\n";
+    std::fs::write(dir.path().join("model.toml"), text).unwrap();
+    let of = |measured: &[&str]| {
+        let output = creepage(dir.path(), &[&["describe", "model.toml", "--format", "json"], measured].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let signature = &found["structure"]["realisation"]["signature"];
+        (signature["r"].as_u64().unwrap(), signature["t"].as_u64().unwrap())
+    };
+    assert_eq!(of(&[]), (1, 3));
+    assert_eq!(of(&["--measured", "phi_1'"]), (1, 2));
+    assert_eq!(of(&["--measured", "phi_1',phi_2'"]), (1, 1));
+    let output = creepage(dir.path(), &["describe", "model.toml", "--measured", "psi'"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("psi' is no rate") && stderr(&output).contains("phi_2'"), "{}", stderr(&output));
+}

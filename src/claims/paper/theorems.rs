@@ -22,12 +22,12 @@ pub(crate) fn claims() -> Vec<Claim> {
 
 /// The counts k and m of a generated vehicle against what is said of its kind, such as `car.m = N + 2`; what is said
 /// of `k` and `m` alone is said of every kind. `one_of_each` is 1 where a coefficient of type R and one of type T do.
-fn counts(s: &Statement, vehicle: &Generated, yaw: bool) -> Verdict {
+fn counts(s: &Statement, vehicle: &Generated, measured: &[Symbol]) -> Verdict {
     if !vehicle.is_regular() {
         return Err(Fault::Outside);
     }
     let mechanism = vehicle.mechanism();
-    let found = mechanism.realisation(&vehicle.measured(yaw), &vehicle.point());
+    let found = mechanism.realisation(measured, &vehicle.point());
     let found = found.map_err(|e| Fault::Undefined(e.to_string()))?;
     let (k, m) = found.counts();
     let letters = |set: &Vec<usize>| -> String { set.iter().map(|r| mechanism.constraints[*r].letter()).collect() };
@@ -53,7 +53,20 @@ fn counts(s: &Statement, vehicle: &Generated, yaw: bool) -> Verdict {
 }
 
 fn over(vehicles: impl Strategy<Value = Generated> + Sync, yaw: bool, s: &Statement, sampling: &Sampling) -> Outcome {
-    sampling.cases(vehicles, Generated::shown, |v| counts(s, v, yaw))
+    sampling.cases(vehicles, Generated::shown, |v| counts(s, v, &v.measured(yaw)))
+}
+
+/// The same with the headings of all trailers measured.
+fn over_with_headings(
+    vehicles: impl Strategy<Value = Generated> + Sync,
+    s: &Statement,
+    sampling: &Sampling,
+) -> Outcome {
+    let measured = |v: &Generated| {
+        let headings = (1..=v.trailers()).map(|i| Symbol::new(&format!("phi_{i}")).rate());
+        v.measured(false).into_iter().chain(headings).collect::<Vec<_>>()
+    };
+    sampling.cases(vehicles, Generated::shown, |v| counts(s, v, &measured(v)))
 }
 
 fn single_body() -> Claim {
@@ -195,8 +208,9 @@ fn trailers() -> Claim {
     Claim::new("theorem-trailers", Status::Corrected, "the creep of a car with N trailers is realised by type RT^(N+1)")
         .at("section 4, second theorem; errata E21; corrected theorem (c)")
         .under(
-            "a unicycle tractor; RT^(N+2) with front steering, R²T^(N+1) with two driven wheels; there is an ideal motion in \
-             which every axle moves along itself",
+            "a unicycle tractor; hitch angles not measured: with all trailer headings measured the type is that of the tractor \
+             for every N; RT^(N+2) with front steering, R²T^(N+1) with two driven wheels; there is an ideal motion in which \
+             every axle moves along itself",
         )
         .remark(
             "Right for the coordinates (x, y, φ, θ) and N trailers. The coordinates of the literature that the paper \
@@ -228,7 +242,19 @@ fn trailers() -> Claim {
             trains,
         )
         .sample(
-            "the same behind front-driven tricycles and two driven wheels at an angle to each other",
+            "trains whose trailer headings are measured: the type of the tractor, whatever N",
+            &[
+                ("unicycle.k", "1"),
+                ("unicycle.m", "1"),
+                ("differential.k", "2"),
+                ("differential.m", "1"),
+                ("car.k", "1"),
+                ("car.m", "2"),
+            ],
+            move |s, sampling| over_with_headings(vehicles(kinds(), 1, 10), s, &sampling.one_in(2)),
+        )
+        .sample(
+            "no heading measured, behind front-driven tricycles and two driven wheels at an angle to each other",
             &[("tricycle.k", "1"), ("tricycle.m", "N + 2"), ("splayed.k", "2"), ("splayed.m", "N + 1")],
             more,
         )

@@ -49,6 +49,8 @@ pub enum Stage {
     InputSampling,
     /// What each chosen effect is worth is worked out, effect by effect.
     Evidence,
+    /// Data sets are drawn from the model without an effect, and each is asked what the effect would gain on it.
+    Draws,
     /// The held-out data are opened.
     HeldOut,
     /// How well the runs would show each effect is worked out, effect by effect.

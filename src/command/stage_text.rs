@@ -15,6 +15,7 @@ pub fn stage_text(stage: &Stage) -> String {
         Stage::PartsOfData => "parts of the data asked for the same effects".into(),
         Stage::InputSampling => "asking every second row of the inputs for the same effects".into(),
         Stage::Evidence => "effects; weighing the evidence for each".into(),
+        Stage::Draws => "data sets drawn without an effect; what it would gain on each".into(),
         Stage::HeldOut => "opening the held-out data".into(),
         Stage::Detection => "effects; weighing what each would leave in these runs".into(),
         Stage::Experiment => "thinking manoeuvres through".into(),

@@ -120,7 +120,7 @@ impl Code {
             ("@RATES@", self.rates.iter().enumerate().map(rate).collect()),
             ("@SLOPES@", self.slopes(language)),
         ];
-        let text = parts.into_iter().fold(language.template().to_string(), |t, (mark, part)| t.replace(mark, &part));
+        let text = parts.into_iter().fold(language.template(), |t, (mark, part)| t.replace(mark, &part));
         Exported { text, unsaid: self.unsaid.clone() }
     }
 

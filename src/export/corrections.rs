@@ -91,6 +91,12 @@ pub(super) fn lines_of_the_rest(found: &Corrections, also: &[String], with_place
     (lines, unsaid)
 }
 
+/// A number to a billionth of a thousandth: products of a few factors end in digits that mean nothing.
+pub(super) fn rounded(v: f64) -> f64 {
+    let by_twelve = (v * 1e12).round() / 1e12;
+    if by_twelve.is_finite() && v.abs() > 1e-3 { by_twelve } else { v }
+}
+
 /// Where a text comes from; no name of a file breaks its line.
 pub(super) fn origin(file: &ModelFile) -> String {
     printable(&format!("From {}, by creepage {}.", file.path.display(), env!("CARGO_PKG_VERSION")))

@@ -79,12 +79,13 @@ impl Language {
     }
 
     /// The text around the rates and their derivatives.
-    pub(super) fn template(self) -> &'static str {
+    pub(super) fn template(self) -> String {
+        let c = include_str!("templates/step.c");
         match self {
-            Self::C => include_str!("templates/step.c"),
-            Self::Cpp => include_str!("templates/step.cpp"),
-            Self::Python => include_str!("templates/step.py"),
-            Self::Rust => include_str!("templates/step.rs.txt"),
+            Self::C => c.into(),
+            Self::Cpp => c.replace("<math.h>", "<cmath>"),
+            Self::Python => include_str!("templates/step.py").into(),
+            Self::Rust => include_str!("templates/step.rs.txt").into(),
         }
     }
 

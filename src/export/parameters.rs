@@ -1,6 +1,6 @@
 //! Targets that are parameters: controllers of ROS 2, a VESC driver, constants of WPILib, JSON.
 
-use super::corrections::{Corrections, lines_of_the_rest, origin, written};
+use super::corrections::{Corrections, lines_of_the_rest, origin, rounded, written};
 use super::exported::Exported;
 use crate::error::{Error, Result};
 use crate::files::ModelFile;
@@ -233,7 +233,7 @@ impl Parameters<'_> {
     }
 }
 
-/// A number that reads as a real one in YAML and in Java.
+/// A number that reads as a real one in YAML and in Java, without the digits that rounding makes.
 fn real(v: f64) -> String {
-    format!("{v:?}")
+    format!("{:?}", rounded(v))
 }

@@ -1,6 +1,6 @@
 //! A robot's description (URDF) with corrected wheels: radii, places of wheel joints, and the frame that is tracked.
 
-use super::corrections::{Corrections, lines_of_the_rest};
+use super::corrections::{Corrections, lines_of_the_rest, rounded};
 use super::exported::Exported;
 use crate::error::{Error, Result};
 use crate::files::{ModelFile, read_text};
@@ -47,7 +47,7 @@ pub fn patched_description(file: &ModelFile, path: &Path, tracked: Option<&str>)
         if let Some(nominal) = nominal.filter(|_| side != 1.0) {
             let radii = wheel.link.descendants().filter(|n| n.has_tag_name("cylinder") || n.has_tag_name("sphere"));
             let radii = radii.filter_map(|n| n.attribute_node("radius"));
-            edits.extend(radii.map(|a: Attribute| (a.range_value(), (nominal * side).to_string())));
+            edits.extend(radii.map(|a: Attribute| (a.range_value(), rounded(nominal * side).to_string())));
         }
         let moved = [(found.base - 1.0) * (wheel.place[0] - rear), (found.separation - 1.0) * wheel.place[1]];
         if moved != [0.0; 2] {
@@ -70,7 +70,8 @@ pub fn patched_description(file: &ModelFile, path: &Path, tracked: Option<&str>)
     let (lines, unsaid) = lines_of_the_rest(&found, &also, !place_told);
     // Two dashes would end a comment, and a launch file needs no line for the frame that the description has.
     let lines = lines.iter().filter(|line| !line.starts_with("ros2 "));
-    let comment: String = lines.map(|line| format!("<!-- {} -->\n", line.replace("--", "- -"))).collect();
+    let comment: String =
+        lines.map(|line| format!("<!-- {} -->\n", line.trim_end_matches("; in ROS 2").replace("--", "- -"))).collect();
     patched.push_str(&comment);
     Ok(Exported { text: patched, unsaid })
 }
@@ -167,10 +168,9 @@ fn numbers(text: &str) -> Result<Vec<f64>> {
     text.split_whitespace().map(number).collect()
 }
 
-/// Numbers with blanks between, without the digits that rounding makes.
+/// Numbers with blanks between.
 fn spaced(values: &[f64]) -> String {
-    let rounded = |v: &f64| ((v * 1e12).round() / 1e12).to_string();
-    values.iter().map(rounded).collect::<Vec<_>>().join(" ")
+    values.iter().map(|v| rounded(*v).to_string()).collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]

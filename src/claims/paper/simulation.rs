@@ -151,15 +151,7 @@ fn scaled_by_constraints(s: &Statement, b: &Weighed) -> Verdict {
     };
     let creeps: Vec<f64> = b.creeps.iter().take(motion.coefficients()).map(|e| 0.4 * e).collect();
     let (e_ideal, e_crept) = (energy(&vec![0.0; creeps.len()], 1.0)?, energy(&creeps, 1.0)?);
-    let at = |name: &str| match name {
-        "E_ideal" => Some(e_ideal),
-        "E_crept" => Some(e_crept),
-        _ => None,
-    };
-    let lambda = value_said(s, "lambda", &at)?;
-    if lambda.is_sign_negative() {
-        return Err(Fault::False("the vehicle would drive backwards".into()));
-    }
+    let lambda = lambda_said(s, e_ideal, e_crept)?;
     near("the energy over the ideal one", energy(&creeps, lambda)? / e_ideal, 1.0, 1e-8)
 }
 
@@ -286,18 +278,23 @@ impl Bodies {
     }
 }
 
-fn scaled_energy(s: &Statement, b: &Bodies) -> Verdict {
-    let (ideal, crept) = (b.model(&[])?, b.model(&b.creeps())?);
-    let (e_ideal, e_crept) = (b.energy(&ideal, 1.0)?, b.energy(&crept, 1.0)?);
+/// What a statement says of λ for the energies of an ideal and a creeping vehicle at the same rates; forwards.
+fn lambda_said(s: &Statement, e_ideal: f64, e_crept: f64) -> Result<f64, Fault> {
     let at = |name: &str| match name {
         "E_ideal" => Some(e_ideal),
         "E_crept" => Some(e_crept),
         _ => None,
     };
-    let lambda = value_said(s, "lambda", &at)?;
-    if lambda.is_sign_negative() {
-        return Err(Fault::False("the vehicle would drive backwards".into()));
+    match value_said(s, "lambda", &at)? {
+        lambda if lambda.is_sign_negative() => Err(Fault::False("the vehicle would drive backwards".into())),
+        lambda => Ok(lambda),
     }
+}
+
+fn scaled_energy(s: &Statement, b: &Bodies) -> Verdict {
+    let (ideal, crept) = (b.model(&[])?, b.model(&b.creeps())?);
+    let (e_ideal, e_crept) = (b.energy(&ideal, 1.0)?, b.energy(&crept, 1.0)?);
+    let lambda = lambda_said(s, e_ideal, e_crept)?;
     near("the energy", b.energy(&crept, lambda)?, e_ideal, 1e-10)
 }
 

@@ -14,6 +14,7 @@ use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::{Equations, Model, state};
 use crate::motion::{StateSensitivity, Stepper};
+use crate::progress::{Counter, OnProgress, Stage, unheard};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
@@ -79,12 +80,19 @@ impl Problem {
     ///
     /// # Errors
     /// When the model's formulas are malformed.
-    pub(crate) fn chance_p_value(&self, without: &Fit, effect: &Applied, gain: f64) -> Result<f64> {
+    pub(crate) fn chance_p_value(
+        &self,
+        without: &Fit,
+        effect: &Applied,
+        gain: f64,
+        progress: &OnProgress,
+    ) -> Result<f64> {
         let [few, many] = DRAWS;
-        let mut chance = self.chance_gains(without, effect, few, 0)?;
+        let gains = self.gains_of_draws(without, effect, 0..few, 0, progress)?;
+        let mut chance = NullDistribution { k: effect.values.len(), gains };
         let rows: usize = self.records.iter().map(|r| r.rows.len()).sum();
         if chance.p_value(gain) >= DECIDED && rows <= QUICK_ROWS {
-            chance.gains.extend(self.gains_of_draws(without, effect, few..many, 0)?);
+            chance.gains.extend(self.gains_of_draws(without, effect, few..many, 0, progress)?);
         }
         Ok(chance.p_value(gain))
     }
@@ -94,18 +102,28 @@ impl Problem {
     /// # Errors
     /// When the model's formulas are malformed.
     pub fn chance_gains(&self, without: &Fit, effect: &Applied, draws: usize, seed: u64) -> Result<NullDistribution> {
-        let gains = self.gains_of_draws(without, effect, 0..draws, seed)?;
+        let gains = self.gains_of_draws(without, effect, 0..draws, seed, &unheard)?;
         Ok(NullDistribution { k: effect.values.len(), gains })
     }
 
     /// The gains on some of the data sets that a seed draws, each by a stream of its own.
-    fn gains_of_draws(&self, without: &Fit, effect: &Applied, draws: Range<usize>, seed: u64) -> Result<Vec<f64>> {
+    fn gains_of_draws(
+        &self,
+        without: &Fit,
+        effect: &Applied,
+        draws: Range<usize>,
+        seed: u64,
+        progress: &OnProgress,
+    ) -> Result<Vec<f64>> {
         let equations = without.model.equations(&[])?;
+        let counter = Counter::begin(progress, Stage::Draws, draws.len())?;
         let one = |i: usize| -> Result<Option<f64>> {
             let mut random = ChaCha8Rng::seed_from_u64(seed);
             random.set_stream(i as u64);
             let Some((drawn, starts)) = self.drawn(&equations, without, &mut random) else { return Ok(None) };
-            drawn.gain(&without.model, effect, &starts, &without.variances)
+            let gain = drawn.gain(&without.model, effect, &starts, &without.variances)?;
+            counter.one()?;
+            Ok(gain)
         };
         let gains: Vec<Option<f64>> = draws.into_par_iter().map(one).collect::<Result<_>>()?;
         Ok(gains.into_iter().flatten().collect())

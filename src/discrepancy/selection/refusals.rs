@@ -76,7 +76,7 @@ impl Search<'_> {
                 Ok::<_, Error>(smaller.map(|smaller| (applied, why, smaller)))
             };
             let Some((applied, why, smaller)) = fallen.map(without).transpose()?.flatten() else {
-                return Ok(Standing { chosen: self.examined(&grown.fit, weighed)?, refused, missed });
+                return Ok(Standing { chosen: self.examined(&grown.fit, weighed, progress)?, refused, missed });
             };
             forget(&mut missed, &grown.fit, &applied);
             scatter = None;

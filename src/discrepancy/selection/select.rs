@@ -122,10 +122,15 @@ impl Search<'_> {
     }
 
     /// The same with the probability and the rivals of each: asked once, of what stands.
-    pub(crate) fn examined(&self, fit: &Fit, weighed: Vec<Weighed>) -> Result<Vec<SelectedEffect>> {
+    pub(crate) fn examined(
+        &self,
+        fit: &Fit,
+        weighed: Vec<Weighed>,
+        progress: &OnProgress,
+    ) -> Result<Vec<SelectedEffect>> {
         let one = |Weighed { effect, without }: Weighed| {
             let gain = (without.deviance - fit.deviance).max(0.0) / fit.inflation_beside(&without);
-            let p_value = self.p_value(&without, &effect.applied, gain)?;
+            let p_value = self.p_value(&without, &effect.applied, gain, progress)?;
             let rivals = self.rivals(fit, &effect.applied)?;
             Ok(SelectedEffect { p_value, rivals, ..effect })
         };
@@ -133,12 +138,12 @@ impl Search<'_> {
     }
 
     /// Probability of such a gain by chance; where χ² does not hold, from data drawn without the effect.
-    fn p_value(&self, without: &Fit, applied: &Applied, gain: f64) -> Result<f64> {
+    fn p_value(&self, without: &Fit, applied: &Applied, gain: f64, progress: &OnProgress) -> Result<f64> {
         let k = applied.values.len();
         if parametric_bootstrap::is_regular(applied) || gain > BEYOND_DOUBT {
             return Ok(tail(gain, k));
         }
-        self.problem.chance_p_value(without, applied, gain)
+        self.problem.chance_p_value(without, applied, gain, progress)
     }
 
     /// Effects that explain the data as well in the place of a chosen one, where and when that holds.

@@ -1,15 +1,15 @@
 //! `creepage check`
 
-use super::output::{Format, print};
+use super::output::{Format, print_answer};
 use super::progress::ProgressLine;
 use super::runs;
 use super::user_catalogues::UserCatalogues;
 use clap::Args;
+use creepage::Result;
 use creepage::discrepancy::check::check_aligned;
 use creepage::discrepancy::identifiability::Checked;
 use creepage::discrepancy::rendering::check_text::check_text;
 use creepage::model::Model;
-use creepage::{Error, Result};
 use std::path::PathBuf;
 
 /// Say what runs can identify of a model, before anyone drives again
@@ -29,12 +29,8 @@ pub struct Arguments {
     /// The model as it is believed to be
     #[arg(long, value_name = "MODEL.toml")]
     model: PathBuf,
-    /// Measured poses in files of their own, one for each run and in their order
-    #[arg(long, num_args = 1.., value_name = "POSE.csv")]
-    truth: Vec<PathBuf>,
-    /// About where the clock of the poses reads against that of the inputs, s
-    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = runs::seconds, requires = "truth")]
-    clock_offset: Option<f64>,
+    #[command(flatten)]
+    apart: runs::Apart,
     /// How to print it
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -49,16 +45,10 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let (file, library) = &arguments.own.read(&arguments.model)?;
     file.no_forces("check")?;
     Model::check_motion(file)?;
-    let runs = runs::read(&arguments.runs, &arguments.truth, "--truth", file)?;
+    let runs = runs::read(&arguments.runs, &arguments.apart.truth, "--truth", file)?;
     runs::distinct(&arguments.runs, &[])?;
     let of = Checked { file, runs: &runs, library };
-    let answer = check_aligned(&of, arguments.clock_offset, &|p| progress.hear(p))?;
+    let answer = check_aligned(&of, arguments.apart.clock_offset, &|p| progress.hear(p))?;
     drop(progress);
-    let json = || serde_json::to_string_pretty(&answer).map_err(|e| Error::run(format!("no JSON: {e}")));
-    match arguments.format {
-        Format::Json => print(&format!("{}\n", json()?))?,
-        Format::Text if !quiet => print(&check_text(&answer))?,
-        Format::Text => {}
-    }
-    Ok(())
+    print_answer(&answer, arguments.format, quiet, check_text)
 }

@@ -5,7 +5,7 @@ use super::runs::not_an_input;
 use super::user_catalogues::UserCatalogues;
 use clap::{Args, ValueEnum};
 use creepage::export::{Code, Exported, Gains, Language, Target, patched_description};
-use creepage::files::{ModelFile, write_whole};
+use creepage::files::{ModelFile, read_text, write_whole};
 use creepage::model::Model;
 use creepage::{Error, Result};
 use serde_json::Value;
@@ -133,9 +133,7 @@ fn code(
     language: Language,
 ) -> Result<Exported> {
     Model::check_motion(file)?;
-    let roles: Vec<String> = file.columns.inputs.iter().map(|i| i.role.clone()).collect();
-    let model = Model::from_file(file, library, &roles)?;
-    let code = Code::of(&model, file).map_err(|e| e.at_file(&file.path))?;
+    let code = Code::of(&Model::of_file(file, library)?, file).map_err(|e| e.at_file(&file.path))?;
     match &arguments.covariance {
         Some(path) => {
             let (names, matrix) = covariance(path)?;
@@ -149,7 +147,7 @@ fn code(
 fn covariance(path: &Path) -> Result<(Vec<String>, Vec<Vec<f64>>)> {
     let unreadable =
         |why: String| Error::input(why).at_file(path).help("give a report.json, or the answer of `fit --format json`");
-    let text = std::fs::read_to_string(path).map_err(|e| unreadable(format!("cannot be read: {e}")))?;
+    let text = read_text(path).map_err(|e| unreadable(format!("cannot be read: {}", e.message())))?;
     let whole: Value = serde_json::from_str(&text).map_err(|e| unreadable(format!("is no JSON: {e}")))?;
     let found: Option<creepage::report::Covariance> = serde_json::from_value(whole["covariance"].clone()).ok();
     let square = |c: &creepage::report::Covariance| {

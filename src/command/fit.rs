@@ -1,11 +1,11 @@
 //! `creepage fit`
 
-use super::output::{Format, print};
+use super::output::{Format, print_answer};
 use super::progress::ProgressLine;
 use super::runs;
 use super::user_catalogues::UserVehicles;
 use clap::Args;
-use creepage::discrepancy::calibration::calibrate::{Calibrated, calibrate};
+use creepage::discrepancy::calibration::calibrate::calibrate;
 use creepage::discrepancy::calibration::targets::Target;
 use creepage::discrepancy::rendering::calibration_text::calibration_text;
 use creepage::discrepancy::request::Request;
@@ -44,12 +44,8 @@ pub struct Arguments {
     /// Where the model with the fitted effects goes
     #[arg(long, value_name = "MODEL.toml")]
     out: Option<PathBuf>,
-    /// Measured poses in files of their own, one for each run and in their order
-    #[arg(long, num_args = 1.., value_name = "POSE.csv")]
-    truth: Vec<PathBuf>,
-    /// About where the clock of the poses reads against that of the inputs, s
-    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = runs::seconds, requires = "truth")]
-    clock_offset: Option<f64>,
+    #[command(flatten)]
+    apart: runs::Apart,
     /// How to print it
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -74,25 +70,16 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     file.no_forces("fit")?;
     Model::check_motion(file)?;
     if let Some(out) = &arguments.out {
-        let inputs = arguments.runs.iter().chain(&arguments.truth).chain([&arguments.model]);
+        let inputs = arguments.runs.iter().chain(&arguments.apart.truth).chain([&arguments.model]);
         runs::not_an_input(out, &inputs.map(PathBuf::as_path).collect::<Vec<_>>())?;
     }
-    let runs = runs::read(&arguments.runs, &arguments.truth, "--truth", file)?;
+    let runs = runs::read(&arguments.runs, &arguments.apart.truth, "--truth", file)?;
     runs::distinct(&arguments.runs, &[])?;
     let request = Request { file, runs: &runs, held_out: &[], library, horizons: &[], seed: 0 };
-    let found = calibrate(&request, &arguments.effects, arguments.clock_offset, &|p| progress.hear(p))?;
+    let found = calibrate(&request, &arguments.effects, arguments.apart.clock_offset, &|p| progress.hear(p))?;
     drop(progress);
     if let Some(out) = arguments.out.as_ref().filter(|_| !found.entries.is_empty()) {
         write_whole(out, file.patched(&found.entries).as_bytes())?;
     }
-    match arguments.format {
-        Format::Json => print(&format!("{}\n", json(&found)?))?,
-        Format::Text if !quiet => print(&calibration_text(&found.calibration))?,
-        Format::Text => {}
-    }
-    Ok(())
-}
-
-fn json(found: &Calibrated) -> Result<String> {
-    serde_json::to_string_pretty(&found.calibration).map_err(|e| Error::run(format!("no JSON: {e}")))
+    print_answer(&found.calibration, arguments.format, quiet, calibration_text)
 }

@@ -2,6 +2,7 @@
 
 use clap::ValueEnum;
 use creepage::{Error, Result};
+use serde::Serialize;
 use std::io::{ErrorKind, Write};
 
 /// How an answer is printed, where a command knows no other formats.
@@ -14,6 +15,23 @@ pub enum Format {
 /// JSON with a line for every value.
 pub fn pretty(value: &serde_json::Value) -> String {
     format!("{value:#}\n")
+}
+
+/// An answer: as JSON, or as text unless nothing but errors is to be printed.
+pub fn print_answer<T: Serialize>(
+    answer: &T,
+    format: Format,
+    quiet: bool,
+    text: impl FnOnce(&T) -> String,
+) -> Result<()> {
+    match format {
+        Format::Json => {
+            let json = serde_json::to_string_pretty(answer).map_err(|e| Error::run(format!("no JSON: {e}")))?;
+            print(&format!("{json}\n"))
+        }
+        Format::Text if !quiet => print(&text(answer)),
+        Format::Text => Ok(()),
+    }
 }
 
 /// Writes text to standard output; a reader that has gone away is no error, a full disk behind it is one.

@@ -1,8 +1,20 @@
 //! Runs as the command line names them: one file each, or inputs and poses apart.
 
+use clap::Args;
 use creepage::files::{ModelFile, Run};
 use creepage::{Error, Result};
 use std::path::{Path, PathBuf};
+
+/// Poses in files of their own, of a command that holds no run out.
+#[derive(Args)]
+pub struct Apart {
+    /// Measured poses in files of their own, one for each run and in their order
+    #[arg(long, num_args = 1.., value_name = "POSE.csv")]
+    pub truth: Vec<PathBuf>,
+    /// About where the clock of the poses reads against that of the inputs, s
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = seconds, requires = "truth")]
+    pub clock_offset: Option<f64>,
+}
 
 /// Reads runs; with `truths`, the poses of each from the file in the same place.
 ///

@@ -1,6 +1,6 @@
 //! The result of a calibration.
 
-use crate::discrepancy::report::{Covariance, PerRun, Provenance, RunClock};
+use crate::discrepancy::report::{Covariance, DataSummary, PerRun, Provenance};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -36,26 +36,9 @@ pub struct Calibration {
     /// Twice the log likelihood gained by all of them together.
     pub deviance_gained: f64,
     /// Runs and rows that were fitted.
-    pub data: FittedData,
+    pub data: DataSummary,
     /// Where it comes from.
     pub provenance: Provenance,
-}
-
-/// What was fitted.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct FittedData {
-    /// Number of runs.
-    pub runs: usize,
-    /// Rows that were fitted.
-    pub rows: usize,
-    /// Rows that were left out.
-    pub rows_dropped: usize,
-    /// Why.
-    pub why_dropped: BTreeMap<String, usize>,
-    /// Clocks of runs whose poses stand in files of their own.
-    pub clocks: Vec<RunClock>,
-    /// What is to know of the runs.
-    pub warnings: Vec<String>,
 }
 
 /// An effect at its fitted values.

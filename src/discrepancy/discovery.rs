@@ -61,11 +61,6 @@ pub(crate) struct Findings {
 
 /// The report of a verdict and what was found.
 pub(crate) fn report(request: &Request, data: &Data, verdict: Verdict, found: Findings, clocks: Clocks) -> Report {
-    let runs = || request.runs.iter().chain(request.held_out);
-    let reading = runs()
-        .flat_map(|r| r.warnings.iter().map(move |says| Warning::Reading { run: r.name.clone(), says: says.clone() }));
-    let of_data = data.notes().into_iter().map(Warning::Dataset);
-    let warnings = reading.chain(of_data).chain(found.warnings).chain(clocks.warnings);
     let composed = || summary::composed_sentence(verdict, &found.effects, &found.unnamed);
     let sentence = found.reason.as_ref().map_or_else(composed, reason_text::sentence);
     let roles = request.runs.first().map_or(&[][..], |r| &r.roles);
@@ -86,23 +81,36 @@ pub(crate) fn report(request: &Request, data: &Data, verdict: Verdict, found: Fi
         next_experiment: found.next.as_ref().map(experiment_text::next_experiment),
         steps: found.steps,
         data: DataSummary {
-            runs: runs().count(),
-            rows: runs().map(|r| r.time.len()).sum::<usize>() - data.left_out.rows(),
-            rows_dropped: runs().map(|r| r.rows_dropped).sum::<usize>() + data.left_out.rows(),
-            why_dropped: why_dropped(request, data),
-            warnings: warnings.map(|w| warning_text::line(&w)).collect(),
-            clocks: clocks.clocks,
             findings: match &found.reason {
                 Some(Reason::Slip(slip)) => vec![finding_text::slip(slip)],
                 Some(Reason::OtherVehicle(other)) => vec![finding_text::other_vehicle(other)],
                 _ => vec![],
             },
+            ..summarised(request, data, found.warnings, clocks)
         },
         provenance: provenance(request),
     }
 }
 
-pub(crate) fn why_dropped(request: &Request, data: &Data) -> BTreeMap<String, usize> {
+/// The runs of a request and what was left out of them, with all there is to know of them; `more` beside what reading them gave.
+pub(crate) fn summarised(request: &Request, data: &Data, more: Vec<Warning>, clocks: Clocks) -> DataSummary {
+    let runs = || request.runs.iter().chain(request.held_out);
+    let reading = runs()
+        .flat_map(|r| r.warnings.iter().map(move |says| Warning::Reading { run: r.name.clone(), says: says.clone() }));
+    let of_data = data.notes().into_iter().map(Warning::Dataset);
+    let warnings = reading.chain(of_data).chain(more).chain(clocks.warnings);
+    DataSummary {
+        runs: runs().count(),
+        rows: runs().map(|r| r.time.len()).sum::<usize>() - data.left_out.rows(),
+        rows_dropped: runs().map(|r| r.rows_dropped).sum::<usize>() + data.left_out.rows(),
+        why_dropped: why_dropped(request, data),
+        warnings: warnings.map(|w| warning_text::line(&w)).collect(),
+        clocks: clocks.clocks,
+        findings: vec![],
+    }
+}
+
+fn why_dropped(request: &Request, data: &Data) -> BTreeMap<String, usize> {
     let mut why_dropped: BTreeMap<String, usize> = BTreeMap::new();
     let each = request.runs.iter().chain(request.held_out).flat_map(|r| &r.why_dropped);
     each.for_each(|(why, n)| *why_dropped.entry(why.clone()).or_default() += n);

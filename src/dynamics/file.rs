@@ -135,8 +135,9 @@ pub fn simulate_file(
     pose: &Initial,
     integrator: &Integrator,
 ) -> Result<Table> {
-    let method = if Dynamics::from_file(file)?.has_friction() { Method::Radau5 } else { integrator.method };
-    simulate_file_by(file, inputs, times, pose, &Integrator { method, ..*integrator })
+    let dynamics = Dynamics::from_file(file)?;
+    let method = if dynamics.has_friction() { Method::Radau5 } else { integrator.method };
+    run_of(&dynamics, file, inputs, times, pose, &Integrator { method, ..*integrator })
 }
 
 /// As [`simulate_file`], by the method given even where friction is stiff.
@@ -150,10 +151,20 @@ pub fn simulate_file_by(
     pose: &Initial,
     integrator: &Integrator,
 ) -> Result<Table> {
-    let dynamics = Dynamics::from_file(file)?;
+    run_of(&Dynamics::from_file(file)?, file, inputs, times, pose, integrator)
+}
+
+fn run_of(
+    dynamics: &Dynamics,
+    file: &ModelFile,
+    inputs: &impl Drive,
+    times: &[f64],
+    pose: &Initial,
+    integrator: &Integrator,
+) -> Result<Table> {
     let entry = file.dynamics.clone().unwrap_or_default();
     let (line, column) = entry.place;
-    simulate_dynamics(&dynamics, inputs, times, &Start::from_file(&entry, pose), integrator).map_err(|e| {
+    simulate_dynamics(dynamics, inputs, times, &Start::from_file(&entry, pose), integrator).map_err(|e| {
         match e.exit_code() {
             2 => e.at_file(&file.path).at(line, column),
             _ => e,

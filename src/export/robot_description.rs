@@ -3,19 +3,11 @@
 use super::corrections::{Corrections, lines_of_the_rest, rounded};
 use super::exported::Exported;
 use crate::error::{Error, Result};
+use crate::files::robot_description::{number, parsed, wheels};
 use crate::files::{ModelFile, read_text};
 use roxmltree::{Attribute, Document, Node};
-use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
-
-/// A joint that turns leads to such a wheel.
-struct Wheel<'d> {
-    /// Where its axis stands, forward and left.
-    place: [f64; 2],
-    joint: Node<'d, 'd>,
-    link: Node<'d, 'd>,
-}
 
 /// A description in which what the model found of its wheels is put in; all else stays byte for byte.
 ///
@@ -27,17 +19,8 @@ struct Wheel<'d> {
 /// When the file is no XML, has no wheel, or no joint of the tracked link.
 pub fn patched_description(file: &ModelFile, path: &Path, tracked: Option<&str>) -> Result<Exported> {
     let text = read_text(path)?;
-    let document = Document::parse(&text).map_err(|e| {
-        let at = e.pos();
-        let help = "give a robot's description in URDF; where it is xacro, expand it first";
-        Error::input("is not valid XML").at_file(path).at(at.row as usize, at.col as usize).help(help)
-    })?;
-    let wheels = wheels(&document).map_err(|e| e.at_file(path))?;
-    if wheels.is_empty() {
-        return Err(
-            Error::input("has no wheel: no joint that turns leads to a link with \"wheel\" in its name").at_file(path)
-        );
-    }
+    let document = parsed(&text, path)?;
+    let wheels = wheels(&document, path, "give the description of the robot that the model is of")?;
     let found = Corrections::of(file);
     let mut edits: Vec<(Range<usize>, String)> = Vec::new();
     let nominal = file.parameters.get("wheel_radius").copied();
@@ -45,7 +28,8 @@ pub fn patched_description(file: &ModelFile, path: &Path, tracked: Option<&str>)
     for wheel in &wheels {
         let side = if wheel.place[1] < 0.0 { found.right } else { found.left };
         if let Some(nominal) = nominal.filter(|_| side != 1.0) {
-            let radii = wheel.link.descendants().filter(|n| n.has_tag_name("cylinder") || n.has_tag_name("sphere"));
+            let shapes = wheel.link.iter().flat_map(Node::descendants);
+            let radii = shapes.filter(|n| n.has_tag_name("cylinder") || n.has_tag_name("sphere"));
             let radii = radii.filter_map(|n| n.attribute_node("radius"));
             edits.extend(radii.map(|a: Attribute| (a.range_value(), rounded(nominal * side).to_string())));
         }
@@ -137,34 +121,7 @@ fn tracked_frame(document: &Document, link: &str, [x, y, yaw]: [f64; 3]) -> Resu
     }
 }
 
-fn wheels<'d>(document: &'d Document<'d>) -> Result<Vec<Wheel<'d>>> {
-    let robot = document.root_element();
-    let links: BTreeMap<&str, Node> =
-        robot.children().filter(|n| n.has_tag_name("link")).filter_map(|n| Some((n.attribute("name")?, n))).collect();
-    let mut found = vec![];
-    for joint in robot.children().filter(|n| n.has_tag_name("joint")) {
-        let turns = matches!(joint.attribute("type"), Some("continuous" | "revolute"));
-        let child = joint.children().find(|n| n.has_tag_name("child")).and_then(|n| n.attribute("link"));
-        let Some((name, link)) = child.and_then(|c| Some((c, *links.get(c)?))).filter(|_| turns) else { continue };
-        let name = name.to_lowercase();
-        if !name.contains("wheel") || ["caster", "castor"].iter().any(|other| name.contains(other)) {
-            continue;
-        }
-        let origin = joint.children().find(|n| n.has_tag_name("origin")).and_then(|n| n.attribute("xyz"));
-        let mut place = numbers(origin.unwrap_or("0 0 0"))?;
-        place.resize(3, 0.0);
-        found.push(Wheel { place: [place[0], place[1]], joint, link });
-    }
-    Ok(found)
-}
-
 fn numbers(text: &str) -> Result<Vec<f64>> {
-    let number = |word: &str| {
-        word.parse::<f64>().ok().filter(|v| v.is_finite()).ok_or_else(|| {
-            Error::input(format!("\"{}\" is not a number", crate::files::shown(word)))
-                .help("where it is xacro, expand it: xacro robot.urdf.xacro > robot.urdf")
-        })
-    };
     text.split_whitespace().map(number).collect()
 }
 
@@ -216,6 +173,22 @@ mod tests {
         assert!(!told.contains("static_transform_publisher"), "{told}");
         assert_eq!(patched("", None, ROBOT).unwrap().text, ROBOT);
         Document::parse(&told).unwrap();
+    }
+
+    /// A wheel on an arm: its place is that on the robot, and its own joint makes up for the whole.
+    #[test]
+    fn a_wheel_that_hangs_on_an_arm_is_moved_by_what_its_place_asks_for() {
+        let arm = "<link name='arm'/><joint name='a' type='fixed'><parent link='base'/><child link='arm'/>\
+                   <origin xyz='0 -0.1 0'/></joint>";
+        let mounted = ROBOT.replace("</robot>", &format!("{arm}</robot>")).replace(
+            "<parent link='base'/><child link='right_wheel'/><origin xyz='0 -0.16 0.01'/>",
+            "<parent link='arm'/><child link='right_wheel'/><origin xyz='0 -0.06 0.01'/>",
+        );
+        let effects = "[[effects]]\nid = \"track-width\"\nscale = 0.05\n[[effects]]\nid = \"unequal-rotation-creep\"\n\
+                       e_left = 0.0\ne_right = 0.1\n";
+        let found = patched(effects, None, &mounted).unwrap().text;
+        assert!(found.contains("xyz='0 -0.068 0.01'") && found.contains("xyz='0 -0.1 0'"), "{found}");
+        assert!(found.contains("radius=\"0.054\"") && found.contains("radius='0.06'"), "{found}");
     }
 
     #[test]

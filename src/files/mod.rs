@@ -9,6 +9,7 @@ pub mod extension;
 pub mod log;
 pub mod model;
 mod output_path;
+pub(crate) mod robot_description;
 pub mod sweep;
 pub mod toml;
 mod write_together;

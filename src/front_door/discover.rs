@@ -144,7 +144,7 @@ pub fn fit(model: &Model, runs: &[Run], effects: &[&str]) -> Result<Calibration>
 /// # Errors
 /// When an effect of the model does not apply to its vehicle.
 pub fn describe(model: &Model) -> Result<Description> {
-    Description::of(&vehicle_of(model)?)
+    Description::of(&VehicleModel::of_file(&model.file, &model.library)?)
 }
 
 /// As [`describe`](crate::describe()), of what is measured and at a point.
@@ -164,17 +164,12 @@ pub fn describe(model: &Model) -> Result<Description> {
 /// # Errors
 /// As [`describe`](crate::describe()), and when the model has no such rate, or the point names what no constraint has.
 pub fn describe_with(model: &Model, measured: &[Symbol], at: Option<&GivenPoint>) -> Result<Description> {
-    let vehicle = vehicle_of(model)?;
+    let vehicle = VehicleModel::of_file(&model.file, &model.library)?;
     let description = Description::of_measuring(&vehicle, measured)?;
     match at {
         Some(point) => description.with_derivatives_at(&vehicle, point),
         None => Ok(description),
     }
-}
-
-fn vehicle_of(model: &Model) -> Result<VehicleModel> {
-    let roles: Vec<String> = model.file.columns.inputs.iter().map(|i| i.role.clone()).collect();
-    VehicleModel::from_file(&model.file, &model.library, &roles)
 }
 
 /// The motion of a model over the inputs of a run, from the first pose of the run, at the times of its poses.

@@ -93,6 +93,15 @@ impl Model {
             .map_err(|e| e.at_file(&file.path))
     }
 
+    /// The model of a file whose columns say which inputs are logged.
+    ///
+    /// # Errors
+    /// As [`Model::from_file`].
+    pub fn of_file(file: &ModelFile, library: &[Effect]) -> Result<Self> {
+        let roles: Vec<String> = file.columns.inputs.iter().map(|i| i.role.clone()).collect();
+        Self::from_file(file, library, &roles)
+    }
+
     /// The model that a file describes, logged by the given input roles.
     ///
     /// # Errors

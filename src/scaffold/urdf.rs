@@ -1,9 +1,9 @@
 //! Radius, track and wheelbase from a robot's description in URDF.
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::files::read_text;
-use roxmltree::{Document, Node};
-use std::collections::BTreeMap;
+use crate::files::robot_description::{self, number};
+use roxmltree::Node;
 use std::path::Path;
 
 /// What a robot's description says of its wheels, m.
@@ -28,9 +28,6 @@ struct Wheel {
     y: f64,
 }
 
-/// More joints than these one behind the other are a circle.
-const DEEPEST: usize = 100;
-
 impl Measures {
     /// Reads a description: wheels are links whose joint turns and whose name says "wheel".
     ///
@@ -51,20 +48,10 @@ impl Measures {
     pub fn read(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
         let text = read_text(path)?;
-        let document = Document::parse(&text).map_err(|e| {
-            let at = e.pos();
-            let place = (at.row as usize, at.col as usize);
-            Error::input("is not valid XML")
-                .at_file(path)
-                .at(place.0, place.1)
-                .help("give a robot's description in URDF")
-        })?;
-        let wheels = wheels(&document).map_err(|e| e.at_file(path))?;
-        if wheels.is_empty() {
-            return Err(Error::input("has no wheel: no joint that turns leads to a link with \"wheel\" in its name")
-                .at_file(path)
-                .help("leave --urdf out, and put wheel_radius and the others into the model file"));
-        }
+        let document = robot_description::parsed(&text, path)?;
+        let otherwise = "leave --urdf out, and put wheel_radius and the others into the model file";
+        let wheels = robot_description::wheels(&document, path, otherwise)?;
+        let wheels = wheels.iter().map(Wheel::of).collect::<Result<Vec<_>>>().map_err(|e| e.at_file(path))?;
         let rounded = |v: f64| Some((v * 1e9).round() / 1e9).filter(|v| v.is_finite());
         let spread = |of: &dyn Fn(&Wheel) -> f64| {
             let (least, most) =
@@ -104,41 +91,11 @@ impl Measures {
     }
 }
 
-fn wheels(document: &Document) -> Result<Vec<Wheel>> {
-    let robot = document.root_element();
-    let named = |kind: &'static str| robot.children().filter(move |n| n.has_tag_name(kind));
-    let links: BTreeMap<&str, Node> = named("link").filter_map(|n| Some((n.attribute("name")?, n))).collect();
-    let mut joints: BTreeMap<&str, (&str, [f64; 2], bool)> = BTreeMap::new();
-    for joint in named("joint") {
-        let link = |kind: &str| joint.children().find(|n| n.has_tag_name(kind)).and_then(|n| n.attribute("link"));
-        let (Some(parent), Some(child)) = (link("parent"), link("child")) else { continue };
-        let origin = joint.children().find(|n| n.has_tag_name("origin")).and_then(|n| n.attribute("xyz"));
-        let turns = matches!(joint.attribute("type"), Some("continuous" | "revolute"));
-        joints.insert(child, (parent, place(origin.unwrap_or("0 0 0"))?, turns));
+impl Wheel {
+    fn of(wheel: &robot_description::Wheel) -> Result<Self> {
+        let radius = wheel.link.map(|link| radius(&link)).transpose()?.flatten();
+        Ok(Self { radius, x: wheel.place[0], y: wheel.place[1] })
     }
-    let is_wheel = |name: &str| {
-        let name = name.to_lowercase();
-        name.contains("wheel") && !["caster", "castor"].iter().any(|other| name.contains(other))
-    };
-    let mut found = vec![];
-    for (child, (_, _, turns)) in &joints {
-        if *turns && is_wheel(child) {
-            let [x, y] = on_robot(&joints, child);
-            found.push(Wheel { radius: links.get(child).map(|link| radius(link)).transpose()?.flatten(), x, y });
-        }
-    }
-    Ok(found)
-}
-
-/// Where a link stands on the robot, joints that stand turned left out of account.
-fn on_robot(joints: &BTreeMap<&str, (&str, [f64; 2], bool)>, link: &str) -> [f64; 2] {
-    let (mut at, mut link) = ([0.0, 0.0], link);
-    for _ in 0..DEEPEST {
-        let Some((parent, [x, y], _)) = joints.get(link) else { break };
-        at = [at[0] + x, at[1] + y];
-        link = parent;
-    }
-    at
 }
 
 fn radius(link: &Node) -> Result<Option<f64>> {
@@ -146,17 +103,4 @@ fn radius(link: &Node) -> Result<Option<f64>> {
         ["collision", "visual"].into_iter().flat_map(|kind| link.children().filter(move |n| n.has_tag_name(kind)));
     let round = shapes.flat_map(|n| n.descendants()).find(|n| n.has_tag_name("cylinder") || n.has_tag_name("sphere"));
     round.and_then(|n| n.attribute("radius")).map(number).transpose()
-}
-
-fn place(text: &str) -> Result<[f64; 2]> {
-    let mut numbers = text.split_whitespace().map(number);
-    Ok([numbers.next().unwrap_or(Ok(0.0))?, numbers.next().unwrap_or(Ok(0.0))?])
-}
-
-fn number(text: &str) -> Result<f64> {
-    text.trim().parse::<f64>().ok().filter(|v| v.is_finite()).ok_or_else(|| {
-        let shown = crate::files::shown(text);
-        Error::input(format!("\"{shown}\" is not a number"))
-            .help("where it is xacro, expand it: xacro robot.urdf.xacro > robot.urdf")
-    })
 }

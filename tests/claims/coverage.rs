@@ -1,33 +1,12 @@
 //! The generator of vehicles draws every kind of thing that the theorems are said to hold for.
 
+use crate::met::Met;
 use crate::support::check;
 use creepage::claims::generated::{
     ConstrainedMotion, Drive, Facing, Generated, Placed, any_drive, loose_vehicles, vehicles,
 };
 use creepage::formula::{Exact, Fun, Scalar, Symbol};
 use proptest::prelude::*;
-use std::cell::RefCell;
-use std::collections::BTreeMap;
-
-/// How often each kind was drawn.
-#[derive(Default)]
-struct Drawn(RefCell<BTreeMap<String, usize>>);
-
-impl Drawn {
-    fn note(&self, kind: impl Into<String>) {
-        *self.0.borrow_mut().entry(kind.into()).or_default() += 1;
-    }
-
-    fn of(&self, kind: &str) -> usize {
-        self.0.borrow().get(kind).copied().unwrap_or(0)
-    }
-
-    fn at_least(&self, wanted: &[(&str, usize)]) {
-        for (kind, count) in wanted {
-            assert!(self.of(kind) >= *count, "{kind}: {} of at least {count}; {:?}", self.of(kind), self.0.borrow());
-        }
-    }
-}
 
 /// How a fixed wheel faces beside another one: cos of the angle between them.
 fn beside(wheel: &Placed, other: &Placed) -> &'static str {
@@ -47,49 +26,52 @@ fn sign(v: &Exact) -> &'static str {
     }
 }
 
-fn note_wheels(drawn: &Drawn, vehicle: &Generated) {
-    let Some(wheels) = vehicle.wheels() else { return drawn.note("nowhere to turn about") };
-    drawn.note(format!("{:?}", vehicle.drive));
+fn note_wheels(drawn: &Met, vehicle: &Generated) {
+    let Some(wheels) = vehicle.wheels() else { return drawn.note("nowhere to turn about", true) };
+    drawn.note(format!("{:?}", vehicle.drive), true);
     let axle = wheels.iter().find(|w| w.name.starts_with("axle")).unwrap_or(&wheels[0]);
     let further: Vec<&Placed> = wheels.iter().filter(|w| w.k > 10).collect();
-    drawn.note(format!("{} further wheels", further.len()));
+    drawn.note(format!("{} further wheels", further.len()), true);
     for wheel in further {
-        drawn.note(match wheel.facing {
-            Facing::Castor => "further castor".to_string(),
-            Facing::Steered => "further steered wheel".into(),
-            Facing::Fixed(_) => format!("further wheel {}", beside(wheel, axle)),
-        });
-        drawn.note(if wheel.place[1].to_f64() < 0.0 { "to the right" } else { "to the left" });
+        drawn.note(
+            match wheel.facing {
+                Facing::Castor => "further castor".to_string(),
+                Facing::Steered => "further steered wheel".into(),
+                Facing::Fixed(_) => format!("further wheel {}", beside(wheel, axle)),
+            },
+            true,
+        );
+        drawn.note(if wheel.place[1].to_f64() < 0.0 { "to the right" } else { "to the left" }, true);
     }
     if vehicle.drive == Drive::Differential {
-        drawn.note(format!("driven wheels {}", beside(&wheels[1], &wheels[0])));
+        drawn.note(format!("driven wheels {}", beside(&wheels[1], &wheels[0])), true);
     }
     if let Facing::Fixed(axle) = &wheels[0].facing {
-        drawn.note(if axle.to_f64() == 0.0 { "axle across the body" } else { "axle at an angle to the body" });
+        drawn.note(if axle.to_f64() == 0.0 { "axle across the body" } else { "axle at an angle to the body" }, true);
     }
 }
 
-fn note_configuration(drawn: &Drawn, vehicle: &Generated) {
+fn note_configuration(drawn: &Met, vehicle: &Generated) {
     let at = vehicle.point();
     let named = |name: &str| at.value(&Symbol::new(name));
-    drawn.note(format!("{} trailers", vehicle.trailers()));
+    drawn.note(format!("{} trailers", vehicle.trailers()), true);
     for i in 1..=vehicle.trailers() {
-        drawn.note(format!("hitch {} the axle", sign(&named(&format!("c_{i}")))));
-        drawn.note(if named(&format!("phi_{i}")).to_f64() == 0.0 { "trailer along x" } else { "trailer turned" });
-        drawn.note(if named(&format!("d_{i}")).to_f64() < 0.5 { "short bar" } else { "long bar" });
+        drawn.note(format!("hitch {} the axle", sign(&named(&format!("c_{i}")))), true);
+        drawn.note(if named(&format!("phi_{i}")).to_f64() == 0.0 { "trailer along x" } else { "trailer turned" }, true);
+        drawn.note(if named(&format!("d_{i}")).to_f64() < 0.5 { "short bar" } else { "long bar" }, true);
     }
     for angle in ["phi", "delta"] {
-        drawn.note(format!("{angle} {}", if named(angle).to_f64() == 0.0 { "zero" } else { "turned" }));
+        drawn.note(format!("{angle} {}", if named(angle).to_f64() == 0.0 { "zero" } else { "turned" }), true);
     }
 }
 
 #[test]
 fn every_kind_of_vehicle_is_drawn() {
-    let drawn = Drawn::default();
+    let drawn = Met::default();
     check(600, vehicles(any_drive(), 3, 10), |vehicle| {
         note_wheels(&drawn, &vehicle);
         note_configuration(&drawn, &vehicle);
-        drawn.note(if vehicle.is_regular() { "regular" } else { "singular" });
+        drawn.note(if vehicle.is_regular() { "regular" } else { "singular" }, true);
         Ok(())
     });
     let drives = ["Unicycle", "Differential", "Car", "Tricycle", "Splayed"];
@@ -121,10 +103,10 @@ fn every_kind_of_vehicle_is_drawn() {
 
 #[test]
 fn vehicles_drive_straight_and_turn() {
-    let drawn = Drawn::default();
+    let drawn = Met::default();
     check(300, vehicles(Just(Drive::Splayed), 0, 0), |vehicle| {
         // Splayed wheels have nowhere to turn about where the vehicle drives straight.
-        drawn.note(if vehicle.wheels().is_none() { "straight" } else { "turning" });
+        drawn.note(if vehicle.wheels().is_none() { "straight" } else { "turning" }, true);
         Ok(())
     });
     drawn.at_least(&[("straight", 40), ("turning", 120)]);
@@ -132,7 +114,7 @@ fn vehicles_drive_straight_and_turn() {
 
 #[test]
 fn loose_wheels_stand_anywhere() {
-    let drawn = Drawn::default();
+    let drawn = Met::default();
     check(200, loose_vehicles(any_drive(), 3, 0), |vehicle| {
         note_wheels(&drawn, &vehicle);
         Ok(())
@@ -143,9 +125,9 @@ fn loose_wheels_stand_anywhere() {
 /// The unicycle by its constraints: x′ = r·θ̇·(1 − e_rc)·(cos φ − e·sin φ), in any configuration.
 #[test]
 fn constraints_tell_the_motion_of_a_wheel() {
-    let drawn = Drawn::default();
+    let drawn = Met::default();
     check(100, vehicles(Just(Drive::Unicycle), 0, 0), |vehicle| {
-        let Some(motion) = ConstrainedMotion::of(&vehicle, false) else { return Ok(()) };
+        let Some(motion) = ConstrainedMotion::of(&vehicle) else { return Ok(()) };
         let wheel = vehicle.wheels().unwrap().remove(0);
         let Facing::Fixed(mounted) = &wheel.facing else { return Ok(()) };
         let psi = vehicle.point().value(&"phi".into()).to_f64() + mounted.to_f64();
@@ -158,7 +140,7 @@ fn constraints_tell_the_motion_of_a_wheel() {
             let found = q[motion.place(name).unwrap()];
             prop_assert!((found - wanted).abs() < 1e-12 * (1.0 + along.abs()), "{name}: {found} {wanted}");
         }
-        drawn.note("moved");
+        drawn.note("moved", true);
         Ok(())
     });
     drawn.at_least(&[("moved", 90)]);

@@ -1,5 +1,6 @@
 //! The vehicles that claims are tried on: their wheels differ, they can move, and the rows know it.
 
+use crate::met::Met;
 use crate::support::{Outcome, check};
 use creepage::claims::generated::{
     Drive, Facing, Generated, Moving, Placed, any_drive, loose_vehicles, moving, vehicles,
@@ -8,25 +9,7 @@ use creepage::claims::written;
 use creepage::formula::{BigRational, Exact, Fun, Scalar, Symbol};
 use creepage::mechanism::{Constraint, Mechanism, Point};
 use proptest::prelude::*;
-use std::cell::RefCell;
-use std::collections::{BTreeMap, BTreeSet};
-
-/// How often something was met.
-#[derive(Default)]
-struct Met(RefCell<BTreeMap<&'static str, usize>>);
-
-impl Met {
-    fn note(&self, what: &'static str, is_so: bool) {
-        *self.0.borrow_mut().entry(what).or_default() += usize::from(is_so);
-    }
-
-    fn at_least(&self, wanted: &[(&str, usize)]) {
-        let found = self.0.borrow();
-        for (what, count) in wanted {
-            assert!(found.get(what).is_some_and(|n| n >= count), "{what}: {found:?}");
-        }
-    }
-}
+use std::collections::BTreeSet;
 
 fn rolling_and_fixed(vehicle: &Generated) -> (Vec<Placed>, Vec<Exact>) {
     let wheels = vehicle.wheels().unwrap_or_default();

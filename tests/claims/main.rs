@@ -4,6 +4,7 @@ mod checks;
 mod coverage;
 mod generated;
 mod ledger;
+mod met;
 #[path = "../support/mod.rs"]
 mod support;
 mod written;

@@ -35,11 +35,11 @@ pub struct ConstrainedMotion {
 }
 
 impl ConstrainedMotion {
-    /// The motion of a vehicle from its configuration; `None` where its constraints do not tell all rates there.
-    pub fn of(vehicle: &Generated, yaw: bool) -> Option<Self> {
+    /// The motion of a vehicle from its configuration by what its drive measures; `None` where its constraints do not tell all rates there.
+    pub fn of(vehicle: &Generated) -> Option<Self> {
         let (mechanism, at) = (vehicle.mechanism(), vehicle.point());
         let coordinates = mechanism.coordinates.clone();
-        let rates = vehicle.measured(yaw);
+        let rates = vehicle.measured(false);
         let is_measured = |i: &usize| rates.contains(&coordinates[*i].rate());
         let (measured, unknown): (Vec<usize>, Vec<usize>) = (0..coordinates.len()).partition(is_measured);
         let (matrix, fixed) = compiled(&mechanism, &at)?;
@@ -49,11 +49,6 @@ impl ConstrainedMotion {
         let whole = motion.all_rows(&motion.start, &vec![0.0; constraints])?;
         motion.rows = independent(&whole, &motion.unknown);
         (motion.rows.len() == motion.unknown.len()).then_some(motion)
-    }
-
-    /// How many rates are measured, the last ones those of steering and castors and of the yaw where it is.
-    pub fn inputs(&self) -> usize {
-        self.measured.len()
     }
 
     /// How many coefficients of creep the rows have that tell the motion.
@@ -98,12 +93,11 @@ impl ConstrainedMotion {
     /// # Errors
     /// When the vehicle locks on the way.
     pub fn travelled(&self, inputs: impl Fn(f64) -> Vec<f64>, creeps: &[f64], until: f64) -> Result<Vec<f64>> {
-        let by = Integrator { method: Method::Dopri5, ..Integrator::default() }.with_tolerance(1e-11, 1e-12);
+        let by = Integrator { method: Method::Dopri5, rtol: 1e-11, atol: 1e-12, max_steps: 20_000 };
         let rhs = |t: f64, q: &[f64], rates: &mut [f64]| match self.rates(q, &inputs(t), creeps) {
             Some(found) => rates.copy_from_slice(&found),
             None => rates.fill(f64::NAN),
         };
-        let by = Integrator { max_steps: 20_000, ..by };
         by.solve(rhs, 0.0, &self.start, &[until])?.pop().ok_or_else(|| Error::run("no time was asked for"))
     }
 

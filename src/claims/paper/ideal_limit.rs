@@ -181,7 +181,7 @@ fn approached(
     };
     sampling.cases(driven_vehicles(vehicles), shown, |(vehicle, waves, creeps, t)| {
         // Where an ideal motion rests a wheel, or the constraints do not tell the motion, nothing is approached.
-        let motion = ConstrainedMotion::of(vehicle, false).filter(|_| vehicle.is_regular()).ok_or(Fault::Outside)?;
+        let motion = ConstrainedMotion::of(vehicle).filter(|_| vehicle.is_regular()).ok_or(Fault::Outside)?;
         let inputs = |t: f64| rates_at(&motion, waves, t);
         let end = |scale: f64| {
             let creeps: Vec<f64> = creeps.iter().take(motion.coefficients()).map(|e| scale * e).collect();

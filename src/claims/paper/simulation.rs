@@ -141,7 +141,7 @@ impl Weighed {
 
 /// Steered wheels and castors stand: their angles are no rates that the rule scales.
 fn scaled_by_constraints(s: &Statement, b: &Weighed) -> Verdict {
-    let motion = ConstrainedMotion::of(&b.vehicle, false).filter(|_| b.vehicle.is_regular()).ok_or(Fault::Outside)?;
+    let motion = ConstrainedMotion::of(&b.vehicle).filter(|_| b.vehicle.is_regular()).ok_or(Fault::Outside)?;
     let turns = |name: &str| name == "phi" || name.starts_with("theta");
     let measured: Vec<f64> =
         motion.measured().zip(&b.rates).map(|(name, rate)| if turns(name) { *rate } else { 0.0 }).collect();

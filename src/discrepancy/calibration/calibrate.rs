@@ -3,15 +3,12 @@
 
 use super::profile_likelihood::{self, Value};
 use super::targets::{Target, bounded, entry, resolved};
-use crate::discrepancy::calibration_report::{
-    CalibratedEffect, CalibratedValue, Calibration, FittedData, IntervalBy, Standing,
-};
+use crate::discrepancy::calibration_report::{CalibratedEffect, CalibratedValue, Calibration, IntervalBy, Standing};
 use crate::discrepancy::clock_alignment::aligned_run::{Aligned, aligned, is_aligned, without_delay};
 use crate::discrepancy::diagnosis::findings::{covariance, per_run};
 use crate::discrepancy::diagnosis::verdict::{self, Outcome};
-use crate::discrepancy::diagnosis::warning::Warning;
-use crate::discrepancy::discovery::{Clocks, provenance, why_dropped};
-use crate::discrepancy::estimation::bounds::{range_of, vanishes};
+use crate::discrepancy::discovery::{Clocks, provenance, summarised};
+use crate::discrepancy::estimation::bounds::{is_end_of, range_of, vanishes};
 use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::estimation::priors::Priors;
 use crate::discrepancy::estimation::problem::Problem;
@@ -22,7 +19,7 @@ use crate::discrepancy::evidence::score_test;
 use crate::discrepancy::preprocessing::dataset::Data;
 use crate::discrepancy::preprocessing::input_effects::on_inputs;
 use crate::discrepancy::preprocessing::{slips, unit_errors};
-use crate::discrepancy::rendering::{calibration_text, reason_text, warning_text};
+use crate::discrepancy::rendering::{calibration_text, reason_text};
 use crate::discrepancy::report::Verdict;
 use crate::discrepancy::request::{Request, common_roles};
 use crate::discrepancy::selection::search::{Search, find, first_of};
@@ -135,6 +132,9 @@ impl Job<'_> {
             self.problem.fit(model, &by.window_states, variances, Effort::FULL)
         };
         let mut best = fit(&at_once, self.before)?;
+        if self.wanted.len() == 1 {
+            return Ok(best);
+        }
         let mut by_steps = Some(self.before.clone());
         for (effect, trailer) in self.wanted {
             let Some(here) = by_steps.take() else { break };
@@ -186,7 +186,7 @@ impl Job<'_> {
         let first = first_of(fit, at);
         let told = |(k, (name, p)): (usize, (&String, &Parameter))| {
             let (value, std) = (at.values[k], std.get(k).copied().flatten());
-            let at_bound = p.range.iter().any(|end| (value - end).abs() <= 1e-9 * (p.range[1] - p.range[0]));
+            let at_bound = is_end_of(p, value);
             // A time is moved along what the inputs do, which is no line.
             if is_regular(at) && !at.effect.is_of_clock() {
                 let interval = [-1.0, 1.0].map(|side| std.map(|s| value + side * NORMAL_95 * s));
@@ -210,9 +210,8 @@ impl Job<'_> {
     }
 
     fn answer(&self, after: &Fit, data: &Data, clocks: Clocks, progress: &OnProgress) -> Result<Calibrated> {
-        let library: Vec<Effect> = self.wanted.iter().map(|(e, _)| (*e).clone()).collect();
-        let search = Search::over(self.problem, self.before, &library);
-        let weighed = search.weighed(after, None, &[], progress)?;
+        // Nothing is searched for: only what each is worth beside the others is asked.
+        let weighed = Search::over(self.problem, self.before, &[]).weighed(after, None, &[], progress)?;
         let runs = spreads(after);
         let mut effects = vec![];
         let mut entries = vec![];
@@ -294,12 +293,6 @@ fn unusable(request: &Request, data: &Data, outcome: &Outcome, clocks: Clocks) -
 }
 
 fn nothing(request: &Request, data: &Data, clocks: Clocks) -> Calibration {
-    let reading = request
-        .runs
-        .iter()
-        .flat_map(|r| r.warnings.iter().map(move |says| Warning::Reading { run: r.name.clone(), says: says.clone() }));
-    let warnings = reading.chain(data.notes().into_iter().map(Warning::Dataset)).chain(clocks.warnings);
-    let rows = request.runs.iter().map(|r| r.time.len()).sum::<usize>();
     Calibration {
         schema: 1,
         verdict: Standing::UnusableData,
@@ -309,14 +302,7 @@ fn nothing(request: &Request, data: &Data, clocks: Clocks) -> Calibration {
         noise: BTreeMap::default(),
         remains: false,
         deviance_gained: 0.0,
-        data: FittedData {
-            runs: request.runs.len(),
-            rows: rows - data.left_out.rows(),
-            rows_dropped: request.runs.iter().map(|r| r.rows_dropped).sum::<usize>() + data.left_out.rows(),
-            why_dropped: why_dropped(request, data),
-            clocks: clocks.clocks,
-            warnings: warnings.map(|w| warning_text::line(&w)).collect(),
-        },
+        data: summarised(request, data, vec![], clocks),
         provenance: provenance(request),
     }
 }

@@ -2,6 +2,7 @@
 //! how far it may be off, all other values are fitted anew beside a given one.
 
 use crate::discrepancy::estimation::fit::{Effort, Fit};
+use crate::discrepancy::estimation::priors::Priors;
 use crate::discrepancy::estimation::problem::Problem;
 use crate::error::Result;
 use crate::formula::Symbol;
@@ -31,7 +32,7 @@ pub(super) struct Value<'a> {
 pub(super) fn interval(problem: &Problem, fit: &Fit, value: &Value) -> Result<[Option<f64>; 2]> {
     let step = fit.variance(value.i).map_or(0.0, f64::sqrt);
     let step = if step > 0.0 && step.is_finite() { step } else { 0.1 * value.at.abs().max(1e-6) };
-    let scan = Scan::of(problem, fit, value, step);
+    let mut scan = Scan::of(problem, fit, value, step);
     Ok([scan.end(value.at, -step, value.range)?, scan.end(value.at, step, value.range)?])
 }
 
@@ -41,7 +42,9 @@ pub(super) fn upper_end(problem: &Problem, fit: &Fit, value: &Value) -> Result<O
 }
 
 struct Scan<'a> {
-    problem: &'a Problem,
+    /// Its priors are those of the scan, `priors` those that it came with.
+    problem: Problem,
+    priors: &'a Priors,
     fit: &'a Fit,
     name: &'a Symbol,
     i: usize,
@@ -52,11 +55,19 @@ struct Scan<'a> {
 impl<'a> Scan<'a> {
     fn of(problem: &'a Problem, fit: &'a Fit, value: &Value<'a>, step: f64) -> Self {
         let level = LEVEL * fit.inflation_of(value.i);
-        Self { problem, fit, name: value.name, i: value.i, level, held: HELD * step }
+        Self {
+            problem: problem.clone(),
+            priors: &problem.priors,
+            fit,
+            name: value.name,
+            i: value.i,
+            level,
+            held: HELD * step,
+        }
     }
 
     /// Goes outwards in growing steps, and back by halves and by the parabola through what was found.
-    fn end(&self, at: f64, mut step: f64, range: [f64; 2]) -> Result<Option<f64>> {
+    fn end(&mut self, at: f64, mut step: f64, range: [f64; 2]) -> Result<Option<f64>> {
         let (mut inside, mut outside) = ((at, 0.0), None);
         for _ in 0..OUTWARD {
             let next = (inside.0 + step).clamp(range[0], range[1]);
@@ -90,12 +101,10 @@ impl<'a> Scan<'a> {
     }
 
     /// By how much the deviance is above that of the fit where the value is given; `None` where the motion is undefined.
-    fn rise(&self, value: f64) -> Result<Option<f64>> {
-        let mut problem = self.problem.clone();
-        let priors = std::mem::take(&mut problem.priors);
+    fn rise(&mut self, value: f64) -> Result<Option<f64>> {
         // The prior that the value has of its own is a part of what rises.
-        let own = priors.cost(std::slice::from_ref(self.name), &DVector::from_element(1, value));
-        problem.priors = priors.with(self.name.clone(), [value, self.held]);
+        let own = self.priors.cost(std::slice::from_ref(self.name), &DVector::from_element(1, value));
+        self.problem.priors = self.priors.clone().with(self.name.clone(), [value, self.held]);
         let mut model = self.fit.model.clone();
         let mut at = 0;
         for e in model.effects.iter_mut().filter(|e| e.free) {
@@ -106,7 +115,7 @@ impl<'a> Scan<'a> {
             at += k;
         }
         let effort = Effort { variances: false, ..Effort::FULL };
-        let found = problem.fit(&model, &self.fit.window_states, &self.fit.variances, effort)?;
+        let found = self.problem.fit(&model, &self.fit.window_states, &self.fit.variances, effort)?;
         Ok(found.map(|f| (f.deviance + own - self.fit.deviance).max(0.0)))
     }
 }

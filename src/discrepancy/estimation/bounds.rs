@@ -23,8 +23,12 @@ pub fn vanishes(effect: &Applied) -> bool {
 /// Whether a value of an effect stands at an end of its range: the data ask for more than any vehicle has, which says
 /// that they tell nothing of it, or that it imitates something else.
 pub fn is_at_an_end(effect: &Applied) -> bool {
-    let mut values = effect.effect.parameters.values().zip(&effect.values);
-    values.any(|(p, v)| !p.periodic && p.range.iter().any(|end| (v - end).abs() <= 1e-9 * (p.range[1] - p.range[0])))
+    effect.effect.parameters.values().zip(&effect.values).any(|(p, v)| is_end_of(p, *v))
+}
+
+/// The same of one value.
+pub fn is_end_of(p: &Parameter, v: f64) -> bool {
+    !p.periodic && p.range.iter().any(|end| (v - end).abs() <= 1e-9 * (p.range[1] - p.range[0]))
 }
 
 /// Whether an effect of the catalogue takes a share of one and more: no coefficient of creep and no scale that is off by

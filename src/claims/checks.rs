@@ -2,6 +2,7 @@
 
 use super::exact_point;
 use super::exact_point::{Domain, Point, simplest, written};
+use super::identities;
 use super::sampling::Fault;
 use super::{Counterexample, DerivedFormulas, Equation, Outcome, Sampling, Statement};
 use crate::formula::{Exact, Expr, Normal, Scalar, Symbol};
@@ -23,7 +24,10 @@ pub fn prove(derived: &DerivedFormulas, statement: &Statement) -> Outcome {
     Outcome::all(statement.in_question().iter().map(|equation| {
         let (left, right) = (equation.left.eval(&value), equation.right.eval(&value));
         match (left, right) {
-            (Some(l), Some(r)) if l.equals(&r) => Outcome::PROVED,
+            (Some(l), Some(r)) if l.equals(&r) => {
+                identities::record(derived, equation);
+                Outcome::PROVED
+            }
             _ if statement.is_brief() => Outcome::failure("no identity"),
             (Some(_), Some(_)) => refute(derived, equation),
             _ => refuted_or_undefined(derived, equation),

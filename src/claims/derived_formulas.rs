@@ -126,6 +126,21 @@ impl DerivedFormulas {
         values
     }
 
+    /// The definitions that expressions rest on, each after those it uses.
+    pub(crate) fn under<'a>(&self, sides: impl IntoIterator<Item = &'a Expr>) -> Vec<(Symbol, Expr)> {
+        let mut waiting: Vec<Symbol> = sides.into_iter().flat_map(Expr::symbols).collect();
+        let mut used: BTreeSet<Symbol> = BTreeSet::new();
+        while let Some(name) = waiting.pop() {
+            if let Some(formula) = self.definitions.get(&name)
+                && used.insert(name)
+            {
+                waiting.extend(formula.symbols());
+            }
+        }
+        let sorted = self.definitions.sorted().unwrap_or_default();
+        sorted.into_iter().filter(|(name, _)| used.contains(name)).cloned().collect()
+    }
+
     /// The formulas that an expression rests on, itself included, and the free symbols it comes down to.
     pub fn rests_on(&self, e: &Expr) -> (Vec<Expr>, BTreeSet<Symbol>) {
         let (mut formulas, mut free) = (vec![e.clone()], BTreeSet::new());

@@ -22,6 +22,9 @@ pub(crate) mod exact_point;
 #[doc(hidden)]
 pub mod generated;
 pub(crate) mod generated_forced;
+mod identities;
+#[doc(hidden)]
+pub mod kernel;
 #[doc(hidden)]
 pub mod ledger;
 mod mutants;

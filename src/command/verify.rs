@@ -4,7 +4,9 @@ use super::output::{pretty, print};
 use super::progress::ProgressLine;
 use super::user_catalogues::UserVehicles;
 use clap::{Args, ValueEnum};
+use creepage::claims::kernel::proofs;
 use creepage::claims::{self, Claim, Options, ledger};
+use creepage::files::write_all_or_nothing;
 use creepage::{Error, Result};
 use std::path::PathBuf;
 
@@ -36,6 +38,9 @@ pub struct Arguments {
     /// How to print the ledger
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    /// In place of running the claims: writes what they prove as theorems for an independent kernel, `coq`, into a folder
+    #[arg(long, num_args = 2, value_names = ["KERNEL", "DIR"])]
+    export: Option<Vec<String>>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -91,6 +96,9 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     }
     let wanted: Vec<Claim> =
         all.into_iter().filter(|c| arguments.only.is_empty() || arguments.only.contains(&c.id)).collect();
+    if let Some(export) = &arguments.export {
+        return export_proofs(&wanted, export, quiet);
+    }
     let progress = ProgressLine::new(quiet);
     let options = Options { cases: arguments.cases, seed: arguments.seed };
     let made = claims::verify(&wanted, &options, &|p| progress.hear(p))?;
@@ -106,6 +114,19 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
         true => Ok(()),
         false => Err(Error::run(format!("the stated status is not earned by {}", unearned.join(", ")))),
     }
+}
+
+/// Writes the proofs for another kernel and says what was left out.
+fn export_proofs(wanted: &[Claim], export: &[String], quiet: bool) -> Result<()> {
+    let [kernel, dir] = export else { return Err(Error::input("--export takes a kernel and a folder")) };
+    if kernel != "coq" {
+        return Err(Error::input(format!("no kernel is called {kernel:?}")).help("write `--export coq DIR`"));
+    }
+    let made = proofs(wanted);
+    let files = made.files();
+    let files: Vec<(&str, &[u8])> = files.iter().map(|(name, text)| (name.as_str(), text.as_bytes())).collect();
+    write_all_or_nothing(dir, &files)?;
+    if quiet { Ok(()) } else { print(&ledger::proofs_text(&made, dir)) }
 }
 
 /// Carries out `creepage claims`.

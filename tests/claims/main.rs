@@ -3,6 +3,7 @@
 mod checks;
 mod coverage;
 mod generated;
+mod kernel;
 mod ledger;
 mod met;
 #[path = "../support/mod.rs"]

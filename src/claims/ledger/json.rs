@@ -1,5 +1,6 @@
 //! The ledger of claims as JSON, for scripts.
 
+use crate::claims::kernel::{Proofs, kernel, proofs_of};
 use crate::claims::{Claim, Entry, Evidence, Ledger, Outcome, Status};
 use serde_json::{Map, Value, json};
 
@@ -8,12 +9,15 @@ pub fn json(ledger: &Ledger) -> Value {
     let (killed, all) = ledger.kills();
     let of = |s: &Status| ledger.entries.iter().filter(|e| e.earned == *s).count();
     let counts: Map<String, Value> = Status::ALL.iter().map(|s| (s.name().into(), of(s).into())).collect();
+    let proofs = proofs_of(ledger);
+    let (theorems, claims) = proofs.count_accepted();
     json!({
         "schema": 1,
         "all_earned": ledger.all_earned(),
-        "claims": ledger.entries.iter().map(entry).collect::<Vec<_>>(),
+        "claims": ledger.entries.iter().map(|e| entry(e, &proofs)).collect::<Vec<_>>(),
         "counts": counts,
         "sabotages": { "noticed": killed, "all": all },
+        "kernel": { "name": kernel(), "theorems": theorems, "claims": claims },
         "cases": ledger.cases(),
         "options": { "cases": ledger.options.cases, "seed": ledger.options.seed },
     })
@@ -32,10 +36,12 @@ fn evidence(e: &Evidence) -> Value {
     json!({ "gives": e.gives.name(), "shows": e.shows, "statement": e.statements(str::to_string) })
 }
 
-fn entry(e: &Entry) -> Value {
+fn entry(e: &Entry, proofs: &Proofs) -> Value {
     let mut value = claim(&e.claim);
     value["earned"] = e.earned.name().into();
     value["is_earned"] = e.is_earned().into();
+    let accepted = proofs.accepted(&e.claim.id).map_or(0, |file| file.theorems);
+    value["theorems"] = json!({ "accepted": accepted });
     for (i, s) in e.shown.iter().enumerate() {
         let evidence = &mut value["evidence"][i];
         evidence["as_stated"] = s.as_stated.into();

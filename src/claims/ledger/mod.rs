@@ -8,4 +8,4 @@ mod text;
 pub use contents::{claims_json, claims_text, contents};
 pub use errata::errata;
 pub use json::json;
-pub use text::text;
+pub use text::{proofs_text, text};

@@ -1,5 +1,6 @@
 //! The ledger of claims as text for a terminal.
 
+use crate::claims::kernel::{ClaimFile, Proofs, kernel, proofs_of};
 use crate::claims::{Entry, Evidence, Gives, Ledger, Outcome, Shown, Status};
 use std::fmt::Write;
 
@@ -12,12 +13,13 @@ const WIDTH: usize = 118;
 /// Every claim with the status it earned and what its evidence did, then a count.
 pub fn text(ledger: &Ledger) -> String {
     let mut out = String::new();
-    ledger.entries.iter().for_each(|e| entry(&mut out, e));
-    out.push_str(&summary(ledger));
+    let proofs = proofs_of(ledger);
+    ledger.entries.iter().for_each(|e| entry(&mut out, e, proofs.accepted(&e.claim.id)));
+    out.push_str(&summary(ledger, &proofs));
     out
 }
 
-fn entry(out: &mut String, e: &Entry) {
+fn entry(out: &mut String, e: &Entry, accepted: Option<&ClaimFile>) {
     let claim = &e.claim;
     let _ = writeln!(out, "{:<INDENT$}{}", e.earned.name(), claim.id);
     paragraph(out, &claim.says);
@@ -31,6 +33,11 @@ fn entry(out: &mut String, e: &Entry) {
         let gives = evidence.gives.name();
         paragraph(out, &format!("{mark} {gives}: {}: {}", evidence.shows, outcome(evidence, shown)));
         shown.survivors.iter().for_each(|s| paragraph(out, &format!("not noticed: {s}")));
+    }
+    if let Some(ClaimFile { theorems, .. }) = accepted {
+        let theorems = *theorems;
+        let s = if theorems == 1 { "" } else { "s" };
+        paragraph(out, &format!("+ kernel: {} accepts the proof{s} as {theorems} theorem{s}", kernel()));
     }
     if !claim.remark.is_empty() {
         paragraph(out, &claim.remark);
@@ -75,8 +82,25 @@ fn paragraph(out: &mut String, text: &str) {
     let _ = writeln!(out, "{:INDENT$}{line}", "");
 }
 
+/// How many theorems were written for another kernel, and which proofs have none.
+pub fn proofs_text(proofs: &Proofs, dir: &str) -> String {
+    let with = || proofs.claims.iter().filter(|c| c.theorems > 0);
+    let theorems: usize = with().map(|c| c.theorems).sum();
+    let mut out = format!(
+        "{theorems} theorems of {} claims in {dir}\nsh {dir}/check.sh puts them to the kernel\n",
+        with().count()
+    );
+    if proofs.claims.iter().any(|c| !c.left_out.is_empty()) {
+        out.push_str("\nno theorem, for ranks, brackets and integrals are counted there and no identity of formulas is proved:\n");
+    }
+    for claim in &proofs.claims {
+        claim.left_out.iter().for_each(|shows| paragraph(&mut out, &format!("{}: {shows}", claim.claim)));
+    }
+    out
+}
+
 /// How many claims have which status, and how many sabotages were noticed.
-fn summary(ledger: &Ledger) -> String {
+fn summary(ledger: &Ledger, proofs: &Proofs) -> String {
     let of = |s: Status| ledger.entries.iter().filter(|e| e.earned == s).count();
     let counts: Vec<String> = Status::ALL.iter().map(|s| format!("{} {s}", of(*s))).collect();
     let unearned: Vec<&str> = ledger.entries.iter().filter(|e| !e.is_earned()).map(|e| e.claim.id.as_str()).collect();
@@ -86,6 +110,8 @@ fn summary(ledger: &Ledger) -> String {
     let _ = writeln!(out, "sabotages noticed: {killed} of {all} ({percent:.1} %)");
     let _ =
         writeln!(out, "cases: {} (--cases {} --seed {})", ledger.cases(), ledger.options.cases, ledger.options.seed);
+    let (theorems, claims) = proofs.count_accepted();
+    let _ = writeln!(out, "checked by an independent kernel ({}): {theorems} theorems of {claims} claims", kernel());
     match unearned.is_empty() {
         true => out.push_str("every stated status is earned\n"),
         false => {

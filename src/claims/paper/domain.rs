@@ -1,5 +1,6 @@
 //! The domain of a formula: the places at which it is undefined, by the zeros of its divisors.
 
+use crate::claims::identities;
 use crate::claims::{Counterexample, DerivedFormulas, Equation, Outcome, Point, Statement, domains, simplest, written};
 use crate::formula::{Exact, Expr, Fun, Node, Normal, Scalar, Symbol};
 
@@ -13,7 +14,10 @@ pub(crate) fn undefined_exactly_where(formulas: &DerivedFormulas, statement: &St
         let derived = formulas.put_into(equation.left.clone());
         match mismatch(equation, &derived) {
             Some(found) => Outcome::Fails(found),
-            None if same_zeros(&divisors(&derived), &equation.right) => Outcome::PROVED,
+            None if same_zeros(&divisors(&derived), &equation.right) => {
+                note_multiple(&divisors(&derived), &equation.right);
+                Outcome::PROVED
+            }
             None => Outcome::Undefined(format!("the divisors of {} are not {}", equation.left, equation.right)),
         }
     }))
@@ -78,6 +82,14 @@ fn divisors(e: &Expr) -> Expr {
         Node::Call(Fun::Tan, x) => &parts * &Expr::call(Fun::Cos, x),
         _ => parts,
     }
+}
+
+/// Notes that a formula is a number times another, where it is.
+fn note_multiple(a: &Expr, b: &Expr) {
+    let quotient = Normal::of(&(a / b));
+    let times = &(&quotient.numerator() / &quotient.denominator()) * b;
+    let equation = Equation { left: a.clone(), right: times };
+    identities::record(&DerivedFormulas::default(), &equation);
 }
 
 /// Whether two formulas are the same but for a factor that is a number: then they vanish together.

@@ -1,6 +1,6 @@
 //! A claim of the paper with its status, its place and its evidence.
 
-use super::{Outcome, Sampling, Statement, Status};
+use super::{Correction, Outcome, Sampling, Statement, Status};
 use std::fmt;
 use std::sync::Arc;
 
@@ -32,6 +32,10 @@ pub struct Claim {
     pub remark: String,
     /// The status its author states.
     pub stated: Status,
+    /// Of a corrected or refuted statement in which way it is wrong.
+    pub correction: Option<Correction>,
+    /// The claim of whose statement this one is a part, by id; the statement is counted once.
+    pub part_of: String,
     /// How one finds out: every part must do what it says.
     pub evidence: Vec<Evidence>,
     /// Source files that carry what it speaks of.
@@ -114,6 +118,8 @@ impl Claim {
             hypotheses: String::new(),
             remark: String::new(),
             stated,
+            correction: None,
+            part_of: String::new(),
             evidence: vec![],
             code: vec![],
             tests: vec![],
@@ -142,6 +148,18 @@ impl Claim {
     /// What is wrong in the paper and why.
     pub fn remark(mut self, remark: &str) -> Self {
         self.remark = remark.into();
+        self
+    }
+
+    /// In which way the statement is wrong.
+    pub fn corrects(mut self, kind: Correction) -> Self {
+        self.correction = Some(kind);
+        self
+    }
+
+    /// The claim of whose statement this is a part.
+    pub fn part_of(mut self, claim: &str) -> Self {
+        self.part_of = claim.into();
         self
     }
 

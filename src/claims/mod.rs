@@ -17,6 +17,8 @@
 
 mod checks;
 mod claim;
+mod correction;
+mod corrections;
 pub(crate) mod derived_formulas;
 pub(crate) mod exact_point;
 #[doc(hidden)]
@@ -44,6 +46,9 @@ pub use checks::{prove, proving};
 #[doc(hidden)]
 pub use claim::{Check, Relation};
 pub use claim::{Claim, Evidence, Gives};
+pub use correction::Correction;
+#[doc(hidden)]
+pub use corrections::CorrectionCounts;
 pub use derived_formulas::DerivedFormulas;
 #[doc(hidden)]
 pub use exact_point::{Domain, Point, domains, points, simplest, value, written};

@@ -52,6 +52,14 @@ impl Statement {
         &self.equations
     }
 
+    /// Each equation as a statement of its own, with its place; one that need not be looked at again is left out.
+    pub(crate) fn each(&self) -> impl Iterator<Item = (usize, Self)> {
+        let asked = |(i, _): &(usize, &Equation)| self.changed.is_none_or(|changed| changed == *i);
+        let alone =
+            |(i, e): (usize, &Equation)| (i, Self { equations: vec![e.clone()], brief: self.brief, changed: None });
+        self.equations.iter().enumerate().filter(asked).map(alone)
+    }
+
     /// What is said of a name, the left side of an equation.
     pub fn said_of(&self, name: &str) -> Option<&Expr> {
         let name = Expr::sym(Symbol::new(name));

@@ -54,7 +54,7 @@ pub(crate) fn follows(h: &Expr, rows: &[Row], coordinates: &[Symbol], samples: &
 }
 
 /// The determinant, expanded along the first row.
-fn determinant(matrix: &[Vec<Expr>]) -> Expr {
+pub(crate) fn determinant(matrix: &[Vec<Expr>]) -> Expr {
     let Some((first, rest)) = matrix.split_first() else { return Expr::int(1) };
     let mut sum = Expr::int(0);
     for (c, factor) in first.iter().enumerate().filter(|(_, f)| !f.is_zero()) {

@@ -4,6 +4,7 @@ use super::ledger::{LEDGER, count, entry, said};
 use super::markup::{head, string};
 use super::tables::found;
 use super::trust;
+use creepage::claims::kernel::proofs_of;
 use creepage::claims::{Outcome, Status};
 use creepage::energy_rule::{FIG7_DURATION, Reading, fig7_case};
 use creepage::figures::{fixed, readings};
@@ -40,6 +41,12 @@ fn of_the_ledger() -> Vec<(&'static str, String)> {
         ("refuted", count(Status::Refuted).to_string()),
         ("editorial", count(Status::Editorial).to_string()),
         ("open", count(Status::Open).to_string()),
+        ("false-as-printed", LEDGER.corrections().by_kind[0].to_string()),
+        ("lacking", LEDGER.corrections().by_kind[1].to_string()),
+        ("contested", LEDGER.corrections().by_kind[2].to_string()),
+        ("statements", LEDGER.corrections().statements.to_string()),
+        ("theorems", accepted().0.to_string()),
+        ("in-kernel", accepted().1.to_string()),
         ("cases", LEDGER.options.cases.to_string()),
         ("sabotages", sabotages.to_string()),
         ("noticed", noticed.to_string()),
@@ -53,6 +60,11 @@ fn of_the_ledger() -> Vec<(&'static str, String)> {
         ("effects", effects::all().len().to_string()),
         ("vehicles", vehicles::all().len().to_string()),
     ]
+}
+
+/// Theorems that another kernel has accepted, and of how many claims.
+fn accepted() -> (usize, usize) {
+    proofs_of(&LEDGER).count_accepted()
 }
 
 fn of_the_simulation() -> Vec<(&'static str, String)> {

@@ -1,6 +1,6 @@
 //! Which theorems a kernel has accepted: the digest of every file that it was given and let pass.
 
-use super::ClaimFile;
+use super::{ClaimFile, Proofs};
 use sha2::{Digest, Sha256};
 
 /// The kernel, then a line a claim: its id, the number of its theorems, the digest of its file; written by the test that
@@ -23,4 +23,17 @@ pub fn accepted_line(file: &ClaimFile) -> String {
 pub fn is_accepted(file: &ClaimFile) -> bool {
     let line = accepted_line(file);
     ACCEPTED.lines().skip(1).any(|accepted| accepted == line)
+}
+
+impl Proofs {
+    /// The file of a claim that the kernel has accepted as it is.
+    pub fn accepted(&self, claim: &str) -> Option<&ClaimFile> {
+        self.claims.iter().find(|c| c.claim == claim && c.theorems > 0 && is_accepted(c))
+    }
+
+    /// How many theorems of how many claims the kernel has accepted.
+    pub fn count_accepted(&self) -> (usize, usize) {
+        let accepted = || self.claims.iter().filter(|c| c.theorems > 0 && is_accepted(c));
+        (accepted().map(|c| c.theorems).sum(), accepted().count())
+    }
 }

@@ -1,6 +1,5 @@
 //! The files of all theorems: one of each claim, what they share, and the script that puts them to the kernel.
 
-use super::accepted::is_accepted;
 use super::theorem::theorem;
 use crate::claims::identities::{Identity, recorded};
 use crate::claims::{Claim, Evidence, Gives, Ledger, Sampling, Statement};
@@ -46,17 +45,6 @@ impl Proofs {
         let with_theorems = self.claims.iter().filter(|c| c.theorems > 0);
         let shared = [("Creepage.v".to_string(), SHARED.to_string()), ("check.sh".into(), CHECK.into())];
         with_theorems.map(|c| (format!("{}.v", c.stem()), c.text.clone())).chain(shared).collect()
-    }
-
-    /// The file of a claim that the kernel has accepted as it is.
-    pub fn accepted(&self, claim: &str) -> Option<&ClaimFile> {
-        self.claims.iter().find(|c| c.claim == claim && c.theorems > 0 && is_accepted(c))
-    }
-
-    /// How many theorems of how many claims the kernel has accepted.
-    pub fn count_accepted(&self) -> (usize, usize) {
-        let accepted = || self.claims.iter().filter(|c| c.theorems > 0 && is_accepted(c));
-        (accepted().map(|c| c.theorems).sum(), accepted().count())
     }
 }
 

@@ -1,6 +1,6 @@
 //! The paper's errata, from the claims.
 
-use crate::claims::{Entry, Gives, Ledger, Outcome, Status};
+use crate::claims::{Correction, Entry, Gives, Ledger, Outcome, Status};
 use std::fmt::Write;
 
 /// `theory/ERRATA.md`: what the paper prints that is not so, with the counterexample the program found, and what is.
@@ -11,25 +11,55 @@ pub fn errata(ledger: &Ledger) -> String {
         "# Errata of the paper\n\nGenerated from the claims by `creepage verify --format errata`; a test fails when it \
          is stale. Every counterexample was found by the machine and made as simple as it could; check it by hand.\n",
     );
-    let parts: [(&str, &[Status]); 3] = [
-        ("Corrected and refuted", &[Status::Corrected, Status::Refuted]),
-        ("Editorial", &[Status::Editorial]),
-        ("Open", &[Status::Open]),
-    ];
-    for (title, statuses) in parts {
-        let wanted = |e: &&Entry| statuses.contains(&e.earned);
-        if !ledger.entries.iter().any(|e| wanted(&e)) {
-            continue;
-        }
-        let _ = writeln!(out, "\n## {title}");
-        ledger.entries.iter().filter(wanted).for_each(|e| erratum(&mut out, e));
+    let counts = ledger.corrections();
+    if counts.by_kind != [0; 3] {
+        let _ = writeln!(
+            out,
+            "\nA correction is of one of three kinds. {} statements were corrected in {} entries, for the parts of a theorem are \
+         told one by one: {}.",
+            counts.statements,
+            counts.by_kind.iter().sum::<usize>(),
+            Correction::ALL
+                .iter()
+                .zip(counts.by_kind)
+                .map(|(k, n)| format!("{n} {}", k.name()))
+                .collect::<Vec<_>>()
+                .join(", ")
+        );
     }
+    let wrong = |e: &Entry| matches!(e.earned, Status::Corrected | Status::Refuted);
+    for kind in Correction::ALL {
+        part(&mut out, title(kind), ledger, |e| wrong(e) && e.claim.correction == Some(kind));
+    }
+    part(&mut out, "Corrected and refuted", ledger, |e| wrong(e) && e.claim.correction.is_none());
+    part(&mut out, "Editorial", ledger, |e| e.earned == Status::Editorial);
+    part(&mut out, "Open", ledger, |e| e.earned == Status::Open);
     out
+}
+
+fn title(kind: Correction) -> &'static str {
+    match kind {
+        Correction::FalseAsPrinted => "False as printed",
+        Correction::LacksHypothesis => "True under a hypothesis that is not printed",
+        Correction::ContestedReading => "False in one reading, which the text does not force",
+    }
+}
+
+fn part(out: &mut String, title: &str, ledger: &Ledger, wanted: impl Fn(&Entry) -> bool) {
+    let entries: Vec<&Entry> = ledger.entries.iter().filter(|e| wanted(e)).collect();
+    if entries.is_empty() {
+        return;
+    }
+    let _ = writeln!(out, "\n## {title}");
+    entries.into_iter().for_each(|e| erratum(out, e));
 }
 
 fn erratum(out: &mut String, e: &Entry) {
     let c = &e.claim;
     let _ = writeln!(out, "\n### `{}`\n\n{} *{}.*\n", c.id, c.says, c.place);
+    if !c.part_of.is_empty() {
+        let _ = writeln!(out, "A part of `{}`.\n", c.part_of);
+    }
     if !c.remark.is_empty() {
         let _ = writeln!(out, "{}\n", c.remark);
     }

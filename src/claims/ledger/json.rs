@@ -1,7 +1,7 @@
 //! The ledger of claims as JSON, for scripts.
 
 use crate::claims::kernel::{Proofs, kernel, proofs_of};
-use crate::claims::{Claim, Entry, Evidence, Ledger, Outcome, Status};
+use crate::claims::{Claim, Correction, Entry, Evidence, Ledger, Outcome, Status};
 use serde_json::{Map, Value, json};
 
 /// Every claim with the status it earned, its evidence and the counts.
@@ -18,16 +18,26 @@ pub fn json(ledger: &Ledger) -> Value {
         "counts": counts,
         "sabotages": { "noticed": killed, "all": all },
         "kernel": { "name": kernel(), "theorems": theorems, "claims": claims },
+        "corrections": corrections(ledger),
         "cases": ledger.cases(),
         "options": { "cases": ledger.options.cases, "seed": ledger.options.seed },
     })
+}
+
+/// Corrected claims by kind, and the statements that they are of.
+fn corrections(ledger: &Ledger) -> Value {
+    let found = ledger.corrections();
+    let kinds: Map<String, Value> =
+        Correction::ALL.iter().zip(found.by_kind).map(|(k, n)| (k.name().into(), n.into())).collect();
+    json!({ "kinds": kinds, "statements": found.statements })
 }
 
 /// What a claim says, without what it earned.
 pub(crate) fn claim(c: &Claim) -> Value {
     json!({
         "id": c.id, "says": c.says, "place": c.place, "equations": c.equations, "hypotheses": c.hypotheses,
-        "remark": c.remark, "stated": c.stated.name(), "evidence": c.evidence.iter().map(evidence).collect::<Vec<_>>(),
+        "remark": c.remark, "stated": c.stated.name(), "correction": c.correction.map(Correction::name),
+        "part_of": (!c.part_of.is_empty()).then_some(&c.part_of), "evidence": c.evidence.iter().map(evidence).collect::<Vec<_>>(),
         "code": c.code, "tests": c.tests, "chapter": c.chapter,
     })
 }

@@ -1,7 +1,7 @@
 //! The ledger of claims as text for a terminal.
 
 use crate::claims::kernel::{ClaimFile, Proofs, kernel, proofs_of};
-use crate::claims::{Entry, Evidence, Gives, Ledger, Outcome, Shown, Status};
+use crate::claims::{Correction, Entry, Evidence, Gives, Ledger, Outcome, Shown, Status};
 use std::fmt::Write;
 
 /// Width of the column of statuses.
@@ -25,6 +25,10 @@ fn entry(out: &mut String, e: &Entry, accepted: Option<&ClaimFile>) {
     paragraph(out, &claim.says);
     let under = if claim.hypotheses.is_empty() { String::new() } else { format!("; under: {}", claim.hypotheses) };
     paragraph(out, &format!("{}{under}", claim.place));
+    if let Some(kind) = claim.correction {
+        let part = if claim.part_of.is_empty() { String::new() } else { format!(", a part of {}", claim.part_of) };
+        paragraph(out, &format!("the print: {}{part}", kind.name()));
+    }
     if !e.is_earned() {
         paragraph(out, &format!("NOT EARNED: stated {}, earned {}", claim.stated, e.earned));
     }
@@ -99,6 +103,21 @@ pub fn proofs_text(proofs: &Proofs, dir: &str) -> String {
     out
 }
 
+/// In which way what was corrected is wrong, and of how many statements it is.
+fn corrections(ledger: &Ledger) -> Option<String> {
+    let found = ledger.corrections();
+    if found.by_kind == [0; 3] {
+        return None;
+    }
+    let kinds: Vec<String> =
+        Correction::ALL.iter().zip(found.by_kind).map(|(k, n)| format!("{n} {}", k.name())).collect();
+    Some(format!(
+        "corrected: {}; {} statements, for parts of one theorem count once",
+        kinds.join(", "),
+        found.statements
+    ))
+}
+
 /// How many claims have which status, and how many sabotages were noticed.
 fn summary(ledger: &Ledger, proofs: &Proofs) -> String {
     let of = |s: Status| ledger.entries.iter().filter(|e| e.earned == s).count();
@@ -107,11 +126,17 @@ fn summary(ledger: &Ledger, proofs: &Proofs) -> String {
     let (killed, all) = ledger.kills();
     let mut out = format!("{} claims: {}\n", ledger.entries.len(), counts.join(", "));
     let percent = if all == 0 { 100.0 } else { 100.0 * killed as f64 / all as f64 };
+    if let Some(corrections) = corrections(ledger) {
+        let _ = writeln!(out, "{corrections}");
+    }
     let _ = writeln!(out, "sabotages noticed: {killed} of {all} ({percent:.1} %)");
     let _ =
         writeln!(out, "cases: {} (--cases {} --seed {})", ledger.cases(), ledger.options.cases, ledger.options.seed);
     let (theorems, claims) = proofs.count_accepted();
-    let _ = writeln!(out, "checked by an independent kernel ({}): {theorems} theorems of {claims} claims", kernel());
+    if theorems > 0 {
+        let _ =
+            writeln!(out, "checked by an independent kernel ({}): {theorems} theorems of {claims} claims", kernel());
+    }
     match unearned.is_empty() {
         true => out.push_str("every stated status is earned\n"),
         false => {

@@ -2,7 +2,7 @@
 
 use super::blade::{formula, on_row, on_sleigh, row};
 use super::domain::defined_everywhere;
-use crate::claims::{Claim, DerivedFormulas, Status, prove};
+use crate::claims::{Claim, Correction, DerivedFormulas, Status, prove};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Row, solve};
 
@@ -65,6 +65,7 @@ fn intrinsic() -> Vec<Claim> {
         ),
         Claim::new("E2", Status::Corrected, "(21) follows \"from (17)\" as section 3 writes v_t")
             .at("section 3, (21); errata E2")
+            .corrects(Correction::FalseAsPrinted)
             .about(&[17, 21])
             .remark("With the sign of section 3 one gets (cot φ + e)/(1 − e·cot φ); the error is in v_t, not in (21).")
             .chapter(CHAPTER)
@@ -78,6 +79,7 @@ fn intrinsic() -> Vec<Claim> {
             .proof("σ from the v_t of section 4", &[("sigma", "(cot(phi) - e_tc)/(1 + e_tc*cot(phi))")], on_row),
         Claim::new("E3", Status::Corrected, "(20) and (21) describe the constraint in every configuration")
             .at("section 3, (20)–(21); errata E3")
+            .corrects(Correction::LacksHypothesis)
             .about(&[20, 21])
             .remark(
                 "cot φ is no coordinate at φ = k·π, where the paper's own simulation starts, and σ is undefined where \

@@ -3,7 +3,7 @@
 use super::domain::{disk_coefficient, undefined_exactly_where};
 use crate::claims::simulated::{Creep, driven, model, undefined};
 use crate::claims::{
-    Claim, DerivedFormulas, Fault, Outcome, Sampling, Statement, Status, Verdict, near, proving, value_said,
+    Claim, Correction, DerivedFormulas, Fault, Outcome, Sampling, Statement, Status, Verdict, near, proving, value_said,
 };
 use crate::error::Result;
 use proptest::prelude::*;
@@ -46,6 +46,7 @@ fn from_rest() -> Claim {
     let rest = DerivedFormulas::default().with_text("d", "a*t^2/2").with_text("theta", "g*t^2/2");
     Claim::new("start-from-rest", Status::Corrected, "the definitions (7) and (8) are equivalent")
         .at("section 2, (7)–(8); also (16)–(17)")
+        .corrects(Correction::LacksHypothesis)
         .about(&[7, 8, 16, 17])
         .under("ω ≠ 0, resp. v_l ≠ 0; then they are")
         .remark(

@@ -1,6 +1,6 @@
 //! Section 1 and (18): the equations of the laws of contact.
 
-use crate::claims::{Claim, DerivedFormulas, Domain, Sampling, Statement, Status, at_points, proving};
+use crate::claims::{Claim, Correction, DerivedFormulas, Domain, Sampling, Statement, Status, at_points, proving};
 use crate::dynamics::laws;
 use crate::formula::{Expr, Symbol};
 
@@ -13,7 +13,7 @@ pub(crate) fn claims() -> Vec<Claim> {
 }
 
 /// The force of a law of the program, or the rate of its state, with formulas for its names.
-fn law(id: &str, part: fn(&crate::dynamics::Law) -> Option<Expr>, names: &[(&str, &str)]) -> Expr {
+pub(super) fn law(id: &str, part: fn(&crate::dynamics::Law) -> Option<Expr>, names: &[(&str, &str)]) -> Expr {
     let found = laws().iter().find(|l| l.id == id).and_then(part).unwrap_or_default();
     found.substitute(&|s: &Symbol| {
         let named = names.iter().find(|(name, _)| *name == s.as_str());
@@ -33,6 +33,7 @@ fn growth() -> Claim {
     let check = move |s: &Statement, sampling: &Sampling| at_points(&derived, s, points, sampling);
     Claim::new("E13", Status::Corrected, "k_g of (1) is a growth parameter")
         .at("section 1, (1); errata E13")
+        .corrects(Correction::ContestedReading)
         .about(&[1])
         .under("v > 0, k_g > 0")
         .remark(
@@ -61,6 +62,7 @@ fn elastic() -> Claim {
     let with_growth = printed().with_text("x_c'", "-k_g*v*x_c").with("f_program", force("elastic", &program));
     Claim::new("E14", Status::Corrected, "(2) explains a viscous creep, f proportional to the traverse velocity")
         .at("section 1, (1)–(2); errata E14")
+        .corrects(Correction::ContestedReading)
         .about(&[1, 2])
         .under("small creep angles, θ_c = ẋ_c/v")
         .remark(
@@ -95,6 +97,7 @@ fn two_laws() -> Claim {
     let check = move |s: &Statement, sampling: &Sampling| at_points(&derived, s, points, sampling);
     Claim::new("E15", Status::Corrected, "Rocard's law (2) and the viscous law (18) describe the same friction")
         .at("(2) and (18); errata E15")
+        .corrects(Correction::ContestedReading)
         .about(&[2, 18, 19])
         .under("v = v_l > 0")
         .remark(

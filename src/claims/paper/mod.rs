@@ -6,7 +6,10 @@ mod domain;
 mod dual_numbers;
 mod editorial;
 mod falling_cat;
+mod figure_words;
 mod finite;
+mod growth_examples;
+mod growth_of_trains;
 mod hinge_chain;
 mod ideal_limit;
 mod introduction;
@@ -17,6 +20,7 @@ mod power;
 mod realisation;
 mod regimes;
 mod rotation;
+mod sentences;
 mod simulation;
 mod single_body;
 mod structure;
@@ -46,8 +50,10 @@ pub fn all() -> Vec<Claim> {
         regimes::claims(),
         wheel::claims(),
         simulation::claims(),
+        figure_words::claims(),
         single_body::claims(),
         structure::claims(),
+        growth_of_trains::claims(),
         platforms::claims(),
         theorems::claims(),
         realisation::claims(),
@@ -62,6 +68,7 @@ pub fn all() -> Vec<Claim> {
         power::claims(),
         viscous::claims(),
         viscous_limit::claims(),
+        sentences::claims(),
         editorial::claims(),
     ]
     .concat()

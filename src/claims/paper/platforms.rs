@@ -1,7 +1,7 @@
 //! Section 4 beyond its vehicles: both axles steered, tracks, Ackermann's angles, wheels with rollers.
 
+use super::growth_examples::Found;
 use super::single_body::determinant;
-use super::structure::Found;
 use crate::claims::{Claim, DerivedFormulas, Status, proving};
 
 const BODY: &str = "05b-corrected-single-body";

@@ -2,11 +2,16 @@
 
 use super::domain::{disk_coefficient, undefined_exactly_where};
 use super::finite;
-use crate::claims::{Claim, DerivedFormulas, Domain, Outcome, Sampling, Statement, Status, at_points, prove};
-use crate::formula::Expr;
+use crate::claims::generated::{Generated, any_drive, vehicles as vehicles_drawn};
+use crate::claims::{
+    Claim, Correction, DerivedFormulas, Domain, Outcome, Sampling, Statement, Status, at_points, prove,
+};
+use crate::claims::{Fault, Verdict};
+use crate::formula::{Expr, Symbol};
 use crate::mechanism::Part;
 use crate::model::mechanism;
 use crate::vehicles;
+use crate::vehicles::Vehicle;
 use std::sync::LazyLock;
 
 const CHAPTER: &str = "02-rotation-creep";
@@ -57,6 +62,7 @@ fn kinematics() -> Vec<Claim> {
             ),
         Claim::new("E6", Status::Corrected, "(3) and (4) mean the same v_i")
             .at("section 2, (3)–(4); errata E6")
+            .corrects(Correction::FalseAsPrinted)
             .about(&[3, 4])
             .remark("With the ideal v_i = r·ω of (3) put into (4), the velocity v_A would vanish whatever the creep.")
             .chapter(CHAPTER)
@@ -82,6 +88,7 @@ fn kinematics() -> Vec<Claim> {
             ),
         Claim::new("E7", Status::Corrected, "the coefficient (8) is undefined for the disk at rest alone, v_l = ω = 0")
             .at("section 2, below (8); errata E7")
+            .corrects(Correction::LacksHypothesis)
             .about(&[8])
             .remark(
                 "It is undefined exactly where r·ω = 0: a locked wheel that slides, ω = 0 and v_l ≠ 0, has no \
@@ -124,6 +131,7 @@ fn other_coefficients() -> Vec<Claim> {
     vec![
         Claim::new("E4", Status::Corrected, "e_rc = 1 − e_s, with e_s the slip of a driven wheel by Wong")
             .at("section 2, remark, (9); errata E4")
+            .corrects(Correction::ContestedReading)
             .about(&[9])
             .under("i = 1 − V/(r·ω) for a driven wheel; for a braked one i_b = 1 − r·ω/V")
             .remark(
@@ -148,6 +156,7 @@ fn other_coefficients() -> Vec<Claim> {
             .proof("from (8)", &[("e_rc", "1 - 1/rho_s"), ("rho_s*(1 - e_rc)", "1")], on_others),
         Claim::new("E5", Status::Corrected, "the roll-slide number of (10) is there whenever the coefficient is")
             .at("section 2, remark, (10); errata E5")
+            .corrects(Correction::ContestedReading)
             .about(&[10])
             .remark("It needs v_l ≠ 0: a wheel that spins on the spot has e_rc = 1, which no roll-slide number gives.")
             .chapter(CHAPTER)
@@ -218,11 +227,20 @@ fn generic_form() -> Vec<Claim> {
         )
         .at("section 2, remark, (13)")
         .about(&[13])
-        .under("the vehicles of the catalogue")
+        .under("the vehicles of the catalogue, each with all lengths and angles free; generated ones beside them")
         .chapter(CHAPTER)
         .code(&[FORMS])
         .tests(&["tests/mechanism/forms.rs", "tests/describe/formulas.rs"])
         .proof("all rolling rows of the catalogue against the form", &[("sigma", "r*(1 - e)")], type_r)
+        .confirmation(
+            "all rolling rows of generated vehicles with up to three more wheels and three trailers",
+            &[("sigma", "r*(1 - e)")],
+            |s, sampling| {
+                sampling
+                    .one_in(4)
+                    .cases(vehicles_drawn(any_drive(), 3, 3), Generated::shown, |drawn| on_drawn(drawn, s))
+            },
+        )
         .proof("its derivatives", &[("by_e", "r*theta'"), ("by_rate", "-r*(1 - e_rc)")], |s, _| {
             let row = Expr::parse("v_l - r*(1 - e_rc)*theta'").unwrap_or_else(|_| Expr::int(0));
             let by = |name: &str| row.derivative(&name.into());
@@ -243,13 +261,31 @@ fn generic_form() -> Vec<Claim> {
 
 /// Every rolling constraint of the catalogue: its σ is what the statement says, its row is π̇ − σ·q̇.
 fn type_r(s: &Statement, _: &Sampling) -> Outcome {
-    let Some(sigma) = s.said_of("sigma") else { return Outcome::Undefined("nothing is said of sigma".into()) };
-    let rows = vehicles::all().iter().flat_map(|v| {
-        let radius = |name: &str| v.wheels.iter().find(|w| name.starts_with(&w.name)).and_then(|w| w.radius.clone());
-        let constraints = mechanism(v, 0).constraints;
-        constraints.into_iter().filter_map(move |c| Some((radius(&c.name)?, c)))
-    });
-    Outcome::all(rows.filter_map(|(radius, c)| {
+    Outcome::all(vehicles::all().iter().flat_map(|v| rolling_rows(v, 0, s)))
+}
+
+/// The same of a generated vehicle; wheels that cannot stand as they were drawn make none.
+fn on_drawn(drawn: &Generated, s: &Statement) -> Verdict {
+    let rows = rolling_rows(&drawn.vehicle(), drawn.trailers(), s);
+    if rows.is_empty() {
+        return Err(Fault::Outside);
+    }
+    match Outcome::all(rows) {
+        Outcome::Holds { .. } => Ok(()),
+        Outcome::Fails(found) => Err(Fault::False(found.says)),
+        Outcome::Undefined(why) => Err(Fault::Undefined(why)),
+    }
+}
+
+/// What becomes of each rolling constraint of one vehicle.
+fn rolling_rows(v: &Vehicle, trailers: usize, s: &Statement) -> Vec<Outcome> {
+    let Some(sigma) = s.said_of("sigma") else {
+        return vec![Outcome::Undefined("nothing is said of sigma".into())];
+    };
+    let rolls = |creep: &Symbol| v.wheels.iter().find(|w| w.rotation_creep.as_ref() == Some(creep));
+    let radius = |creep: &Symbol| rolls(creep).and_then(|w| w.radius.clone());
+    let rows = mechanism(v, trailers).constraints.into_iter().filter_map(|c| Some((radius(&c.creep)?, c)));
+    let found = rows.filter_map(|(radius, c)| {
         let slot = |name: &str| c.form.slot(name).map(Part::expr);
         let (pi, rolling, rate) = (slot("pi'")?, slot("sigma")?, slot("q'")?);
         let said = sigma.substitute(&|s| match s.as_str() {
@@ -261,5 +297,6 @@ fn type_r(s: &Statement, _: &Sampling) -> Outcome {
         let derived = DerivedFormulas::default().with("sigma", rolling).with("row", c.row().expr());
         let rows = [(Expr::sym("sigma"), said), (Expr::sym("row"), form)];
         Some(prove(&derived, &Statement::of(rows)))
-    }))
+    });
+    found.collect()
 }

@@ -3,8 +3,8 @@
 use crate::claims::generated::{ConstrainedMotion, Generated, any_drive, vehicles};
 use crate::claims::simulated::{Creep, model, undefined};
 use crate::claims::{
-    Claim, DerivedFormulas, Domain, Fault, Outcome, Sampling, Statement, Status, Verdict, at_points, near, proving,
-    value_said,
+    Claim, Correction, DerivedFormulas, Domain, Fault, Outcome, Sampling, Statement, Status, Verdict, at_points, near,
+    proving, value_said,
 };
 use crate::energy_rule::{Reading, fig7_case, fig7_path};
 use crate::formula::Symbol;
@@ -63,6 +63,7 @@ fn data() -> Claim {
         "the data of Fig. 7 are those of a wheel of mass 1 kg and radius 0.5 m with J = 1 kg·m²",
     )
     .at("section 4, simulation")
+    .corrects(Correction::FalseAsPrinted)
     .under("all mass within the radius: J ≤ m·r²")
     .remark(
         "J would be four times that of a ring of this mass and radius. The kinematics is not affected, the energy \
@@ -305,6 +306,7 @@ fn constant_energy() -> Claim {
     let figure = data.iter().fold(energy(), |m, (name, value)| m.with_text(name, value));
     Claim::new("E23", Status::Corrected, "with the data of Fig. 7 the ideal motion keeps m·v² + I·ω_z² + J·ω² constant")
         .at("section 4, simulation; errata E23")
+        .corrects(Correction::FalseAsPrinted)
         .remark(
             "The ideal wheel itself slows down: the sum goes from 11/2 to 4.052574 in 2π seconds. Creeping and ideal \
              motion can only be compared at the same instant.",
@@ -334,6 +336,7 @@ fn traverse_first() -> Claim {
     };
     Claim::new("E24", Status::Corrected, "type T makes more positional difference than type R at the beginning")
         .at("section 4, simulation; errata E24")
+        .corrects(Correction::ContestedReading)
         .about(&[24, 25])
         .under("equal |e|; true only for the readings A, A_l, B, C2 and F of the energy rule")
         .remark(

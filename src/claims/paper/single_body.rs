@@ -1,6 +1,6 @@
 //! Section 4: vehicles with a single body, equations (26)–(28), what the first theorem says of them.
 
-use crate::claims::{Claim, DerivedFormulas, Outcome, Sampling, Statement, Status, prove, proving};
+use crate::claims::{Claim, Correction, DerivedFormulas, Outcome, Sampling, Statement, Status, prove, proving};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Heading, Velocity};
 use crate::model::mechanism;
@@ -116,7 +116,7 @@ fn slips() -> Vec<Claim> {
     };
     vec![
         Claim::new("E16", Status::Corrected, "(28) stays exact while (26) creeps with e_rc")
-            .at("section 4, below (28); errata E16")
+            .at("section 4, below (28); errata E16").corrects(Correction::FalseAsPrinted).part_of("theorem-single-body")
             .about(&[26, 28])
             .remark(
                 "With equal coefficients the yaw rate creeps too, by 1 − e. (28) stays exact when the slip *velocities* \
@@ -143,7 +143,7 @@ fn slips() -> Vec<Claim> {
                 on_two_wheels,
             ),
         Claim::new("E17", Status::Corrected, "a two-wheeler with unequal creep turns as (28) says")
-            .at("section 4, first theorem; errata E17")
+            .at("section 4, first theorem; errata E17").corrects(Correction::FalseAsPrinted).part_of("theorem-single-body")
             .about(&[28])
             .remark(
                 "The counterexample in six numbers. Others, θ̇₁ = θ̇₂ = 4 with e = (0.02, 0.05), r = 1/2, a = 1, \
@@ -239,6 +239,8 @@ fn reference_point() -> Vec<Claim> {
     vec![
         Claim::new("E18", Status::Corrected, "a body has one e_tc, and the wheels of an axle share it")
             .at("section 4, first theorem; errata E18")
+            .corrects(Correction::ContestedReading)
+            .part_of("theorem-single-body")
             .about(&[25])
             .under("v_l ≠ 0, and v_l − b·φ̇ ≠ 0 for a wheel b to the left")
             .remark(

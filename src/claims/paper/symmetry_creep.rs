@@ -3,8 +3,8 @@
 use super::symmetry::{all_of, base, hopping, turn, within};
 use crate::claims::simulated::undefined;
 use crate::claims::{
-    Claim, DerivedFormulas, Domain, Fault, Outcome, Sampling, Statement, Status, at_points, near, prove, proving,
-    value_said,
+    Claim, Correction, DerivedFormulas, Domain, Fault, Outcome, Sampling, Statement, Status, at_points, near, prove,
+    proving, value_said,
 };
 use crate::connection::{Connection, Drag, Path};
 use crate::formula::{Expr, Symbol};
@@ -144,7 +144,7 @@ fn creep() -> Claim {
     let slow = slow.and_then(|s| s.into_iter().next()).map(|s| s.1).unwrap_or_default();
     let viscous = DerivedFormulas::default().with("limit", slow);
     base("E25", Status::Corrected, "\"similar coefficients of creep can also be defined\" for symmetry constraints, by the viscous dissipation in air")
-        .at("section 4, last paragraph; errata E25")
+        .at("section 4, last paragraph; errata E25").corrects(Correction::FalseAsPrinted)
         .about(&[20])
         .under("hopper in flight, drag with constants c_b, c_l > 0 or none")
         .remark(

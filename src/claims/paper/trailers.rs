@@ -3,7 +3,11 @@
 use super::domain::undefined_exactly_where;
 use crate::claims::simulated::{driven, model, undefined};
 use crate::claims::{Claim, DerivedFormulas, Outcome, Sampling, Statement, Status, near, prove, proving, value_said};
+use crate::formula::{Expr, Symbol};
+use crate::mechanism::integral_proof::determinant;
 use crate::model::Trailer;
+use crate::vehicles;
+use crate::vehicles::{Definition, Section, Wheel};
 
 const CHAPTER: &str = "06-trailers";
 const BUILD: &str = "src/model/build.rs";
@@ -27,6 +31,94 @@ fn courses(n: usize) -> DerivedFormulas {
             .with_text(&format!("chi_{i}"), &format!("phi_{i} + alpha_{i}"))
             .with_text(&format!("V_{i}"), &format!("v_{i}/cos(alpha_{i})"))
     })
+}
+
+/// One axle behind another without creep, whatever the one ahead does.
+fn ideal_step(n: usize) -> DerivedFormulas {
+    let ideal = on_axle(n).with_text("e_tc", "0").with_text(&format!("e_tc_{n}"), "0").with_text("vt_ahead", "0");
+    match n {
+        1 => ideal.freeing(&["v_l"]).with_text("v_t", "0"),
+        _ => {
+            let (v, vt, rate) = (format!("v_{}", n - 1), format!("vt_{}", n - 1), format!("phi_{}'", n - 1));
+            ideal.freeing(&[&v, &rate]).with_text(&vt, "0")
+        }
+    }
+}
+
+/// A wheel with one trailer that has a rolling wheel of its own, and derivatives by the coefficient of that wheel.
+fn rolling_trailer() -> DerivedFormulas {
+    let Some(wheel) = vehicles::named("unicycle") else { return DerivedFormulas::default() };
+    let mut vehicle = wheel.clone();
+    let named = |name: &str, unit: &str, meaning: &str| Definition {
+        formula: Expr::sym(name),
+        unit: unit.into(),
+        meaning: meaning.into(),
+    };
+    vehicle.define.insert("r_w".into(), named("trailer_wheel_radius", "m", "radius of the trailer's wheel"));
+    vehicle.trailers.push(Section { name: "trailer".into(), length: Expr::sym("bar"), ..Section::default() });
+    vehicle.wheels.push(Wheel {
+        name: "trailer's wheel".into(),
+        on: Some("trailer".into()),
+        radius: Some("r_w".into()),
+        rate: Some("theta_w'".into()),
+        rotation_creep: Some("e_w".into()),
+        ..Wheel::default()
+    });
+    let derived = DerivedFormulas::of_vehicle(&vehicle, 0);
+    let by = |name: &str| derived.written_out(name).derivative(&"e_w".into());
+    let (speed, yaw) = (by("v_1"), by("phi_1'"));
+    derived.with("speed_by_e", speed).with("yaw_by_e", yaw)
+}
+
+/// Derivatives of a train's rates by the coefficients of its axles.
+fn by_own_coefficient() -> DerivedFormulas {
+    let own = |n: usize, ahead: &[&str], of: &str| {
+        let step = train(n).freeing(ahead);
+        step.written_out(of).derivative(&Symbol::new(&format!("e_tc_{n}")))
+    };
+    let second = &["v_1", "vt_1", "phi_1'"];
+    // The axle ahead as it is, with all that is ahead of it.
+    let ahead = |of: &str| train(3).written_out(of).derivative(&"e_tc_3".into());
+    // What is said of v_1, v_2, v_3 speaks of the speeds, whatever they are made of.
+    train(3)
+        .with("first_by_own", own(1, &["v_l", "v_t"], "phi_1'"))
+        .with("second_by_own", own(2, second, "phi_2'"))
+        .with("third_by_own", own(3, &["v_2", "vt_2", "phi_2'"], "phi_3'"))
+        .with("speed_by_own", own(2, second, "v_2"))
+        .with("ahead_by_last", ahead("phi_2'"))
+        .with("speed_ahead_by_last", ahead("v_2"))
+}
+
+/// Determinants of (v_l, v_t, φ̇_1, …) by (e_rc, e_0, e_1, …).
+fn train_determinants() -> DerivedFormulas {
+    (1..=2).fold(train(2), |m, n| {
+        let of = train(n);
+        let velocities = ["v_l".to_string(), "v_t".into()].into_iter().chain((1..=n).map(|i| format!("phi_{i}'")));
+        let coefficients: Vec<Symbol> = ["e_rc".into(), "e_0".into()]
+            .into_iter()
+            .chain((1..=n).map(|i| Symbol::new(&format!("e_tc_{i}"))))
+            .collect();
+        let row = |velocity: String| {
+            let written = of.written_out(&velocity);
+            coefficients.iter().map(|e| written.derivative(e)).collect()
+        };
+        let matrix: Vec<Vec<Expr>> = velocities.map(row).collect();
+        m.with(&format!("det_{n}"), determinant(&matrix))
+    })
+}
+
+/// The slope of γ̇ by γ at the course at rest and at the opposite one; γ = φ − φ_1 + α_0 − α_1.
+fn slopes() -> DerivedFormulas {
+    let towed = courses(1).with_text("phi'", "0");
+    // γ̇ = −φ̇_1 and dγ = −dφ_1.
+    let slope = towed.written_out("phi_1'").derivative(&"phi_1".into());
+    let at = |course: &str| {
+        let place = Expr::parse(course).unwrap_or_default();
+        slope.substitute(&|s| (s.as_str() == "phi_1").then(|| place.clone()))
+    };
+    courses(1)
+        .with("slope_there", at("phi + alpha_0 - alpha_1"))
+        .with("slope_opposite", at("phi + alpha_0 - alpha_1 + 2*(2*atan(1))"))
 }
 
 pub(crate) fn claims() -> Vec<Claim> {
@@ -72,6 +164,29 @@ fn recursion() -> Vec<Claim> {
             ],
             proving(train(3).freeing(&["v_2", "vt_2", "phi_2'"])),
         ),
+        base("trailer-adds-one-T", "whatever drives ahead, one trailer more takes one coefficient more, of type T: no rate ahead depends on e_N, and ∂φ̇_N/∂e_N = −v_N/d_N. So det_N = det_0·Π(−v_i/d_i), and behind a wheel RT, a differential drive R²T and a car RT² the types are RT^(N+1), R²T^(N+1) and RT^(N+2) for all N", PLACE)
+            .under("hitch angles not measured; v_i ≠ 0 and d_i ≠ 0; by induction: each step is shown for whatever the axle ahead does, and the tractors are `proposition`, `differential-drive-R2T` and `car-RT2`")
+            .remark("The matrix of derivatives of (the tractor's velocities, φ̇_1, …, φ̇_N) by (its coefficients, e_1, …, e_N) is triangular by blocks. Fewer coefficients cannot do: φ̇_N is free whatever the rates ahead are.")
+            .proof(
+                "yaw rate and speed of the last axle by its own coefficient; rates of the axle ahead by it",
+                &[
+                    ("first_by_own", "-v_1/d_1"),
+                    ("second_by_own", "-v_2/d_2"),
+                    ("third_by_own", "-v_3/d_3"),
+                    ("speed_by_own", "0"),
+                    ("ahead_by_last", "0"),
+                    ("speed_ahead_by_last", "0"),
+                ],
+                proving(by_own_coefficient()),
+            )
+            .proof(
+                "determinants with one and two trailers behind a wheel, written out",
+                &[
+                    ("det_1", "-(r*theta')^2*(1 - e_rc)*(-v_1/d_1)"),
+                    ("det_2", "-(r*theta')^2*(1 - e_rc)*(-v_1/d_1)*(-v_2/d_2)"),
+                ],
+                proving(train_determinants()),
+            ),
         base("trailers-on-axle", "with hitches on the axles only the angles between bodies and the creeps of both axles enter", PLACE)
             .under("c_i = 0")
             .proof(
@@ -97,8 +212,13 @@ fn recursion() -> Vec<Claim> {
                 ],
                 proving(courses(2)),
             ),
-        base("trailer-speeds", "the speeds of trailers are determined, no rotation creep of theirs enters: v_N = v_l·Π cos β_i without creep", PLACE)
-            .under("c_i = 0, no traverse creep")
+        base("trailer-speeds", "the speed of a trailer follows from the axle ahead: v_i = v_(i−1)·cos β_i without creep, so v_N = v_l·Π cos β_i; the rolling of a wheel of its own enters nothing but that wheel's rate", PLACE)
+            .under("c_i = 0, no traverse creep; any N, by one step after another")
+            .proof(
+                "one step, whatever the axle ahead does: from the first, the second and the third trailer",
+                &[("v_1", "v_l*cos(phi - phi_1)"), ("v_2", "v_1*cos(phi_1 - phi_2)"), ("v_3", "v_2*cos(phi_2 - phi_3)")],
+                |s, _| Outcome::all(s.each().map(|(i, step)| prove(&ideal_step(i + 1), &step))),
+            )
             .proof(
                 "product of cosines for three trailers",
                 &[("v_3", "v_l*cos(phi - phi_1)*cos(phi_1 - phi_2)*cos(phi_2 - phi_3)")],
@@ -106,6 +226,11 @@ fn recursion() -> Vec<Claim> {
                     let ideal = ["e_0", "e_tc_1", "e_tc_2", "e_tc_3"].iter().fold(on_axle(3), |m, e| m.with_text(e, "0"));
                     prove(&ideal, s)
                 },
+            )
+            .proof(
+                "a trailer with a wheel that rolls and slips: derivatives of speed and yaw rate by that wheel's coefficient, and the rate of the wheel",
+                &[("speed_by_e", "0"), ("yaw_by_e", "0"), ("theta_w'*r_w*(1 - e_w)", "v_1")],
+                proving(rolling_trailer()),
             ),
         base("trailer-breaks", "a trailer across its hitch has no coefficient: e_i is undefined exactly where v_i = 0", PLACE)
             .under("at β = ±π/2 without creep ahead a trailer may only slide sideways, which type T does not express")
@@ -148,12 +273,24 @@ fn towing() -> Vec<Claim> {
             &[("T", "T_0*exp(-v*t/(d*cos(a_0)*cos(a_1)))")],
             simulated_towing,
         ),
-        base("towing-equilibrium", "a trailer towed straight settles at β* = α₁ − α₀", PLACE)
+        base("towing-equilibrium", "a trailer towed straight settles at β* = α₁ − α₀: its heading does not turn there, and what is off decays with k = v_l/(d·cos α₀·cos α₁) > 0; from the opposite course, γ = π, it turns away", PLACE)
             .under("as for straight towing, v_l > 0")
+            .remark("Pushed, v_l < 0, the two places change their parts. By `straight-towing` every course but γ = π ends at β*, for tan(γ/2) decays.")
             .proof("its heading does not turn there", &[("phi_1'", "0")], |s, _| {
                 prove(&courses(1).with_text("phi'", "0").with_text("phi_1", "phi + alpha_0 - alpha_1"), s)
             })
-            .sabotaged_by(&[&[("phi_1'", "1")], &[("phi_1'", "v_l/d_1")]]),
+            .sabotaged_by(&[&[("phi_1'", "1")], &[("phi_1'", "v_l/d_1")]])
+            .proof(
+                "the slope of γ̇ by γ there, and at the opposite course; k by its factors",
+                &[
+                    ("slope_there", "-v_l/(d_1*cos(alpha_0)*cos(alpha_1))"),
+                    ("slope_opposite", "v_l/(d_1*cos(alpha_0)*cos(alpha_1))"),
+                ],
+                proving(slopes()),
+            )
+            .proof("(T²)' with Ṫ = −k·T: the distance falls wherever k > 0", &[("2*T*T'", "-2*k*T^2")], |s, _| {
+                prove(&DerivedFormulas::default().with_text("T'", "-k*T"), s)
+            }),
     ]
 }
 

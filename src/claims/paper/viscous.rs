@@ -4,7 +4,7 @@ use crate::claims::with_forces::{ideal, lettered, machine_of, residuals, vanishi
 use crate::claims::{Claim, DerivedFormulas, Sampling, Statement, Status, proving};
 use crate::dynamics::{Dynamics, Formulas};
 use crate::error::{Error, Result};
-use crate::formula::{Expr, Symbol};
+use crate::formula::{Expr, Normal, Symbol};
 
 pub(crate) const CHAPTER: &str = "10-viscous";
 const CODE: &[&str] = &["src/dynamics/derive.rs", "src/dynamics/bodies.rs", "src/dynamics/contact.rs"];
@@ -44,7 +44,7 @@ fn disk_accelerations(dynamics: &Dynamics) -> Result<[Expr; 2]> {
 }
 
 /// v, ω, v_A = v − r·ω and their rates under friction.
-fn disk_machine() -> Result<DerivedFormulas> {
+pub(super) fn disk_machine() -> Result<DerivedFormulas> {
     let [v, w] = disk_accelerations(&viscous("disk", 0, &["force", "wheel_torque"])?)?;
     let letters = |e: Expr| lettered(&e, &[("s'", "v"), ("theta'", "omega")]);
     let derived = DerivedFormulas::default().with("v'", letters(v)).with("omega'", letters(w));
@@ -98,16 +98,26 @@ fn disk_ideal() -> Claim {
         let force = &-&no_force(&slip) / &no_force(&slip.derivative(&"f".into()));
         Ok(disk_machine()?.with("f", force).with("v_i'", v))
     });
-    base("viscous-disk-limit", "the ideal disk has v' = (F + τ/r)/(m + J/r²), and the viscous one is ahead of it by J/(m·r² + J)·v_A, for all time at most J/(m·r² + J)·sup|F/m − r·τ/J|/λ with λ = b·(1/m + r²/J)")
+    base("viscous-disk-limit", "the ideal disk has v' = (F + τ/r)/(m + J/r²), and the viscous one is ahead of it by J/(m·r² + J)·v_A, for all time at most J/(m·r² + J)·G/λ with λ = b·(1/m + r²/J) and G ≥ |F/m − r·τ/J|")
         .at("section 2, (3), (11); introduction, reference [6]; corrected theorem (e)")
         .about(&[3, 11])
         .under("both from rest; F and τ may depend on time, and are bounded")
-        .remark("From rest a solution of v_A' + λ·v_A = g has |v_A| ≤ sup|g|/λ, and λ grows as b. With m = 1, r = 0.5, J = 1, F = 0, τ = 0.3 the largest gap within 3 s is 0.096/b.")
+        .remark("v_A starts at 0, inside of ±G/λ, and cannot cross an end at which it moves inwards or stands; λ grows as b. With m = 1, r = 0.5, J = 1, F = 0, τ = 0.3 the largest gap within 3 s is 0.096/b.")
         .proof("the multiplier solved for", &[("v_i'", "(F + tau/r)/(m + J/r^2)")], proving(derived.clone()))
         .proof(
             "the rate of the gap, and what drives it",
             &[("v' - v_i'", "J/(m*r^2 + J)*v_A'"), ("v_A' + b*(1/m + r^2/J)*v_A", "F/m - r*tau/J")],
-            proving(derived),
+            proving(derived.clone()),
+        )
+        .proof(
+            "at v_A = +G/λ, with any G = F/m − r·τ/J + s²: the slip moves inwards or stands",
+            &[("v_A'", "-s^2")],
+            proving(derived.clone().with_text("v_A", "(F/m - r*tau/J + s^2)/(b*(1/m + r^2/J))")),
+        )
+        .proof(
+            "at v_A = −G/λ, with any G = −(F/m − r·τ/J) + s²",
+            &[("v_A'", "s^2")],
+            proving(derived.with_text("v_A", "(F/m - r*tau/J - s^2)/(b*(1/m + r^2/J))")),
         )
 }
 
@@ -215,6 +225,12 @@ fn constant_creep() -> Claim {
     let linear = half(&(&plus - &minus));
     let discriminant = &linear.pow(2) - &(&Expr::int(4) * &(&square * &zero));
     let derived = derived.with("discriminant", discriminant).with_text("e_star'", "e'");
+    // z = 1/e and its rate; at z = 0 the creep is infinite and the sleigh stops along its blade.
+    let inverse = derived.clone().with_text("e", "1/z").with_text("z'", "-e'*z^2");
+    let at_zero = inverse.written_out("z'").tidy();
+    let at_zero = Normal::of(&at_zero).numerator().substitute(&|s| (s.as_str() == "z").then(|| Expr::int(0)));
+    let below = Normal::of(&inverse.written_out("z'")).denominator();
+    let inverse = inverse.with("z_at_zero'", &at_zero / &below);
     // b for which e stays, and the distance between its two places.
     let staying = derived.clone().with_text("b", "-m*omega*(1 + e^2)/e").with_text("root", "-omega*(1 - e^2)/e");
     base("constant-creep", "with the mass centre on the axle e' = −ω − βe − ωe², β = b/m: constant creep e* = (−β + √(β² − 4ω²))/(2ω) exists only for b ≥ 2m|ω|, and |e*| ≤ 1")
@@ -237,5 +253,10 @@ fn constant_creep() -> Claim {
                 ("(-b/m - root)/(2*omega)", "1/e"),
             ],
             proving(staying),
+        )
+        .proof(
+            "1/e passes through zero with the rate ω; a whole square and 4ω² − β² > 0 keep it from resting",
+            &[("z'", "omega + b/m*z + omega*z^2"), ("4*omega*z'", "(2*omega*z + b/m)^2 + 4*omega^2 - (b/m)^2"), ("z_at_zero'", "omega")],
+            proving(inverse),
         )
 }

@@ -2,7 +2,9 @@
 
 use super::domain::defined_everywhere;
 use crate::claims::simulated::{TURN, WHEEL, driven, model, undefined};
-use crate::claims::{Claim, DerivedFormulas, Outcome, Sampling, Statement, Status, near, prove, value_said};
+use crate::claims::{
+    Claim, Correction, DerivedFormulas, Outcome, Sampling, Statement, Status, near, prove, value_said,
+};
 use crate::model::mechanism;
 use crate::vehicles;
 use proptest::prelude::*;
@@ -77,6 +79,7 @@ fn equations() -> Vec<Claim> {
         ),
         Claim::new("E10", Status::Corrected, "the motion follows from the sensed ω_r and the coefficients")
             .at("section 4, above (24); errata E10")
+            .corrects(Correction::LacksHypothesis)
             .about(&[24, 25])
             .under("the heading or its rate is sensed too")
             .remark("(22) and (23) leave two freedoms, rolling and turning; the heading must be known as well.")
@@ -99,6 +102,7 @@ fn proposition() -> Vec<Claim> {
     vec![
         Claim::new("proposition", Status::Corrected, "the pseudo-violated motion of the wheel is realised by type RT")
             .at("section 4, Proposition; corrected theorem (a)")
+            .corrects(Correction::LacksHypothesis)
             .about(&[22, 23, 24, 25])
             .under("r·ω_r ≠ 0 and v_l ≠ 0; the yaw rate is measured")
             .remark(
@@ -124,6 +128,7 @@ fn proposition() -> Vec<Claim> {
             ),
         Claim::new("E9", Status::Corrected, "(24) and (25) reach every velocity of the contact")
             .at("section 4, (24)–(25); errata E9")
+            .corrects(Correction::LacksHypothesis)
             .about(&[24, 25])
             .remark(
                 "A wheel that spins on the spot, e_rc = 1, is given v_t = 0 whatever e_tc; it may slide all the same.",

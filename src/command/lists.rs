@@ -3,11 +3,11 @@
 use super::output::{Format, pretty, print};
 use super::user_catalogues::{UserCatalogues, UserVehicles};
 use clap::{Args, ValueEnum};
-use creepage::Result;
 use creepage::describe::{
     effects_json, effects_text, every_effect_page, vehicle_effects_json, vehicle_effects_text, vehicles_json,
     vehicles_text,
 };
+use creepage::{Error, Result};
 
 /// List the vehicles a model file may name
 #[derive(Args)]
@@ -27,11 +27,15 @@ pub struct Vehicles {
 #[command(after_help = "\
 Examples:
   creepage effects
+  creepage effects track-width input-delay
   creepage effects --vehicle car
   creepage effects --format page
   creepage effects --effects examples/effects/my_effects.toml
   creepage effects --vehicles examples/bus/bus.toml --vehicle articulated-bus")]
 pub struct Effects {
+    /// Only these, by id; all when none is named
+    #[arg(value_name = "ID")]
+    only: Vec<String>,
     /// Only those of one vehicle, with the equations they rewrite there and the effects that are the same
     #[arg(long, value_name = "NAME")]
     vehicle: Option<String>,
@@ -61,7 +65,11 @@ pub fn vehicles(arguments: &Vehicles) -> Result<()> {
 
 /// Carries out `creepage effects`.
 pub fn effects(arguments: &Effects) -> Result<()> {
-    let (vehicles, library) = arguments.own.catalogues()?;
+    let (vehicles, mut library) = arguments.own.catalogues()?;
+    if let Some(unknown) = arguments.only.iter().find(|id| library.iter().all(|e| e.id != **id)) {
+        return Err(Error::input(format!("no effect is called {unknown:?}")).help("`creepage effects` lists them"));
+    }
+    library.retain(|e| arguments.only.is_empty() || arguments.only.contains(&e.id));
     let one = arguments.vehicle.as_deref();
     print(&match (arguments.format, one) {
         (EffectsFormat::Page, one) => every_effect_page(one, &vehicles, &library)?,

@@ -18,7 +18,7 @@ pub const FIGURE: Figure = Figure {
 };
 
 /// A panel, and where the four are.
-const PANEL: Size = Size { width: 198.0, height: 214.0, margins: [34.0, 6.0, 30.0, 40.0] };
+const PANEL: Size = Size { width: 198.0, height: 214.0, margins: [34.0, 22.0, 30.0, 40.0] };
 const TOP: f64 = 26.0;
 /// Steps of a curve.
 const STEPS: usize = 180;

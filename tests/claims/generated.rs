@@ -200,7 +200,7 @@ fn people_are_shown_every_wheel_trailer_and_rate() {
         let mut wanted = vec![("drive".to_string(), format!("{:?}", vehicle.drive).to_lowercase())];
         for w in wheels.iter().filter(|w| w.radius.is_some()) {
             let [forward, left] = w.place.each_ref().map(written);
-            let place = format!("r {} at ({forward}, {left})", written(w.radius.as_ref().unwrap()));
+            let place = format!("radius {} at ({forward}, {left})", written(w.radius.as_ref().unwrap()));
             let text = match &w.facing {
                 Facing::Fixed(heading) if heading.as_rational().is_none() => {
                     met.note("facing", true);

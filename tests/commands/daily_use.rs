@@ -431,6 +431,21 @@ fn completions_and_manual_pages_know_every_command() {
 }
 
 #[test]
+fn effects_are_told_by_their_ids() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = |ids: &[&str]| creepage(folder.path(), &[&["effects"], ids].concat());
+    let two = text(&told(&["track-width", "input-delay"]).stdout);
+    let headings: Vec<&str> = two.lines().filter_map(|line| line.strip_prefix("## ")).collect();
+    assert_eq!(headings, ["track-width", "input-delay"]);
+    let json = told(&["input-delay", "--format", "json"]);
+    let json: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
+    assert_eq!(json["effects"].as_array().unwrap().len(), 1);
+    let unknown = told(&["input-dealy"]);
+    assert_eq!(unknown.status.code(), Some(2));
+    assert!(text(&unknown.stderr).contains("no effect is called \"input-dealy\""));
+}
+
+#[test]
 fn effects_of_a_vehicle_are_there_for_scripts() {
     let folder = tempfile::tempdir().unwrap();
     let output = creepage(folder.path(), &["effects", "--vehicle", "car", "--format", "json"]);

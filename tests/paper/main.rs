@@ -13,6 +13,7 @@ mod markup;
 mod numbers;
 #[path = "../support/reviewed.rs"]
 mod reviewed;
+mod robots;
 mod tables;
 mod text;
 mod trust;
@@ -48,6 +49,7 @@ static GENERATED: LazyLock<BTreeMap<String, String>> = LazyLock::new(|| {
     files.insert("numbers.typ".into(), numbers::file());
     files.insert("tables.typ".into(), tables::file());
     files.insert("trust.typ".into(), trust::file());
+    files.insert("robots.typ".into(), robots::file());
     files
 });
 

@@ -2,6 +2,7 @@
 
 use super::ledger::{LEDGER, count, entry, said};
 use super::markup::{head, string};
+use super::robots;
 use super::tables::found;
 use super::trust;
 use creepage::claims::kernel::proofs_of;
@@ -26,6 +27,7 @@ fn all() -> Vec<(&'static str, String)> {
     all.extend(of_the_simulation());
     all.extend(of_the_example());
     all.extend(trust::numbers());
+    all.extend(robots::numbers());
     all
 }
 

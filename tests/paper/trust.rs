@@ -72,7 +72,7 @@ pub fn file() -> String {
         ("one effect hidden, named rightly", "singles"),
         ("two effects hidden, both named rightly", "pairs"),
         ("intervals that hold the truth", "coverage"),
-        ("data that hardly tell, named rightly all the same", "undetermined"),
+        ("effects too weak to be told apart, of which named rightly", "undetermined"),
     ];
     let row = |(says, name): &(&str, &str)| [vec![string(says)], cells(&share(&TRUST[*name]))].concat();
     let shares = rows("shares", lines.iter().map(row));

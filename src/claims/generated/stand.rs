@@ -35,12 +35,12 @@ pub struct Placed {
     pub directed: bool,
 }
 
-/// `r 1 at (0, 1/2) facing …`, no heading for a wheel along the body.
+/// `radius 1 at (0, 1/2) facing …`, no heading for a wheel along the body.
 impl fmt::Display for Placed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [forward, left] = self.place.each_ref().map(written);
         if let Some(radius) = &self.radius {
-            write!(f, "r {} at ", written(radius))?;
+            write!(f, "radius {} at ", written(radius))?;
         }
         write!(f, "({forward}, {left})")?;
         match &self.facing {

@@ -13,26 +13,53 @@ pub(crate) fn claims() -> Vec<Claim> {
     vec![one_hinge(), two_hinges()]
 }
 
+/// A rod with its centre of mass in its middle.
+#[derive(Clone, Copy)]
+struct Rod {
+    mass: (i64, i64),
+    length: (i64, i64),
+    inertia: (i64, i64),
+}
+
+const UNIFORM: Rod = Rod { mass: (1, 1), length: (1, 1), inertia: (1, 12) };
+
+/// Three rods, no two alike.
+const UNEQUAL: [Rod; 3] = [
+    Rod { mass: (1, 1), length: (1, 1), inertia: (1, 10) },
+    Rod { mass: (4, 5), length: (7, 10), inertia: (1, 20) },
+    Rod { mass: (1, 2), length: (9, 10), inertia: (3, 50) },
+];
+
+fn quotient((above, below): (i64, i64)) -> Expr {
+    &Expr::int(above) / &Expr::int(below)
+}
+
 /// A chain of uniform rods of mass 1 and length 1, each at an angle from the one before; momentum, shape.
 fn chain(links: usize) -> crate::Result<(Momentum, Vec<Symbol>)> {
-    let shape: Vec<Symbol> = (1..links).map(|k| Symbol::new(&format!("r_{k}"))).collect();
+    chain_of(&vec![UNIFORM; links])
+}
+
+/// The same of given rods.
+fn chain_of(rods: &[Rod]) -> crate::Result<(Momentum, Vec<Symbol>)> {
+    let shape: Vec<Symbol> = (1..rods.len()).map(|k| Symbol::new(&format!("r_{k}"))).collect();
     let heading = |k: usize| shape[..k].iter().fold(Expr::int(0), |sum, r| &sum + &Expr::sym(r.clone()));
     let half = &Expr::int(1) / &Expr::int(2);
     let along = |k: usize| {
         let f = |f, zero: i64| if k == 0 { Expr::int(zero) } else { Expr::call(f, &heading(k)) };
-        [f(crate::formula::Fun::Cos, 1), f(crate::formula::Fun::Sin, 0)]
+        let length = quotient(rods[k].length);
+        [f(crate::formula::Fun::Cos, 1), f(crate::formula::Fun::Sin, 0)].map(|part| &length * &part)
     };
     let place = |k: usize, c: usize| {
         let before = (0..k).fold(Expr::int(0), |sum, j| &sum + &along(j)[c]);
         &before + &(&half * &along(k)[c])
     };
     let body = |k: usize| PlanarBody {
-        mass: Expr::int(1),
-        inertia: &Expr::int(1) / &Expr::int(12),
+        mass: quotient(rods[k].mass),
+        inertia: quotient(rods[k].inertia),
         place: [place(k, 0), place(k, 1)],
         angle: heading(k),
     };
-    let bodies: Vec<PlanarBody> = (0..links).map(body).collect();
+    let bodies: Vec<PlanarBody> = (0..rods.len()).map(body).collect();
     let energy = floating_energy("phi", &shape, &bodies)?;
     Ok((Momentum::of(&energy, &[("phi".into(), Expr::int(1))])?, shape))
 }
@@ -74,8 +101,8 @@ fn two_hinges() -> Claim {
     base("three-link", Status::Sampled, "three bodies on two hinges, floating freely, are not holonomic: the phase of a small loop is its area times the curvature")
         .under("uniform rods of mass 1 and length 1, angular momentum zero; angles of each hinge from straight")
         .remark(
-            "A curvature of −0.00609466 at (0.7, −0.4) is on record, without the masses it is for; for equal uniform \
-             rods it is −0.00676934.",
+            "The masses, lengths and moments decide the number: for rods of masses 1, 0.8, 0.5 kg, lengths 1, 0.7, 0.9 m and \
+             moments 0.1, 0.05, 0.06 kg·m² it is −0.00609466.",
         )
         .code(&["src/connection/bodies.rs", CONNECTION])
         .tests(&["tests/symmetry/bodies.rs"])
@@ -85,6 +112,17 @@ fn two_hinges() -> Claim {
             &[("curvature", "-0.00676934"), ("order", "2")],
             small_loops,
         )
+        .sample("the curvature there of three rods of which no two are alike", &[("curvature", "-0.00609466")], |s, _| {
+            let found = chain_of(&UNEQUAL).and_then(|(momentum, shape)| curvature_there(&momentum, &shape));
+            let said = s.number("curvature").unwrap_or(f64::NAN);
+            all_of([found.map_err(|e| undefined(&e)).and_then(|found| within("curvature", found, said, 6e-9))])
+        })
+}
+
+/// The curvature at the angles 0.7 and −0.4.
+fn curvature_there(momentum: &Momentum, shape: &[Symbol]) -> crate::Result<f64> {
+    let at = |name: &Symbol| if name.as_str() == "r_1" { 0.7 } else { -0.4 };
+    Ok(Connection::of(momentum, shape)?.curvature(0, 1).eval(&at).unwrap_or(f64::NAN))
 }
 
 /// The curvature of the chain of three at a point, and the order at which phase/area tends to it.
@@ -92,8 +130,7 @@ fn small_loops(s: &Statement, _: &Sampling) -> Outcome {
     let found = || -> crate::Result<[f64; 2]> {
         let (momentum, shape) = chain(3)?;
         let connection = Connection::of(&momentum, &shape)?;
-        let at = |name: &Symbol| if name.as_str() == "r_1" { 0.7 } else { -0.4 };
-        let curvature = connection.curvature(0, 1).eval(&at).unwrap_or(f64::NAN);
+        let curvature = curvature_there(&momentum, &shape)?;
         let circle = Path::new(&[("r_1", "0.7 + b*cos(t)"), ("r_2", "-0.4 + b*sin(t)")], [0.0, TAU])?;
         let error = |b: f64| -> crate::Result<f64> {
             let phase = connection.phase(&circle, &[("b", b)])?;

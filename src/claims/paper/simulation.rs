@@ -71,7 +71,12 @@ fn data() -> Claim {
     )
     .chapter(CHAPTER)
     .code(&[CONSERVATIVE])
-    .refutation("J ≤ m·r²", &[("sign(m*r^2 - J)", "1")], &[("sign(m*r^2 - J)", "-1")], check)
+    .refutation(
+        "the mass lies within the radius, so m·r² − J is not below zero",
+        &[("m*r^2 - J", "abs(m*r^2 - J)")],
+        &[("m*r^2 - J", "-abs(m*r^2 - J)")],
+        check,
+    )
 }
 
 fn creeps((e_rc, e_tc): &(f64, f64)) -> Vec<(String, String)> {

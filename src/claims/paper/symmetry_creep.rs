@@ -77,7 +77,7 @@ fn no_memory() -> Claim {
         "drag that grows with (l + d)² has no such integral, and the body does not come back: ψ → −0.3368",
     )
     .under("I = 1, m = 2/5, d = 3/5, the loop of `hopper-phase`, c_b = 1/10, c_l = 1/20; then the leg is held")
-    .remark("The number is on record without the two constants; these are the ones that give it.")
+    .remark("The paper prints no number; this one is for the two constants named.")
     .code(&[DRAG])
     .tests(&TESTS)
     .proof(

@@ -27,6 +27,7 @@ mod structure;
 mod symmetry;
 mod symmetry_creep;
 mod theorems;
+mod towing;
 mod trailers;
 mod traverse;
 mod viscous;
@@ -58,6 +59,7 @@ pub fn all() -> Vec<Claim> {
         theorems::claims(),
         realisation::claims(),
         trailers::claims(),
+        towing::claims(),
         ideal_limit::claims(),
         planning::claims(),
         symmetry::claims(),

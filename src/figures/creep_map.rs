@@ -116,7 +116,7 @@ fn captions(panel: &mut Panel, title: &str, [x, y]: [&str; 2]) {
 fn words(map: &mut Map, [e_rc, e_tc]: [f64; 2]) -> Vec<Element> {
     let [v_l, v_t, det] = map.at(e_rc, e_tc);
     let here = format!(
-        "ring: ({}, {}) → ({}, {}), determinant {}",
+        "the point in the ring: ({}, {}) → ({}, {}), determinant {}",
         decimals(e_rc, 2),
         decimals(e_tc, 2),
         decimals(v_l, 2),

@@ -57,14 +57,6 @@ pub fn display(equations: &[Equation]) -> String {
     format!("$ {} $", equations.iter().map(line).collect::<Vec<_>>().join(" \\\n     "))
 }
 
-/// A formula given as text within a line; what is none stays text.
-pub fn inline(text: &str) -> String {
-    match Expr::parse(text) {
-        Ok(e) if !text.contains('.') => format!("${}$", formula(&e)),
-        _ => format!("[#{}]", string(&text.replace(['_', '.'], " "))),
-    }
-}
-
 /// A row of a table from cells that are Typst expressions.
 pub fn row(cells: &[String]) -> String {
     format!("  ({},),\n", cells.join(", "))

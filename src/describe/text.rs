@@ -36,7 +36,15 @@ fn overview(page: &mut Page, d: &Description) {
     page.heading(1, &title(d));
     page.paragraph(&d.title);
     let names: Vec<String> = d.coordinates.iter().map(ToString::to_string).collect();
-    page.entry(&format!("coordinates: {}", names.join(", ")));
+    // Angles that a driver sets are inputs of the motion and coordinates of the space that steering moves through.
+    let steered = d.structure.coordinates.iter().filter(|q| !d.coordinates.contains(q));
+    let steered: Vec<String> = steered.map(ToString::to_string).collect();
+    let also = if steered.is_empty() {
+        String::new()
+    } else {
+        format!("; for the growth vector {} as well", steered.join(", "))
+    };
+    page.entry(&format!("coordinates: {}{also}", names.join(", ")));
     page.entry(&format!("constraints by form: {} ({})", d.signature, Signature::COUNTS));
     let effects: Vec<String> = d.effects.iter().map(|e| e.applied.label()).collect();
     page.entry(&format!("effects: {}", if effects.is_empty() { "none".into() } else { effects.join(", ") }));

@@ -90,10 +90,9 @@ fn paragraph(out: &mut String, text: &str) {
 pub fn proofs_text(proofs: &Proofs, dir: &str) -> String {
     let with = || proofs.claims.iter().filter(|c| c.theorems > 0);
     let theorems: usize = with().map(|c| c.theorems).sum();
-    let mut out = format!(
-        "{theorems} theorems of {} claims in {dir}\nsh {dir}/check.sh puts them to the kernel\n",
-        with().count()
-    );
+    let counted = |n: usize, one: &str| format!("{n} {one}{}", if n == 1 { "" } else { "s" });
+    let (theorems, claims) = (counted(theorems, "theorem"), counted(with().count(), "claim"));
+    let mut out = format!("{theorems} of {claims} in {dir}\nsh {dir}/check.sh puts them to the kernel\n");
     if proofs.claims.iter().any(|c| !c.left_out.is_empty()) {
         out.push_str("\nno theorem, for ranks, brackets and integrals are counted there and no identity of formulas is proved:\n");
     }

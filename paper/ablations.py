@@ -40,7 +40,8 @@ arguments.add_argument("--effects", default=120)
 arguments.add_argument("--coarse", default=60)
 arguments = arguments.parse_args()
 
-clone = pathlib.Path(tempfile.mkdtemp()) / "creepage"
+temporary = tempfile.TemporaryDirectory()
+clone = pathlib.Path(temporary.name) / "creepage"
 subprocess.run(["git", "clone", "--quiet", here.parent, clone], check=True)
 environment = os.environ | {"CARGO_TARGET_DIR": str(here.parent / "target" / "ablations")}
 made = []
@@ -55,7 +56,7 @@ for name, changes in ABLATIONS:
            str(arguments.effects), "--coarse", str(arguments.coarse), "--in-part", "0", "--timed", "0", "--threads", "2", "--out", str(out)]
     subprocess.run(run, cwd=clone, env=environment, check=True)
     counts = json.loads((out / "trust.json").read_text())
-    made.append({"ablation": name} | {k: counts[k] for k in ("false_alarms", "singles", "pairs", "coverage", "rms_z") if k in counts}
-                | {k: v for k, v in counts.items() if "coarse" in k})
+    wanted = ("false_alarms", "false_alarms_coarse", "singles", "pairs", "coverage", "rms_z")
+    made.append({"ablation": name} | {k: counts[k] for k in wanted})
     print(json.dumps(made[-1]), flush=True)
     (here / "data" / "ablations.json").write_text(json.dumps(made, indent=1) + "\n")

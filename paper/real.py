@@ -39,7 +39,8 @@ arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argpars
 arguments.add_argument("--bin", required=True)
 arguments.add_argument("--data", required=True, type=pathlib.Path)
 arguments = arguments.parse_args()
-scratch = pathlib.Path(tempfile.mkdtemp())
+folder_of_trials = tempfile.TemporaryDirectory()
+scratch = pathlib.Path(folder_of_trials.name)
 
 
 def rows_of(path):
@@ -49,7 +50,7 @@ def rows_of(path):
 
 
 def simulated(model, rows):
-    """Where a model's sensor is at the last of some rows, from the measured pose at the first; every position for `None`."""
+    """Where a model's sensor is at each of some rows, from the measured pose at the first."""
     inputs, out = scratch / "in.csv", scratch / "out.csv"
     with open(inputs, "w", newline="") as file:
         writer = csv.DictWriter(file, fieldnames=rows[0].keys())
@@ -60,7 +61,7 @@ def simulated(model, rows):
         return [(float(row["x"]), float(row["y"])) for row in csv.DictReader(file)]
 
 
-def error(model, rows, horizon):
+def squared_errors(model, rows, horizon):
     """Squared distances at the end of consecutive stretches of a run."""
     squares, first = [], 0
     while True:
@@ -141,7 +142,7 @@ for robot in ROBOTS:
     for key, model in models.items():
         errors[key] = []
         for horizon in robot["horizons"]:
-            squares = [s for p in held for s in error(model, rows_of(p), horizon)]
+            squares = [s for p in held for s in squared_errors(model, rows_of(p), horizon)]
             errors[key].append(math.sqrt(sum(squares) / len(squares)))
     floors = {g["horizon_s"]: g["noise_floor"]["position_rms"] for g in report["gap"]}
     effects = [{"id": e["id"], "parameters": e["parameters"]} for e in report["effects"]]

@@ -126,40 +126,30 @@ impl DerivedFormulas {
         values
     }
 
-    /// The definitions that expressions rest on, each after those it uses.
-    pub(crate) fn under<'a>(&self, sides: impl IntoIterator<Item = &'a Expr>) -> Vec<(Symbol, Expr)> {
-        let mut waiting: Vec<Symbol> = sides.into_iter().flat_map(Expr::symbols).collect();
-        let mut used: BTreeSet<Symbol> = BTreeSet::new();
+    /// Every name that expressions come to, through the definitions.
+    fn reached<'a>(&self, from: impl IntoIterator<Item = &'a Expr>) -> BTreeSet<Symbol> {
+        let mut waiting: Vec<Symbol> = from.into_iter().flat_map(Expr::symbols).collect();
+        let mut reached: BTreeSet<Symbol> = BTreeSet::new();
         while let Some(name) = waiting.pop() {
-            if let Some(formula) = self.definitions.get(&name)
-                && used.insert(name)
-            {
-                waiting.extend(formula.symbols());
+            if reached.insert(name.clone()) {
+                waiting.extend(self.definitions.get(&name).into_iter().flat_map(Expr::symbols));
             }
         }
+        reached
+    }
+
+    /// The definitions that expressions rest on, each after those it uses.
+    pub(crate) fn under<'a>(&self, sides: impl IntoIterator<Item = &'a Expr>) -> Vec<(Symbol, Expr)> {
+        let reached = self.reached(sides);
         let sorted = self.definitions.sorted().unwrap_or_default();
-        sorted.into_iter().filter(|(name, _)| used.contains(name)).cloned().collect()
+        sorted.into_iter().filter(|(name, _)| reached.contains(name)).cloned().collect()
     }
 
     /// The formulas that an expression rests on, itself included, and the free symbols it comes down to.
     pub fn rests_on(&self, e: &Expr) -> (Vec<Expr>, BTreeSet<Symbol>) {
-        let (mut formulas, mut free) = (vec![e.clone()], BTreeSet::new());
-        let mut waiting: Vec<Symbol> = e.symbols().into_iter().collect();
-        let mut seen: BTreeSet<Symbol> = BTreeSet::new();
-        while let Some(s) = waiting.pop() {
-            if !seen.insert(s.clone()) {
-                continue;
-            }
-            match self.definitions.get(&s) {
-                Some(formula) => {
-                    waiting.extend(formula.symbols());
-                    formulas.push(formula.clone());
-                }
-                None => {
-                    free.insert(s);
-                }
-            }
-        }
-        (formulas, free)
+        let (defined, free): (BTreeSet<Symbol>, BTreeSet<Symbol>) =
+            self.reached([e]).into_iter().partition(|name| self.definitions.get(name).is_some());
+        let formulas = defined.iter().filter_map(|name| self.definitions.get(name));
+        (std::iter::once(e).chain(formulas).cloned().collect(), free)
     }
 }

@@ -20,6 +20,7 @@ mod claim;
 mod correction;
 mod corrections;
 pub(crate) mod derived_formulas;
+mod divisors;
 pub(crate) mod exact_point;
 #[doc(hidden)]
 pub mod generated;

@@ -2,6 +2,7 @@
 //! `paper/ablations.py` wrote them.
 
 use super::markup::{head, rows, string};
+use super::trust::{count, share};
 use creepage::figures::fixed;
 use creepage::number_format::with_error;
 use serde_json::Value;
@@ -56,12 +57,9 @@ fn names() -> String {
 
 /// A row an ablation: false alarms, on coarse inputs, names right of one and of two, intervals that hold.
 fn ablations() -> String {
-    let count = |v: &Value| match (v["k"].as_u64(), v["n"].as_u64()) {
-        (Some(k), Some(n)) => format!("{k} of {n}"),
-        _ => "–".into(),
-    };
     let row = |a: &Value| {
-        let counts = ["false_alarms", "false_alarms_coarse", "singles", "pairs", "coverage"].map(|key| count(&a[key]));
+        let counts =
+            ["false_alarms", "false_alarms_coarse", "singles", "pairs", "coverage"].map(|key| count(&share(&a[key])));
         std::iter::once(title(a["ablation"].as_str().unwrap()).to_string()).chain(counts).map(|c| string(&c)).collect()
     };
     let all: Vec<Vec<String>> = data("ablations").iter().map(row).collect();

@@ -14,14 +14,19 @@ static TRUST: LazyLock<Value> = LazyLock::new(|| {
 const SILENCE: &str = "(nothing)";
 const UNNAMED: &str = "(unnamed)";
 
-fn share(value: &Value) -> Share {
+pub fn share(value: &Value) -> Share {
     let count = |name: &str| value[name].as_u64().unwrap_or(0);
     Share { k: count("k"), n: count("n") }
 }
 
+/// k of n.
+pub fn count(share: &Share) -> String {
+    format!("{} of {}", share.k, share.n)
+}
+
 /// k of n, the share in per cent and its interval.
 fn cells(share: &Share) -> Vec<String> {
-    let count = format!("{} of {}", share.k, share.n);
+    let count = count(share);
     if share.n == 0 {
         return [count, "–".into(), "–".into()].map(|c| string(&c)).to_vec();
     }
@@ -31,7 +36,7 @@ fn cells(share: &Share) -> Vec<String> {
 
 pub fn numbers() -> Vec<(&'static str, String)> {
     let of = |name: &str| share(&TRUST[name]);
-    let count = |name: &str| format!("{} of {}", of(name).k, of(name).n);
+    let count = |name: &str| count(&of(name));
     let bound = |name: &str, end: usize| fixed(100.0 * of(name).interval()[end], 1);
     let gap = |horizon: &str, i: usize| TRUST["gaps"][horizon][i].as_f64().map_or("–".into(), |v| fixed(v, 2));
     vec![

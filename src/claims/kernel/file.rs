@@ -37,6 +37,14 @@ impl ClaimFile {
     pub fn stem(&self) -> String {
         self.claim.replace('-', "_")
     }
+
+    /// Adds a theorem; false where the identity is none.
+    fn add(&mut self, identity: &Identity) -> bool {
+        let Some(theorem) = theorem(&format!("{}_{}", self.stem(), self.theorems + 1), identity) else { return false };
+        let _ = write!(self.text, "\n{theorem}");
+        self.theorems += 1;
+        true
+    }
 }
 
 impl Proofs {
@@ -49,32 +57,27 @@ impl Proofs {
 }
 
 /// Runs the proofs of claims and writes each identity that they rest on as a theorem.
-pub fn proofs(claims: &[Claim]) -> Proofs {
-    let of = |claim: &Claim| {
-        let found: Vec<Vec<Identity>> = claim.evidence.iter().map(identities).collect();
-        claim_file(claim, &found)
-    };
-    let files: Vec<ClaimFile> = claims.par_iter().map(of).collect();
+pub fn proofs<'a>(claims: impl IntoParallelIterator<Item = &'a Claim>) -> Proofs {
+    let files: Vec<ClaimFile> = claims.into_par_iter().map(claim_file).collect();
     Proofs { claims: files.into_iter().filter(|c| c.theorems > 0 || !c.left_out.is_empty()).collect() }
 }
 
 /// The theorems of all claims of a ledger.
 pub fn proofs_of(ledger: &Ledger) -> Proofs {
-    let claims: Vec<Claim> = ledger.entries.iter().map(|e| e.claim.clone()).collect();
-    proofs(&claims)
+    proofs(ledger.entries.par_iter().map(|e| &e.claim))
 }
 
-/// The file of a claim, from the identities that each piece of its evidence rests on.
-fn claim_file(claim: &Claim, found: &[Vec<Identity>]) -> ClaimFile {
+/// The file of a claim, from the identities that its proofs rest on.
+fn claim_file(claim: &Claim) -> ClaimFile {
     let mut file = ClaimFile {
         claim: claim.id.clone(),
         theorems: 0,
         text: format!("(* {}: {} *)\n\nRequire Import Creepage.\n", claim.id, comment(&claim.says)),
         left_out: vec![],
     };
-    for (evidence, identities) in claim.evidence.iter().zip(found).filter(|(e, _)| e.gives == Gives::Proof) {
+    for evidence in claim.evidence.iter().filter(|e| e.gives == Gives::Proof) {
         let _ = writeln!(file.text, "\n(* {} *)", comment(&evidence.shows));
-        let written: Vec<bool> = distinct(identities).into_iter().map(|identity| file.add(identity)).collect();
+        let written: Vec<bool> = identities(evidence).iter().map(|identity| file.add(identity)).collect();
         if written.is_empty() || written.contains(&false) {
             file.left_out.push(evidence.shows.clone());
         }
@@ -82,30 +85,18 @@ fn claim_file(claim: &Claim, found: &[Vec<Identity>]) -> ClaimFile {
     file
 }
 
-impl ClaimFile {
-    /// Adds a theorem; false where the identity is none.
-    fn add(&mut self, identity: &Identity) -> bool {
-        let Some(theorem) = theorem(&format!("{}_{}", self.stem(), self.theorems + 1), identity) else { return false };
-        let _ = write!(self.text, "\n{theorem}");
-        self.theorems += 1;
-        true
-    }
-}
-
-/// What the check of a piece of evidence proves on its way.
-fn identities(evidence: &Evidence) -> Vec<Identity> {
-    let Ok(statement) = Statement::parse(&evidence.equations) else { return vec![] };
-    if evidence.gives != Gives::Proof {
-        return vec![];
-    }
+/// What the check of a proof proves on its way, each identity once.
+fn identities(proof: &Evidence) -> Vec<Identity> {
+    let Ok(statement) = Statement::parse(&proof.equations) else { return vec![] };
     let sampling = Sampling { cases: 1, seed: 0, shrink: false };
-    recorded(|| (evidence.check)(&statement, &sampling)).1
-}
-
-/// Each identity once.
-fn distinct(identities: &[Identity]) -> Vec<&Identity> {
-    let first = |(i, identity): &(usize, &Identity)| !identities.iter().take(*i).any(|other| other == *identity);
-    identities.iter().enumerate().filter(first).map(|(_, identity)| identity).collect()
+    let (_, found) = recorded(|| (proof.check)(&statement, &sampling));
+    let mut once: Vec<Identity> = vec![];
+    for identity in found {
+        if !once.contains(&identity) {
+            once.push(identity);
+        }
+    }
+    once
 }
 
 /// Text that does not end its comment.

@@ -2,8 +2,9 @@
 
 use super::folded::folded;
 use super::term::{identifier, term};
+use crate::claims::divisors;
 use crate::claims::identities::Identity;
-use crate::formula::{Expr, Fun, Node, Symbol};
+use crate::formula::{Expr, Symbol};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -29,8 +30,7 @@ pub(super) fn theorem(name: &str, identity: &Identity) -> Option<String> {
 /// Every name, free ones first.
 fn names(identity: &Identity) -> Vec<String> {
     let defined: BTreeSet<&Symbol> = identity.definitions.iter().map(|(name, _)| name).collect();
-    let formulas = identity.definitions.iter().map(|(_, formula)| formula);
-    let used: BTreeSet<Symbol> = formulas.chain([&identity.left, &identity.right]).flat_map(Expr::symbols).collect();
+    let used: BTreeSet<Symbol> = formulas(identity).flat_map(Expr::symbols).collect();
     let free = used.iter().filter(|s| !defined.contains(s)).map(identifier);
     free.chain(identity.definitions.iter().map(|(name, _)| identifier(name))).collect()
 }
@@ -38,21 +38,15 @@ fn names(identity: &Identity) -> Vec<String> {
 /// Everything that is divided by, but for numbers, each once.
 fn divisors(identity: &Identity) -> Vec<Expr> {
     let mut found = vec![];
-    let formulas = identity.definitions.iter().map(|(_, formula)| formula);
-    formulas.chain([&identity.left, &identity.right]).for_each(|e| divided_by(e, &mut found));
+    for divisor in formulas(identity).flat_map(divisors::divisors) {
+        if divisor.as_number().is_none() && !found.contains(&divisor) {
+            found.push(divisor);
+        }
+    }
     found
 }
 
-fn divided_by(e: &Expr, found: &mut Vec<Expr>) {
-    e.children().into_iter().for_each(|part| divided_by(part, found));
-    let divisor = match e.node() {
-        Node::Div(_, b) => b.clone(),
-        Node::Pow(x, n) if *n < 0 => x.clone(),
-        Node::Call(Fun::Cot, x) => Expr::call(Fun::Sin, x),
-        Node::Call(Fun::Tan, x) => Expr::call(Fun::Cos, x),
-        _ => return,
-    };
-    if divisor.as_number().is_none() && !found.contains(&divisor) {
-        found.push(divisor);
-    }
+/// The definitions and both sides.
+fn formulas(identity: &Identity) -> impl Iterator<Item = &Expr> {
+    identity.definitions.iter().map(|(_, formula)| formula).chain([&identity.left, &identity.right])
 }

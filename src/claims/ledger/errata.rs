@@ -1,5 +1,6 @@
 //! The paper's errata, from the claims.
 
+use super::text::kinds;
 use crate::claims::{Correction, Entry, Gives, Ledger, Outcome, Status};
 use std::fmt::Write;
 
@@ -12,19 +13,13 @@ pub fn errata(ledger: &Ledger) -> String {
          is stale. Every counterexample was found by the machine and made as simple as it could; check it by hand.\n",
     );
     let counts = ledger.corrections();
-    if counts.by_kind != [0; 3] {
+    if let Some(kinds) = kinds(&counts) {
+        let entries: usize = counts.by_kind.iter().sum();
         let _ = writeln!(
             out,
-            "\nA correction is of one of three kinds. {} statements were corrected in {} entries, for the parts of a theorem are \
-         told one by one: {}.",
-            counts.statements,
-            counts.by_kind.iter().sum::<usize>(),
-            Correction::ALL
-                .iter()
-                .zip(counts.by_kind)
-                .map(|(k, n)| format!("{n} {}", k.name()))
-                .collect::<Vec<_>>()
-                .join(", ")
+            "\nA correction is of one of three kinds. {} statements were corrected in {entries} entries, for the parts of a \
+             theorem are told one by one: {kinds}.",
+            counts.statements
         );
     }
     let wrong = |e: &Entry| matches!(e.earned, Status::Corrected | Status::Refuted);

@@ -1,7 +1,7 @@
 //! The ledger of claims as text for a terminal.
 
 use crate::claims::kernel::{ClaimFile, Proofs, kernel, proofs_of};
-use crate::claims::{Correction, Entry, Evidence, Gives, Ledger, Outcome, Shown, Status};
+use crate::claims::{Correction, CorrectionCounts, Entry, Evidence, Gives, Ledger, Outcome, Shown, Status};
 use std::fmt::Write;
 
 /// Width of the column of statuses.
@@ -38,8 +38,7 @@ fn entry(out: &mut String, e: &Entry, accepted: Option<&ClaimFile>) {
         paragraph(out, &format!("{mark} {gives}: {}: {}", evidence.shows, outcome(evidence, shown)));
         shown.survivors.iter().for_each(|s| paragraph(out, &format!("not noticed: {s}")));
     }
-    if let Some(ClaimFile { theorems, .. }) = accepted {
-        let theorems = *theorems;
+    if let Some(&ClaimFile { theorems, .. }) = accepted {
         let s = if theorems == 1 { "" } else { "s" };
         paragraph(out, &format!("+ kernel: {} accepts the proof{s} as {theorems} theorem{s}", kernel()));
     }
@@ -102,19 +101,11 @@ pub fn proofs_text(proofs: &Proofs, dir: &str) -> String {
     out
 }
 
-/// In which way what was corrected is wrong, and of how many statements it is.
-fn corrections(ledger: &Ledger) -> Option<String> {
-    let found = ledger.corrections();
-    if found.by_kind == [0; 3] {
-        return None;
-    }
-    let kinds: Vec<String> =
-        Correction::ALL.iter().zip(found.by_kind).map(|(k, n)| format!("{n} {}", k.name())).collect();
-    Some(format!(
-        "corrected: {}; {} statements, for parts of one theorem count once",
-        kinds.join(", "),
-        found.statements
-    ))
+/// How many corrections are of which kind; nothing where none has a kind.
+pub(super) fn kinds(found: &CorrectionCounts) -> Option<String> {
+    let counted = |(kind, n): (&Correction, usize)| format!("{n} {}", kind.name());
+    let kinds: Vec<String> = Correction::ALL.iter().zip(found.by_kind).map(counted).collect();
+    (found.by_kind != [0; 3]).then(|| kinds.join(", "))
 }
 
 /// How many claims have which status, and how many sabotages were noticed.
@@ -125,8 +116,10 @@ fn summary(ledger: &Ledger, proofs: &Proofs) -> String {
     let (killed, all) = ledger.kills();
     let mut out = format!("{} claims: {}\n", ledger.entries.len(), counts.join(", "));
     let percent = if all == 0 { 100.0 } else { 100.0 * killed as f64 / all as f64 };
-    if let Some(corrections) = corrections(ledger) {
-        let _ = writeln!(out, "{corrections}");
+    let found = ledger.corrections();
+    if let Some(kinds) = kinds(&found) {
+        let _ =
+            writeln!(out, "corrected: {kinds}; {} statements, for parts of one theorem count once", found.statements);
     }
     let _ = writeln!(out, "sabotages noticed: {killed} of {all} ({percent:.1} %)");
     let _ =

@@ -1,8 +1,8 @@
 //! The domain of a formula: the places at which it is undefined, by the zeros of its divisors.
 
-use crate::claims::identities;
 use crate::claims::{Counterexample, DerivedFormulas, Equation, Outcome, Point, Statement, domains, simplest, written};
-use crate::formula::{Exact, Expr, Fun, Node, Normal, Scalar, Symbol};
+use crate::claims::{divisors, identities};
+use crate::formula::{Exact, Expr, Normal, Scalar, Symbol};
 
 /// Shows, for each equation, that what the formulas derive for its left side is undefined exactly where its right side is
 /// zero.
@@ -14,11 +14,13 @@ pub(crate) fn undefined_exactly_where(formulas: &DerivedFormulas, statement: &St
         let derived = formulas.put_into(equation.left.clone());
         match mismatch(equation, &derived) {
             Some(found) => Outcome::Fails(found),
-            None if same_zeros(&divisors(&derived), &equation.right) => {
-                note_multiple(&divisors(&derived), &equation.right);
-                Outcome::PROVED
-            }
-            None => Outcome::Undefined(format!("the divisors of {} are not {}", equation.left, equation.right)),
+            None => match multiple(&divisors(&derived), &equation.right) {
+                Some(identity) => {
+                    identities::record(&DerivedFormulas::default(), &identity);
+                    Outcome::PROVED
+                }
+                None => Outcome::Undefined(format!("the divisors of {} are not {}", equation.left, equation.right)),
+            },
         }
     }))
 }
@@ -74,29 +76,16 @@ fn mismatch(equation: &Equation, derived: &Expr) -> Option<Counterexample> {
 
 /// The product of everything a formula divides by.
 fn divisors(e: &Expr) -> Expr {
-    let parts = e.children().into_iter().fold(Expr::int(1), |product, c| &product * &divisors(c));
-    match e.node() {
-        Node::Div(_, b) => &parts * b,
-        Node::Pow(x, n) if *n < 0 => &parts * x,
-        Node::Call(Fun::Cot, x) => &parts * &Expr::call(Fun::Sin, x),
-        Node::Call(Fun::Tan, x) => &parts * &Expr::call(Fun::Cos, x),
-        _ => parts,
-    }
+    divisors::divisors(e).iter().fold(Expr::int(1), |product, divisor| &product * divisor)
 }
 
-/// Notes that a formula is a number times another, where it is.
-fn note_multiple(a: &Expr, b: &Expr) {
-    let quotient = Normal::of(&(a / b));
-    let times = &(&quotient.numerator() / &quotient.denominator()) * b;
-    let equation = Equation { left: a.clone(), right: times };
-    identities::record(&DerivedFormulas::default(), &equation);
-}
-
-/// Whether two formulas are the same but for a factor that is a number: then they vanish together.
-fn same_zeros(a: &Expr, b: &Expr) -> bool {
+/// That a formula is another one times a number that is not zero: then they vanish together; `None` where it is not.
+fn multiple(a: &Expr, b: &Expr) -> Option<Equation> {
     let quotient = Normal::of(&(a / b));
     let number = |e: &Expr| e.tidy().as_number().is_some_and(|v| !num_traits::Zero::is_zero(&v));
-    quotient.is_defined() && number(&quotient.numerator()) && number(&quotient.denominator())
+    let (above, below) = (quotient.numerator(), quotient.denominator());
+    let is_number = quotient.is_defined() && number(&above) && number(&below);
+    is_number.then(|| Equation { left: a.clone(), right: &(&above / &below) * b })
 }
 
 #[cfg(test)]

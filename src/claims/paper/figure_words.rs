@@ -1,7 +1,8 @@
 //! What the text says that Fig. 7 shows, read off the simulated paths.
 
+use super::symmetry::{all_of, within};
 use crate::claims::simulated::undefined;
-use crate::claims::{Claim, Fault, Outcome, Statement, Status, Verdict};
+use crate::claims::{Claim, Fault, Statement, Status, Verdict};
 use crate::energy_rule::{EndPoint, FIG7_DURATION, Instant, Reading, fig7_case, fig7_stepwise};
 use crate::motion::Drive;
 
@@ -21,23 +22,9 @@ fn end(e_rc: f64, e_tc: f64, reading: Reading) -> Result<EndPoint, Fault> {
     fig7_case(e_rc, e_tc, reading).map_err(|e| undefined(&e))
 }
 
-/// One verdict as the outcome of one case.
-fn once(verdict: Verdict) -> Outcome {
-    match verdict {
-        Ok(()) => Outcome::Holds { cases: 1 },
-        Err(Fault::False(says)) => Outcome::failure(says),
-        Err(Fault::Undefined(why)) => Outcome::Undefined(why),
-        Err(Fault::Outside) => Outcome::Undefined("outside the hypotheses".into()),
-    }
-}
-
 /// Whether what was found is what a statement says of a name.
 fn told(s: &Statement, name: &str, found: f64, tolerance: f64) -> Verdict {
-    let said = s.number(name).unwrap_or(f64::NAN);
-    match (found - said).abs() <= tolerance {
-        true => Ok(()),
-        false => Err(Fault::False(format!("{name} is {found}, the statement says {said}"))),
-    }
+    within(name, found, s.number(name).unwrap_or(f64::NAN), tolerance)
 }
 
 fn dominance() -> Claim {
@@ -48,7 +35,7 @@ fn dominance() -> Claim {
         .sample(
             "along over across of (iii) and (iv); wheel rate at the end over that at the start, yaw rate",
             &[("third", "45.4545"), ("fourth", "0.004995"), ("slower", "0.842920"), ("yaw", "1")],
-            |s, _| once(dominant(s)),
+            |s, _| all_of([dominant(s)]),
         )
 }
 
@@ -77,18 +64,18 @@ fn third_case() -> Claim {
         .sample(
             "heading and path, creeping less ideal, under reading A and without a rule",
             &[("A.turned", "-0.114747"), ("A.went", "0.462617"), ("none.turned", "0"), ("none.went", "0.578983")],
-            |s, _| {
-                once((|| {
-                    let ideal = end(0.0, 0.0, Reading::NonConservative)?;
-                    for (name, reading) in [("A", Reading::A), ("none", Reading::NonConservative)] {
-                        let crept = end(-0.1, -0.002, reading)?;
-                        told(s, &format!("{name}.turned"), crept.phi - ideal.phi, 6e-7)?;
-                        told(s, &format!("{name}.went"), crept.distance - ideal.distance, 6e-7)?;
-                    }
-                    Ok(())
-                })())
-            },
+            |s, _| all_of([third(s)]),
         )
+}
+
+fn third(s: &Statement) -> Verdict {
+    let ideal = end(0.0, 0.0, Reading::NonConservative)?;
+    for (name, reading) in [("A", Reading::A), ("none", Reading::NonConservative)] {
+        let crept = end(-0.1, -0.002, reading)?;
+        told(s, &format!("{name}.turned"), crept.phi - ideal.phi, 6e-7)?;
+        told(s, &format!("{name}.went"), crept.distance - ideal.distance, 6e-7)?;
+    }
+    Ok(())
 }
 
 fn steps() -> Claim {
@@ -97,7 +84,7 @@ fn steps() -> Claim {
         .under("case (ii), reading A")
         .remark("A scheme that rescales what it has rescaled before has no limit; the sentence does not say which is meant.")
         .sample("order between 400 and 4000 steps, rates of the start; and of the middle of a step", &[("order", "1"), ("order_of_middle", "2")], |s, _| {
-            once(order(s, "order", Instant::Start).and_then(|()| order(s, "order_of_middle", Instant::Middle)))
+            all_of([order(s, "order", Instant::Start).and_then(|()| order(s, "order_of_middle", Instant::Middle))])
         })
 }
 
@@ -113,12 +100,13 @@ fn order(s: &Statement, name: &str, instant: Instant) -> Verdict {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::claims::Outcome;
 
     #[test]
     fn a_number_that_is_not_told_is_false() {
         let s = Statement::parse(&[("order", "1")]).unwrap();
         assert!(told(&s, "order", 1.01, 0.02).is_ok());
         assert!(told(&s, "order", 1.03, 0.02).is_err() && told(&s, "other", 1.0, 1.0).is_err());
-        assert!(once(Err(Fault::Outside)) != Outcome::PROVED);
+        assert!(all_of([Err(Fault::Outside)]) != Outcome::PROVED);
     }
 }

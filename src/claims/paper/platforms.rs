@@ -54,7 +54,7 @@ fn growth() -> Claim {
 
 fn both_axles() -> Claim {
     let derived = DerivedFormulas::of("four-wheel-steering");
-    let det = determinant(&derived, ["v_l", "v_t", "phi'"], ["e_rc", "e_tc", "e_f"]);
+    let det = determinant(&derived, &["v_l", "v_t", "phi'"], &["e_rc", "e_tc", "e_f"]);
     base(
         "four-wheel-steering-RT2",
         "a car with both axles steered and one drive angle is realised by RT²",
@@ -79,7 +79,7 @@ fn both_axles() -> Claim {
 
 fn tracks() -> Claim {
     let derived = DerivedFormulas::of("tracked").with_text("r_1", "r").with_text("r_2", "r");
-    let det = determinant(&derived, ["v_l", "v_t", "phi'"], ["e_rc_1", "e_rc_2", "e_tc"]);
+    let det = determinant(&derived, &["v_l", "v_t", "phi'"], &["e_rc_1", "e_rc_2", "e_tc"]);
     base("tracked-R2T", "two tracks with instantaneous centres of rotation are realised by R²T", "corrected theorem (b)2")
         .under("θ̇₁, θ̇₂ ≠ 0 and v_l ≠ 0; track 1 is the right one")
         .remark(

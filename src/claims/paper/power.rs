@@ -73,7 +73,8 @@ fn energy_falls() -> Claim {
         energy_rate(&ideal("unicycle", 0, &[])?, &names, &["v_A", "v_t"])
     });
     Claim::new("E22", Status::Corrected, "m·v² + I·ω_z² + J·ω² stays constant while the vehicle creeps")
-        .at("section 4, simulation; (11), (18); errata E22").corrects(Correction::FalseAsPrinted)
+        .at("section 4, simulation; (11), (18); errata E22")
+        .corrects(Correction::FalseAsPrinted)
         .about(&[11, 18])
         .under("friction of (11) and (18), rigid bodies on a level plane; no forces but those named")
         .remark(

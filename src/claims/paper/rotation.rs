@@ -4,9 +4,8 @@ use super::domain::{disk_coefficient, undefined_exactly_where};
 use super::finite;
 use crate::claims::generated::{Generated, any_drive, vehicles as vehicles_drawn};
 use crate::claims::{
-    Claim, Correction, DerivedFormulas, Domain, Outcome, Sampling, Statement, Status, at_points, prove,
+    Claim, Correction, DerivedFormulas, Domain, Fault, Outcome, Sampling, Statement, Status, Verdict, at_points, prove,
 };
-use crate::claims::{Fault, Verdict};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::Part;
 use crate::model::mechanism;

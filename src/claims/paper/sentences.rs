@@ -58,8 +58,8 @@ fn accelerating() -> Claim {
         ("p", Domain::Positive),
         ("v", Domain::Any),
     ];
-    let pushed = |s: &Statement, sampling: &Sampling| at_points(&driven_disk("p", "0"), s, points, sampling);
-    let driven = |s: &Statement, sampling: &Sampling| at_points(&driven_disk("0", "p"), s, points, sampling);
+    let asked = |disk: DerivedFormulas| move |s: &Statement, sampling: &Sampling| at_points(&disk, s, points, sampling);
+    let (pushed, driven) = (asked(driven_disk("p", "0")), asked(driven_disk("0", "p")));
     Claim::new("accelerating", Status::Corrected, "backward-creep takes place at the acceleration stage")
         .at("section 2: \"this often takes place at the acceleration stage\"")
         .corrects(Correction::LacksHypothesis)
@@ -113,9 +113,8 @@ fn feedback() -> Claim {
         .with_text("eps_x", "V/k*(1/((1 - e_rc)*(1 + e_tc^2)) - 1)")
         .with_text("eps_y", "-V/k*e_tc/((1 - e_rc)*(1 + e_tc^2))");
     let blind = DerivedFormulas::of("unicycle").with_text("theta'", "V/r").with_text("phi", "0");
-    let by_phi = |m: &DerivedFormulas| m.written_out("phi'").derivative(&"phi".into());
-    let level = |e: Expr| e.substitute(&|s| (s.as_str() == "phi").then(|| Expr::int(0)));
-    let slope = level(by_phi(&rest));
+    let by_phi = rest.written_out("phi'").derivative(&"phi".into());
+    let slope = by_phi.substitute(&|s| (s.as_str() == "phi").then(|| Expr::int(0)));
     Claim::new(
         "vision-feedback",
         Status::Proved,

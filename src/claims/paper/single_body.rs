@@ -2,7 +2,7 @@
 
 use crate::claims::{Claim, Correction, DerivedFormulas, Outcome, Sampling, Statement, Status, prove, proving};
 use crate::formula::{Expr, Symbol};
-use crate::mechanism::{Heading, Velocity};
+use crate::mechanism::{Heading, Velocity, integral_proof};
 use crate::model::mechanism;
 use crate::vehicles;
 use std::sync::LazyLock;
@@ -11,15 +11,14 @@ const CHAPTER: &str = "05-single-body";
 const BUILD: &str = "src/model/build.rs";
 const CONSTRAINTS: &str = "src/model/constraints.rs";
 
-/// The determinant of three velocities by three coefficients.
-pub(super) fn determinant(derived: &DerivedFormulas, velocities: [&str; 3], coefficients: [&str; 3]) -> Expr {
-    let rows = velocities.map(|v| {
-        let v = derived.written_out(v);
-        coefficients.map(|e| v.derivative(&Symbol::from(e)))
-    });
-    let minor = |a: usize, b: usize| &(&rows[1][a] * &rows[2][b]) - &(&rows[1][b] * &rows[2][a]);
-    let (p, q, s) = (&rows[0][0] * &minor(1, 2), &rows[0][1] * &minor(0, 2), &rows[0][2] * &minor(0, 1));
-    &(&p - &q) + &s
+/// The determinant of velocities by as many coefficients.
+pub(super) fn determinant(derived: &DerivedFormulas, velocities: &[&str], coefficients: &[&str]) -> Expr {
+    let by_all = |velocity: &&str| {
+        let velocity = derived.written_out(velocity);
+        coefficients.iter().map(|e| velocity.derivative(&Symbol::from(*e))).collect()
+    };
+    let matrix: Vec<Vec<Expr>> = velocities.iter().map(by_all).collect();
+    integral_proof::determinant(&matrix)
 }
 
 /// Two driven wheels, right 1 and left 2, with the velocities of their contacts on the ground.
@@ -30,7 +29,7 @@ pub(crate) fn two_wheels() -> DerivedFormulas {
         .with_text("v_A1", "-r*theta_1'*e_rc_1")
         .with_text("v_A2", "-r*theta_2'*e_rc_2")
         .with_text("radius", "v_l/phi'");
-    let det = determinant(&derived, ["v_l", "v_t", "phi'"], ["e_rc_1", "e_rc_2", "e_tc"]);
+    let det = determinant(&derived, &["v_l", "v_t", "phi'"], &["e_rc_1", "e_rc_2", "e_tc"]);
     derived.with("det", det)
 }
 
@@ -60,7 +59,7 @@ fn on_rows(s: &Statement, _: &Sampling) -> Outcome {
 /// Rear driven and front steered.
 fn car() -> DerivedFormulas {
     let derived = DerivedFormulas::of("car");
-    let det = determinant(&derived, ["v_l", "v_t", "phi'"], ["e_rc", "e_tc", "e_f"]);
+    let det = determinant(&derived, &["v_l", "v_t", "phi'"], &["e_rc", "e_tc", "e_f"]);
     let yaw = derived.written_out("phi'");
     let ideal = |e: Expr| e.substitute(&|s| matches!(s.as_str(), "e_rc" | "e_tc" | "e_f").then(Expr::default));
     let by = |e: &str| ideal(yaw.derivative(&e.into()));
@@ -116,7 +115,9 @@ fn slips() -> Vec<Claim> {
     };
     vec![
         Claim::new("E16", Status::Corrected, "(28) stays exact while (26) creeps with e_rc")
-            .at("section 4, below (28); errata E16").corrects(Correction::FalseAsPrinted).part_of("theorem-single-body")
+            .at("section 4, below (28); errata E16")
+            .corrects(Correction::FalseAsPrinted)
+            .part_of("theorem-single-body")
             .about(&[26, 28])
             .remark(
                 "With equal coefficients the yaw rate creeps too, by 1 − e. (28) stays exact when the slip *velocities* \
@@ -143,7 +144,9 @@ fn slips() -> Vec<Claim> {
                 on_two_wheels,
             ),
         Claim::new("E17", Status::Corrected, "a two-wheeler with unequal creep turns as (28) says")
-            .at("section 4, first theorem; errata E17").corrects(Correction::FalseAsPrinted).part_of("theorem-single-body")
+            .at("section 4, first theorem; errata E17")
+            .corrects(Correction::FalseAsPrinted)
+            .part_of("theorem-single-body")
             .about(&[28])
             .remark(
                 "The counterexample in six numbers. Others, θ̇₁ = θ̇₂ = 4 with e = (0.02, 0.05), r = 1/2, a = 1, \

@@ -144,7 +144,8 @@ fn creep() -> Claim {
     let slow = slow.and_then(|s| s.into_iter().next()).map(|s| s.1).unwrap_or_default();
     let viscous = DerivedFormulas::default().with("limit", slow);
     base("E25", Status::Corrected, "\"similar coefficients of creep can also be defined\" for symmetry constraints, by the viscous dissipation in air")
-        .at("section 4, last paragraph; errata E25").corrects(Correction::FalseAsPrinted)
+        .at("section 4, last paragraph; errata E25")
+        .corrects(Correction::FalseAsPrinted)
         .about(&[20])
         .under("hopper in flight, drag with constants c_b, c_l > 0 or none")
         .remark(

@@ -75,7 +75,8 @@ fn single_body() -> Claim {
     let parallel = || prop::sample::select(vec![Drive::Unicycle, Drive::Differential, Drive::Car, Drive::Tricycle]);
     let measured_yaw = move |s: &Statement, sampling: &Sampling| over(vehicles(parallel(), 3, 0), true, s, sampling);
     Claim::new("theorem-single-body", Status::Corrected, "the creep of all wheeled cars with a single body is realised by type RT")
-        .at("section 4, first theorem; errata E17, E20; corrected theorem (b)").corrects(Correction::FalseAsPrinted)
+        .at("section 4, first theorem; errata E17, E20; corrected theorem (b)")
+        .corrects(Correction::FalseAsPrinted)
         .about(&[26, 27, 28])
         .under(
             "equal slip velocities of the driven contacts, or the yaw rate measured; else R²T for a differential drive and \
@@ -206,7 +207,8 @@ fn trailers() -> Claim {
         move |s: &Statement, sampling: &Sampling| over(vehicles(kinds(), 1, 10), false, s, &sampling.one_in(2));
     let more = move |s: &Statement, sampling: &Sampling| over(vehicles(others(), 1, 10), false, s, &sampling.one_in(2));
     Claim::new("theorem-trailers", Status::Corrected, "the creep of a car with N trailers is realised by type RT^(N+1)")
-        .at("section 4, second theorem; errata E21; corrected theorem (c)").corrects(Correction::FalseAsPrinted)
+        .at("section 4, second theorem; errata E21; corrected theorem (c)")
+        .corrects(Correction::FalseAsPrinted)
         .under(
             "a unicycle tractor; hitch angles not measured: with all trailer headings measured the type is that of the tractor \
              for every N; RT^(N+2) with front steering, R²T^(N+1) with two driven wheels; there is an ideal motion in which \
@@ -264,7 +266,9 @@ fn trailers() -> Claim {
 /// Without a wheel angle among the coordinates all of it is type T.
 fn only_traverse() -> Claim {
     Claim::new("E21", Status::Corrected, "the 4 + N coordinates of the literature give RT^(N+1)")
-        .at("section 4, second theorem, \"simplified coordinates [8,9]\"; errata E21").corrects(Correction::FalseAsPrinted).part_of("theorem-trailers")
+        .at("section 4, second theorem, \"simplified coordinates [8,9]\"; errata E21")
+        .corrects(Correction::FalseAsPrinted)
+        .part_of("theorem-trailers")
         .under("coordinates x, y, φ, δ and N trailers; the speed and the steering rate are the inputs")
         .remark("Those coordinates have N + 2 constraints and all are directions; without a wheel angle there is no type R.")
         .chapter("06-trailers")

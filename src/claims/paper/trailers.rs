@@ -1,9 +1,9 @@
 //! Section 4: a car with N trailers; corrected theorem (c).
 
 use super::domain::undefined_exactly_where;
+use super::single_body::determinant;
 use crate::claims::{Claim, DerivedFormulas, Outcome, Status, prove, proving};
 use crate::formula::{Expr, Symbol};
-use crate::mechanism::integral_proof::determinant;
 use crate::vehicles;
 use crate::vehicles::{Definition, Section, Wheel};
 
@@ -31,16 +31,13 @@ pub(super) fn courses(n: usize) -> DerivedFormulas {
     })
 }
 
-/// One axle behind another without creep, whatever the one ahead does.
+/// Axle n behind another without creep, whatever speed and yaw rate the one ahead has.
 fn ideal_step(n: usize) -> DerivedFormulas {
-    let ideal = on_axle(n).with_text("e_tc", "0").with_text(&format!("e_tc_{n}"), "0").with_text("vt_ahead", "0");
-    match n {
-        1 => ideal.freeing(&["v_l"]).with_text("v_t", "0"),
-        _ => {
-            let (v, vt, rate) = (format!("v_{}", n - 1), format!("vt_{}", n - 1), format!("phi_{}'", n - 1));
-            ideal.freeing(&[&v, &rate]).with_text(&vt, "0")
-        }
-    }
+    let [speed, lateral, rate] = match n {
+        1 => ["v_l", "v_t", "phi'"].map(String::from),
+        _ => [format!("v_{}", n - 1), format!("vt_{}", n - 1), format!("phi_{}'", n - 1)],
+    };
+    on_axle(n).with_text(&format!("e_tc_{n}"), "0").freeing(&[&speed, &rate]).with_text(&lateral, "0")
 }
 
 /// A wheel with one trailer that has a rolling wheel of its own, and derivatives by the coefficient of that wheel.
@@ -90,23 +87,9 @@ fn by_own_coefficient() -> DerivedFormulas {
 /// Determinants of (v_l, v_t, φ̇_1, …) by (e_rc, e_0, e_1, …).
 fn train_determinants() -> DerivedFormulas {
     (1..=2).fold(train(2), |m, n| {
-        let of = train(n);
-        let velocities = ["v_l".to_string(), "v_t".into()].into_iter().chain((1..=n).map(|i| format!("phi_{i}'")));
-        let coefficients: Vec<Symbol> = ["e_rc".into(), "e_0".into()]
-            .into_iter()
-            .chain((1..=n).map(|i| Symbol::new(&format!("e_tc_{i}"))))
-            .collect();
-        let row = |velocity: String| {
-            let written = of.written_out(&velocity);
-            coefficients.iter().map(|e| written.derivative(e)).collect()
-        };
-        let matrix: Vec<Vec<Expr>> = velocities.map(row).collect();
-        m.with(&format!("det_{n}"), determinant(&matrix))
+        let (velocities, coefficients) = (["v_l", "v_t", "phi_1'", "phi_2'"], ["e_rc", "e_0", "e_tc_1", "e_tc_2"]);
+        m.with(&format!("det_{n}"), determinant(&train(n), &velocities[..n + 2], &coefficients[..n + 2]))
     })
-}
-
-pub(crate) fn claims() -> Vec<Claim> {
-    recursion()
 }
 
 pub(super) fn base(id: &str, says: &str, place: &str) -> Claim {
@@ -117,11 +100,11 @@ pub(super) fn base(id: &str, says: &str, place: &str) -> Claim {
         .tests(&["tests/motion/kinematics.rs"])
 }
 
-fn recursion() -> Vec<Claim> {
+pub(crate) fn claims() -> Vec<Claim> {
     const PLACE: &str = "section 4, second theorem; corrected theorem (c)";
     vec![
         base("trailer-recursion", "each axle follows from the one ahead: v_i, v_t,i and θ̇_i with hitch offsets and creep", PLACE)
-.under("d_i ≠ 0; any N: each step is shown for whatever the axle ahead does")
+            .under("d_i ≠ 0; any N: each step is shown for whatever the axle ahead does")
         .proof(
             "the first axle behind the tractor, with h = v_t − c·θ̇ of the hitch",
             &[

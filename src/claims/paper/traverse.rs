@@ -75,7 +75,8 @@ fn coefficient() -> Vec<Claim> {
                 prove(&angle(), s)
             }),
         Claim::new("E12", Status::Corrected, "arctan(v_t/v_l) is the creep angle sin⁻¹(ẋ_c/v) of the introduction")
-            .at("section 1 and (15); errata E12").corrects(Correction::ContestedReading)
+            .at("section 1 and (15); errata E12")
+            .corrects(Correction::ContestedReading)
             .about(&[1, 15])
             .under("v is the whole speed |ṙ| and v_l > 0")
             .remark(
@@ -118,7 +119,8 @@ fn coefficient() -> Vec<Claim> {
             .tests(&["tests/mechanism/forms.rs"])
             .proof("the derived row in the velocities of the body", &[("g", "e_tc*v_l - v_t")], on_sleigh),
         Claim::new("E8", Status::Corrected, "the coefficient (17) is undefined for the sleigh that stands or turns on the spot alone")
-            .at("section 3, below (17); errata E8").corrects(Correction::LacksHypothesis)
+            .at("section 3, below (17); errata E8")
+            .corrects(Correction::LacksHypothesis)
             .about(&[17])
             .remark(
                 "It is undefined exactly where v_l = 0: a pure slide to the side, v_l = 0 and v_t ≠ 0, has no \
@@ -158,7 +160,8 @@ fn signs() -> Vec<Claim> {
             Status::Corrected,
             "a positive e_tc is a creep to the left, and a positive e_rc one backward",
         )
-        .at("sections 2 and 3, left-creep, backward-creep; errata E11").corrects(Correction::FalseAsPrinted)
+        .at("sections 2 and 3, left-creep, backward-creep; errata E11")
+        .corrects(Correction::FalseAsPrinted)
         .under("v_l ≠ 0, resp. ω ≠ 0")
         .remark(
             "Only for v_l > 0, resp. ω > 0: signs are relative to travel, that of e_tc is that of v_l·v_t, that of e_rc \

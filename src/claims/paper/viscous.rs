@@ -227,10 +227,10 @@ fn constant_creep() -> Claim {
     let derived = derived.with("discriminant", discriminant).with_text("e_star'", "e'");
     // z = 1/e and its rate; at z = 0 the creep is infinite and the sleigh stops along its blade.
     let inverse = derived.clone().with_text("e", "1/z").with_text("z'", "-e'*z^2");
-    let at_zero = inverse.written_out("z'").tidy();
-    let at_zero = Normal::of(&at_zero).numerator().substitute(&|s| (s.as_str() == "z").then(|| Expr::int(0)));
-    let below = Normal::of(&inverse.written_out("z'")).denominator();
-    let inverse = inverse.with("z_at_zero'", &at_zero / &below);
+    // Written as one quotient its rate has no e left, and z may be zero in it.
+    let rate = Normal::of(&inverse.written_out("z'"));
+    let at_zero = |e: Expr| e.substitute(&|s| (s.as_str() == "z").then(|| Expr::int(0)));
+    let inverse = inverse.with("z_at_zero'", &at_zero(rate.numerator()) / &at_zero(rate.denominator()));
     // b for which e stays, and the distance between its two places.
     let staying = derived.clone().with_text("b", "-m*omega*(1 + e^2)/e").with_text("root", "-omega*(1 - e^2)/e");
     base("constant-creep", "with the mass centre on the axle e' = −ω − βe − ωe², β = b/m: constant creep e* = (−β + √(β² − 4ω²))/(2ω) exists only for b ≥ 2m|ω|, and |e*| ≤ 1")

@@ -1,6 +1,7 @@
 //! Section 4: the single wheel, equations (22)–(25) and the Proposition.
 
 use super::domain::defined_everywhere;
+use super::single_body::determinant;
 use crate::claims::simulated::{TURN, WHEEL, driven, model, undefined};
 use crate::claims::{
     Claim, Correction, DerivedFormulas, Outcome, Sampling, Statement, Status, near, prove, value_said,
@@ -16,8 +17,7 @@ const BUILD: &str = "src/model/build.rs";
 /// The wheel: its motion, its two rows without creep, the determinant of (v_l, v_t) by (e_rc, e_tc).
 pub(crate) fn wheel() -> DerivedFormulas {
     let derived = DerivedFormulas::of("unicycle");
-    let by = |name: &str, e: &str| derived.written_out(name).derivative(&e.into());
-    let det = &(&by("v_l", "e_rc") * &by("v_t", "e_tc")) - &(&by("v_l", "e_tc") * &by("v_t", "e_rc"));
+    let det = determinant(&derived, &["v_l", "v_t"], &["e_rc", "e_tc"]);
     let x_rate = derived.formula("x'").map(|e| e.derivative(&"phi".into())).unwrap_or_default();
     derived.with("det", det).with("x_by_phi", x_rate)
 }

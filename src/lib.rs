@@ -82,6 +82,8 @@ pub mod extensions;
 pub mod figures;
 #[doc(hidden)]
 pub mod files;
+#[doc(hidden)]
+pub mod fleet;
 pub mod formula;
 mod front_door;
 pub mod mechanism;

@@ -62,6 +62,10 @@ pub enum Stage {
         /// Cases that were there from an earlier run.
         found: usize,
     },
+    /// Robots of a fleet.
+    Robots,
+    /// Robots of a fleet whose runs are fitted with the effects that the fleet needs.
+    FleetFits,
     /// Pieces of evidence of claims.
     Claims {
         /// The claim of the piece that was last run.

@@ -7,6 +7,7 @@ mod discover;
 mod export;
 mod figures;
 mod fit;
+mod fleet;
 mod init;
 mod lists;
 mod man;
@@ -50,6 +51,7 @@ enum Command {
     Discover(discover::Arguments),
     Fit(fit::Arguments),
     Export(export::Arguments),
+    Fleet(fleet::Arguments),
     Simulate(simulate::Arguments),
     Sweep(sweep::Arguments),
     Describe(describe::Arguments),
@@ -80,6 +82,7 @@ impl Cli {
             Command::Discover(arguments) => discover::run(&arguments, self.common.quiet),
             Command::Fit(arguments) => fit::run(&arguments, self.common.quiet),
             Command::Export(arguments) => export::run(&arguments, self.common.quiet),
+            Command::Fleet(arguments) => fleet::run(&arguments, self.common.quiet),
             Command::Simulate(arguments) => simulate::run(&arguments, self.common.quiet),
             Command::Sweep(arguments) => sweep::run(&arguments, self.common.quiet),
             Command::Describe(arguments) => describe::run(&arguments),

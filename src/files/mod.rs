@@ -7,6 +7,7 @@
 pub(crate) mod atomic_write;
 pub mod extension;
 pub mod log;
+pub mod manifest;
 pub mod model;
 mod output_path;
 pub(crate) mod robot_description;
@@ -27,6 +28,7 @@ pub use log::header::read_beginning;
 pub use log::inputs::Inputs;
 pub use log::run::{Apart, Defined, Deviations, Run};
 pub use log::two_clocks::Clock;
+pub use manifest::{FleetLog, Manifest, Robot};
 pub use model::dynamics::{ContactEntry, DynamicsEntry, StartEntry};
 pub use model::effect_entry::EffectEntry;
 pub use model::known::{Known, KnownDynamics, KnownEffect, KnownInput, KnownLaw, KnownParameter, KnownVehicle};

@@ -28,7 +28,7 @@ struct Writer {
 }
 
 /// Every command that writes into `out`; one that is added to the program belongs here.
-const WRITERS: [Writer; 3] = [
+const WRITERS: [Writer; 4] = [
     Writer {
         name: "discover",
         older: &["discover", "short.csv", "--model", "model.toml", "--out", "out"],
@@ -44,7 +44,15 @@ const WRITERS: [Writer; 3] = [
         older: &["figures", "fig1", "fig2", "fig3", "fig5", "--out", "out"],
         newer: &["figures", "fig1", "fig2", "fig3", "fig5", "--e-rc=0.05", "--e-tc=-0.03", "--out", "out"],
     },
+    Writer {
+        name: "fleet",
+        older: &["fleet", "join", "older-rows", "--out", "out"],
+        newer: &["fleet", "join", "newer-rows", "--out", "out"],
+    },
 ];
+
+/// The rows that `fleet join` reads.
+const ROWS: [(&str, &str); 2] = [("older-rows", "older-fleet.csv"), ("newer-rows", "newer-fleet.csv")];
 
 fn start(dir: &Path, arguments: &[&str]) -> Child {
     let mut command = Command::new(env!("CARGO_BIN_EXE_creepage"));
@@ -85,8 +93,13 @@ impl Bench {
             ("short.csv", log(12, 1.0)),
             ("older.csv", log(20_000, 1.0)),
             ("newer.csv", log(20_000, 2.0)),
+            ("older-fleet.csv", "robot,log,model\na,short.csv,model.toml\n".into()),
+            ("newer-fleet.csv", "robot,log,model\na,short.csv,model.toml\nb,short.csv,other.toml\n".into()),
         ];
         inputs.iter().for_each(|(name, text)| fs::write(dir.path().join(name), text).unwrap());
+        for (rows, manifest) in ROWS.iter().filter(|_| writer.name == "fleet") {
+            assert!(start(dir.path(), &["fleet", "map", manifest, "--out", rows]).wait().unwrap().success());
+        }
         let out = dir.path().join("out");
         fs::create_dir(&out).unwrap();
         assert!(start(dir.path(), writer.older).wait().unwrap().success(), "{}", writer.name);

@@ -10,6 +10,7 @@ mod digits;
 mod edges;
 mod export;
 mod fit;
+mod fleet;
 mod hostile_names;
 mod killed;
 #[path = "../support/known.rs"]

@@ -1,4 +1,4 @@
-//! Numbers from statistics, sentences from rendering: no stage of the discrepancy workflow writes English.
+//! Numbers from statistics, sentences from rendering: no stage of the discrepancy workflow, and none of a fleet, writes English.
 
 use std::path::Path;
 
@@ -38,7 +38,9 @@ pub fn files(folder: &Path, found: &mut Vec<std::path::PathBuf>) {
 #[test]
 fn statistics_return_numbers() {
     let mut all = vec![];
-    files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src/discrepancy"), &mut all);
+    for folder in ["src/discrepancy", "src/fleet"] {
+        files(&Path::new(env!("CARGO_MANIFEST_DIR")).join(folder), &mut all);
+    }
     all.sort();
     assert!(all.len() > 60, "{}", all.len());
     let mut found = vec![];

@@ -6,7 +6,7 @@
 mod candidates;
 mod gap;
 mod head;
-mod part;
+pub(crate) mod part;
 mod paths;
 mod residuals;
 mod runs;
@@ -22,11 +22,19 @@ pub use story::{gap_panel, gap_svg};
 
 /// The report as a self-contained page.
 pub fn html(report: &Report, pictures: &Pictures) -> String {
-    let page = Element::new("html").with("lang", "en").child(page_head(report)).child(page_body(report, pictures));
+    let head = policy_head(&format!("creepage: {}", verdict_sentence(report)), &report.provenance.version);
+    page(head, page_body(report, pictures))
+}
+
+/// A document of a head and the main part of its body.
+pub(crate) fn page(head: Element, main: Element) -> String {
+    let body = Element::new("body").child(main);
+    let page = Element::new("html").with("lang", "en").child(head).child(body);
     format!("<!DOCTYPE html>\n{page}\n")
 }
 
-fn page_head(report: &Report) -> Element {
+/// The head of a page that asks for nothing but itself.
+pub(crate) fn policy_head(title: &str, version: &str) -> Element {
     let meta = |name: &'static str, content: &str| Element::new("meta").with("name", name).with("content", content);
     let policy = Element::new("meta")
         .with("http-equiv", "Content-Security-Policy")
@@ -35,8 +43,8 @@ fn page_head(report: &Report) -> Element {
         .child(Element::new("meta").with("charset", "utf-8"))
         .child(policy)
         .child(meta("viewport", "width=device-width, initial-scale=1"))
-        .child(meta("generator", &format!("creepage {}", report.provenance.version)))
-        .child(Element::new("title").text(format!("creepage: {}", verdict_sentence(report))))
+        .child(meta("generator", &format!("creepage {version}")))
+        .child(Element::new("title").text(title))
         .child(Element::new("style").text(style::page()))
 }
 
@@ -51,13 +59,12 @@ fn page_body(report: &Report, pictures: &Pictures) -> Element {
     let mut drawn = figures.into_iter();
     let first = drawn.next().flatten();
     let evidence: Vec<Element> = drawn.flatten().collect();
-    let main = Element::new("main")
+    Element::new("main")
         .child(head::header(report))
         .children(first.map(|f| part::numbered(1, f)))
         .children(head::next_experiment(report))
         .children(part::section("Evidence", numbered_from(2, evidence)))
-        .children(tables::all(report, pictures));
-    Element::new("body").child(main)
+        .children(tables::all(report, pictures))
 }
 
 fn numbered_from(first: usize, figures: Vec<Element>) -> Vec<Element> {

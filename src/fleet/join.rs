@@ -1,0 +1,325 @@
+//! The join of a fleet: from the rows of robots to what the fleet has, which robots differ, and a model for each.
+
+use super::covariates::{Covariate, Kind};
+use super::fits::{Plan, fits};
+use super::needed_effects::{Wanted, wanted};
+use super::outlying_robots::Outlier;
+use super::parameter_model::{Levels, ParameterModel, Said};
+use super::rendering::fleet_text;
+use super::report::*;
+use super::robot_models::RobotModel;
+use super::rows::{Discovered, Fitted, Mapped, Rows, Vote};
+use crate::discrepancy::calibration_report::CalibratedEffect;
+use crate::error::{Error, Result};
+use crate::progress::OnProgress;
+use std::collections::BTreeMap;
+
+/// Probability, over all parameters of a fleet in which no robot is odd, that one is called odd; the same for runs, and for
+/// effects that a robot alone needs.
+const ODD: f64 = 0.002;
+/// Probability, over all parameters of a fleet that no tag matters to, that one is said to matter.
+const TAG: f64 = 0.01;
+/// The tag that dates are.
+const DATE: &str = "date";
+
+/// A fleet's report and what it rests on.
+#[derive(Clone, Debug)]
+pub struct Joined {
+    /// The report.
+    pub report: FleetReport,
+    /// What each robot's runs said, in the order of the manifest.
+    pub fitted: Vec<(Discovered, Fitted)>,
+    /// What was mapped.
+    pub mapped: Mapped,
+    /// The model of each robot.
+    pub models: Vec<RobotModel>,
+}
+
+/// Puts the rows of a fleet together; `incomplete` whether robots may be missing.
+///
+/// # Errors
+/// When rows are missing or cannot be read, or the logs that they are of.
+pub fn join(rows: &Rows, incomplete: bool, progress: &OnProgress) -> Result<Joined> {
+    let mapped = rows.read()?;
+    let found: Vec<(String, Option<Discovered>)> =
+        mapped.manifest.robots.iter().map(|r| Ok((r.robot.clone(), rows.of(&r.robot)?))).collect::<Result<_>>()?;
+    let missing: Vec<String> = found.iter().filter(|(_, d)| d.is_none()).map(|(name, _)| name.clone()).collect();
+    let discovered: Vec<Discovered> = found.into_iter().filter_map(|(_, d)| d).collect();
+    if discovered.is_empty() || !missing.is_empty() && !incomplete {
+        let message =
+            format!("{} of {} robots have no row: {}", missing.len(), mapped.manifest.robots.len(), missing.join(", "));
+        return Err(Error::input(message)
+            .help("run fleet map again with the same manifest; or join what there is with --incomplete"));
+    }
+    let wanted = wanted(&discovered);
+    let plan = Plan::of(&mapped, &discovered, &wanted, ODD)?;
+    let fitted = fits(&mapped, rows, &discovered, &plan, progress)?;
+    let fleet = Fleet { all: discovered.into_iter().zip(fitted).collect(), wanted, plan };
+    let mut report = fleet.report(&missing);
+    let model = |((d, _), r): (&(Discovered, Fitted), &RobotReport)| RobotModel::of(&mapped, &fleet.plan, d, r);
+    let models: Vec<RobotModel> = fleet.all.iter().zip(&report.per_robot).map(model).collect::<Result<_>>()?;
+    report.per_robot.iter_mut().zip(&models).for_each(|(r, m)| r.mend.clone_from(&m.mend));
+    Ok(Joined { report, fitted: fleet.all, mapped, models })
+}
+
+struct Fleet {
+    all: Vec<(Discovered, Fitted)>,
+    wanted: Vec<Wanted>,
+    plan: Plan,
+}
+
+/// A parameter of the fleet with what every run says of it.
+struct Column {
+    effect: String,
+    parameter: String,
+    unit: String,
+    said: Vec<Said>,
+    without: usize,
+}
+
+impl Fleet {
+    fn report(&self, missing: &[String]) -> FleetReport {
+        let columns = self.columns();
+        let tags = self.covariates();
+        let share = columns.len().max(1) as f64;
+        let levels = Levels { odd: ODD / share, tag: TAG / share };
+        let models: Vec<Option<ParameterModel>> =
+            columns.iter().map(|c| ParameterModel::of(&c.said, &tags, levels)).collect();
+        let told: Vec<(&Column, &ParameterModel)> =
+            columns.iter().zip(&models).filter_map(|(c, m)| Some((c, m.as_ref()?))).collect();
+        let mut report = FleetReport {
+            schema: 1,
+            summary: String::new(),
+            robots: self.all.len(),
+            runs: self.all.iter().map(|(_, f)| f.runs.len()).sum(),
+            verdicts: self.verdicts(),
+            effects: self.effects(&columns, &models),
+            not_needed: self.not_needed(),
+            odd_robots: told.iter().flat_map(|(c, m)| self.odd_robots(c, m)).collect(),
+            odd_runs: told.iter().flat_map(|(c, m)| self.odd_runs(c, m)).collect(),
+            own_effects: self.plan.own.iter().flat_map(|(r, votes)| votes.iter().map(|v| own_effect(r, v))).collect(),
+            per_robot: (0..self.all.len()).map(|i| self.robot(i, &told)).collect(),
+            warnings: fleet_text::warnings(missing, &columns.iter().map(|c| (c.name(), c.without)).collect::<Vec<_>>()),
+            version: env!("CARGO_PKG_VERSION").into(),
+        };
+        report.summary = fleet_text::summary(&report);
+        report
+    }
+
+    fn verdicts(&self) -> BTreeMap<String, usize> {
+        let mut counts = BTreeMap::new();
+        self.all.iter().for_each(|(d, _)| *counts.entry(d.verdict().id().to_string()).or_default() += 1);
+        counts
+    }
+
+    /// Every parameter of the effects that the fleet shares.
+    fn columns(&self) -> Vec<Column> {
+        self.plan.shared.iter().flat_map(|target| self.columns_of(target)).collect()
+    }
+
+    fn columns_of(&self, target: &str) -> Vec<Column> {
+        let mut found: BTreeMap<String, Column> = BTreeMap::new();
+        let mut run = 0;
+        for (robot, (_, fitted)) in self.all.iter().enumerate() {
+            for one in &fitted.runs {
+                let effect = one.calibration.effects.iter().find(|e| is_target(e, target));
+                for (name, p) in effect.iter().flat_map(|e| &e.parameters) {
+                    let column = found.entry(name.clone()).or_insert_with(|| Column {
+                        effect: target.into(),
+                        parameter: name.clone(),
+                        unit: p.unit.clone(),
+                        said: vec![],
+                        without: 0,
+                    });
+                    match p.std.filter(|s| s.is_finite() && p.value.is_finite()) {
+                        Some(std) => column.said.push(Said { robot, run, value: p.value, std }),
+                        None => column.without += 1,
+                    }
+                }
+                run += 1;
+            }
+        }
+        found.into_values().collect()
+    }
+
+    /// Tags and dates as columns of a design.
+    fn covariates(&self) -> Vec<Covariate> {
+        let logs = || self.all.iter().flat_map(|(d, _)| &d.robot.logs);
+        let names: std::collections::BTreeSet<&String> = logs().flat_map(|l| l.tags.keys()).collect();
+        let dates: Vec<Option<&str>> = logs().map(|l| l.date.as_deref()).collect();
+        let of_tag = |name: &&String| {
+            let values: Vec<Option<&str>> = logs().map(|l| l.tags.get(*name).map(String::as_str)).collect();
+            Covariate::of(name, &values)
+        };
+        Covariate::of(DATE, &dates).into_iter().chain(names.iter().filter_map(of_tag)).collect()
+    }
+
+    fn effects(&self, columns: &[Column], models: &[Option<ParameterModel>]) -> Vec<FleetEffect> {
+        let of = |target: &String| {
+            let wanted = self.wanted.iter().find(|w| w.target == *target)?;
+            let mine = columns.iter().zip(models).filter(|(c, _)| c.effect == *target);
+            Some(FleetEffect {
+                effect: target.clone(),
+                says: wanted.says.clone(),
+                also_named: wanted.names.iter().filter(|n| *n != target).cloned().collect(),
+                named_by: wanted.robots.len(),
+                delta_bic: wanted.delta_bic,
+                q_value: wanted.q_value,
+                parameters: mine.map(|(c, m)| (c.parameter.clone(), parameter(c, m.as_ref()))).collect(),
+            })
+        };
+        self.plan.shared.iter().filter_map(of).collect()
+    }
+
+    fn not_needed(&self) -> Vec<NotNeeded> {
+        let left = self.wanted.iter().filter(|w| !self.plan.shared.contains(&w.target));
+        left.map(|w| NotNeeded {
+            effect: w.target.clone(),
+            robots: w.robots.clone(),
+            q_value: w.q_value,
+            not_told_apart: self.plan.untold.contains(&w.target),
+        })
+        .collect()
+    }
+
+    fn odd_robots(&self, column: &Column, model: &ParameterModel) -> Vec<OddRobot> {
+        let odd = |o: &Outlier| {
+            let value = model.robots.get(&o.which)?;
+            Some(column.odd(self.name(o.which), None, [value.own, value.own_std, model.mean()], o))
+        };
+        model.odd_robots.iter().filter_map(odd).collect()
+    }
+
+    fn odd_runs(&self, column: &Column, model: &ParameterModel) -> Vec<OddRobot> {
+        let odd = |o: &Outlier| {
+            let said = column.said.iter().find(|s| s.run == o.which)?;
+            let others = model.robots.get(&said.robot)?.own;
+            let run = self.runs().nth(o.which)?.to_string();
+            Some(column.odd(self.name(said.robot), Some(run), [said.value, said.std, others], o))
+        };
+        model.odd_runs.iter().filter_map(odd).collect()
+    }
+
+    fn name(&self, robot: usize) -> &str {
+        &self.all[robot].0.robot.robot
+    }
+
+    fn runs(&self) -> impl Iterator<Item = &str> {
+        self.all.iter().flat_map(|(_, f)| f.runs.iter().map(|r| r.run.as_str()))
+    }
+
+    fn robot(&self, i: usize, told: &[(&Column, &ParameterModel)]) -> RobotReport {
+        let (discovered, fitted) = &self.all[i];
+        let value = |(column, model): &(&Column, &ParameterModel)| {
+            let v = model.robots.get(&i)?;
+            let finite = |x: f64| Some(x).filter(|x| x.is_finite());
+            let told = ValueOfRobot {
+                value: v.value,
+                std: v.std,
+                own: v.own,
+                own_std: v.own_std,
+                z: finite(v.z),
+                q_value: finite(v.q_value),
+                is_odd: model.odd_robots.iter().any(|o| o.which == i),
+            };
+            Some((column.name(), told))
+        };
+        RobotReport {
+            robot: discovered.robot.robot.clone(),
+            runs: fitted.runs.len(),
+            verdict: discovered.verdict().id().into(),
+            values: told.iter().filter_map(value).collect(),
+            mend: vec![],
+        }
+    }
+}
+
+impl Column {
+    fn name(&self) -> String {
+        format!("{} {}", self.effect, self.parameter)
+    }
+
+    fn odd(&self, robot: &str, run: Option<String>, [value, std, others]: [f64; 3], o: &Outlier) -> OddRobot {
+        let mut odd = OddRobot {
+            robot: robot.into(),
+            run,
+            effect: self.effect.clone(),
+            parameter: self.parameter.clone(),
+            value,
+            std,
+            unit: self.unit.clone(),
+            others,
+            z: o.z,
+            p_value: o.p_value,
+            says: String::new(),
+        };
+        odd.says = fleet_text::odd(&odd);
+        odd
+    }
+}
+
+/// Whether a fitted effect is the one that a target names.
+pub(super) fn is_target(e: &CalibratedEffect, target: &str) -> bool {
+    let on = e.on.clone().or_else(|| e.trailer.map(|t| t.to_string()));
+    match target.split_once('@') {
+        Some((id, place)) => e.id == id && on.as_deref() == Some(place),
+        None => e.id == target,
+    }
+}
+
+fn parameter(column: &Column, model: Option<&ParameterModel>) -> FleetParameter {
+    let mean = |m: &ParameterModel| {
+        let (value, half) = (m.mean(), m.mean_half());
+        Interval { value, std: Some(m.mean_std()), interval: [value - half, value + half] }
+    };
+    let between = |m: &ParameterModel| Interval { value: m.model.between, std: None, interval: m.between };
+    FleetParameter {
+        unit: column.unit.clone(),
+        robots: model.map_or(0, |m| m.model.robots),
+        runs: column.said.len(),
+        runs_without: column.without,
+        mean: model.map(mean),
+        between_robots: model.map(between),
+        between_runs: model.filter(|m| m.has_repeats).map(|m| m.model.within),
+        tags: model.map(tags).unwrap_or_default(),
+    }
+}
+
+/// The slopes and contrasts of a model.
+fn tags(model: &ParameterModel) -> Vec<TagEffect> {
+    let mut at = 1;
+    let mut found = vec![];
+    for (covariate, p_value) in &model.covariates {
+        let one = |k: usize, level: Option<String>, against: Option<String>| TagEffect {
+            tag: covariate.tag.clone(),
+            level,
+            against,
+            value: model.model.coefficients[k],
+            std: model.model.covariance[(k, k)].sqrt(),
+            p_value: *p_value,
+        };
+        match &covariate.kind {
+            Kind::Levels { against, levels } => {
+                found.extend(
+                    levels.iter().enumerate().map(|(k, l)| one(at + k, Some(l.clone()), Some(against.clone()))),
+                );
+            }
+            Kind::Number { .. } | Kind::Date => found.push(one(at, None, None)),
+        }
+        at += covariate.width();
+    }
+    found
+}
+
+fn own_effect(robot: &str, vote: &Vote) -> OwnEffect {
+    let mut own = OwnEffect {
+        robot: robot.into(),
+        effect: vote.target.clone(),
+        in_part: vote.in_part,
+        parameters: vote.parameters.clone(),
+        evidence: vote.evidence.clone(),
+        says: String::new(),
+    };
+    own.says = fleet_text::own(&own);
+    own
+}

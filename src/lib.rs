@@ -97,6 +97,8 @@ pub mod numerics;
 #[doc(hidden)]
 pub mod picture;
 #[doc(hidden)]
+pub mod planning;
+#[doc(hidden)]
 pub mod progress;
 #[doc(hidden)]
 pub mod provenance;

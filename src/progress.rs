@@ -62,6 +62,8 @@ pub enum Stage {
         /// Cases that were there from an earlier run.
         found: usize,
     },
+    /// First guesses from which a plan is sought.
+    FirstGuesses,
     /// Robots of a fleet.
     Robots,
     /// Robots of a fleet whose runs are fitted with the effects that the fleet needs.

@@ -144,7 +144,7 @@ fn code(
 }
 
 /// Names and rows of the covariance of a report.
-fn covariance(path: &Path) -> Result<(Vec<String>, Vec<Vec<f64>>)> {
+pub fn covariance(path: &Path) -> Result<(Vec<String>, Vec<Vec<f64>>)> {
     let unreadable =
         |why: String| Error::input(why).at_file(path).help("give a report.json, or the answer of `fit --format json`");
     let text = read_text(path).map_err(|e| unreadable(format!("cannot be read: {}", e.message())))?;

@@ -12,6 +12,7 @@ mod init;
 mod lists;
 mod man;
 mod output;
+mod plan;
 mod progress;
 mod runs;
 mod simulate;
@@ -51,6 +52,7 @@ enum Command {
     Discover(discover::Arguments),
     Fit(fit::Arguments),
     Export(export::Arguments),
+    Plan(plan::Arguments),
     Fleet(fleet::Arguments),
     Simulate(simulate::Arguments),
     Sweep(sweep::Arguments),
@@ -82,6 +84,7 @@ impl Cli {
             Command::Discover(arguments) => discover::run(&arguments, self.common.quiet),
             Command::Fit(arguments) => fit::run(&arguments, self.common.quiet),
             Command::Export(arguments) => export::run(&arguments, self.common.quiet),
+            Command::Plan(arguments) => plan::run(&arguments, self.common.quiet),
             Command::Fleet(arguments) => fleet::run(&arguments, self.common.quiet),
             Command::Simulate(arguments) => simulate::run(&arguments, self.common.quiet),
             Command::Sweep(arguments) => sweep::run(&arguments, self.common.quiet),

@@ -28,7 +28,7 @@ struct Writer {
 }
 
 /// Every command that writes into `out`; one that is added to the program belongs here.
-const WRITERS: [Writer; 4] = [
+const WRITERS: [Writer; 5] = [
     Writer {
         name: "discover",
         older: &["discover", "short.csv", "--model", "model.toml", "--out", "out"],
@@ -43,6 +43,11 @@ const WRITERS: [Writer; 4] = [
         name: "figures",
         older: &["figures", "fig1", "fig2", "fig3", "fig5", "--out", "out"],
         newer: &["figures", "fig1", "fig2", "fig3", "fig5", "--e-rc=0.05", "--e-tc=-0.03", "--out", "out"],
+    },
+    Writer {
+        name: "plan",
+        older: &["plan", "model.toml", "--goal", "1,0,0", "--pieces", "6", "--out", "out/plan.csv"],
+        newer: &["plan", "other.toml", "--goal", "1,0,0", "--pieces", "6", "--out", "out/plan.csv"],
     },
     Writer {
         name: "fleet",

@@ -19,6 +19,7 @@ mod libraries;
 mod odd_paths;
 mod output;
 mod own_states;
+mod plan;
 #[path = "../support/program.rs"]
 mod program;
 mod quiet;

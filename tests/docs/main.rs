@@ -100,7 +100,7 @@ fn commands_of_the_guide_run() {
 
 #[test]
 fn commands_of_daily_use_run() {
-    for page in ["init", "check", "clocks", "formats", "sweep", "fleet"] {
+    for page in ["init", "check", "clocks", "formats", "sweep", "fleet", "plan"] {
         runs(&format!("book/src/guide/{page}.md"));
     }
 }
@@ -129,6 +129,7 @@ fn no_document_with_commands_is_left_out() {
         "book/src/guide/fit.md",
         "book/src/guide/export.md",
         "book/src/guide/fleet.md",
+        "book/src/guide/plan.md",
         "book/src/guide/clocks.md",
         "book/src/guide/formats.md",
         "book/src/guide/sweep.md",

@@ -1,7 +1,7 @@
 //! The stages of the crate in their order, and the stage of a file.
 
 /// The stages in their order, folders and files below `src`. Stages of one line are level: none of them imports another.
-const STAGES: [&[&str]; 49] = [
+const STAGES: [&[&str]; 50] = [
     &["error"],
     &["provenance", "wording", "number_format", "progress", "numerics"],
     &["formula"],
@@ -11,6 +11,7 @@ const STAGES: [&[&str]; 49] = [
     &["files"],
     &["model"],
     &["motion"],
+    &["planning"],
     &["energy_rule"],
     &["equivalence"],
     &["describe"],

@@ -1,0 +1,39 @@
+//! Motion planning with creep: inputs under which a model as it is reaches a pose, by direct multiple shooting (Bock and Plitt
+//! 1984; Betts, *Practical Methods for Optimal Control*, 2010, chapters 3 and 4).
+//!
+//! | step | where |
+//! |---|---|
+//! | inputs as splines whose coefficients bound value and slope | `b_spline`, `limits` |
+//! | motion over a span, with exact derivatives | `shooting` |
+//! | what is to be reached: the sensor's pose, or a trailer's | `tracked_point`, `path` |
+//! | the nonlinear program, and steps to its solution | `transcription`, `quadratic_program`, `sequential_quadratic_programming` |
+//! | where the search begins | `initial_guess` |
+//! | the plan, or why there is none | `planner` |
+//! | rows that a robot can be given, and what becomes of them on a model | `execution`, `plan_table` |
+//! | the job as a whole, its report, its words | `job`, `report`, `plan_text` |
+
+mod b_spline;
+mod execution;
+mod initial_guess;
+mod job;
+mod limits;
+mod path;
+mod plan_table;
+mod plan_text;
+mod planner;
+mod quadratic_program;
+mod report;
+mod sequential_quadratic_programming;
+mod shooting;
+mod tracked_point;
+mod transcription;
+
+pub use execution::{Executed, execute, plan_rows, spread};
+pub use job::{Covariance, Planned, planned};
+pub use limits::{Limit, Said, with_said};
+pub use path::Path;
+pub use plan_table::plan_table;
+pub use plan_text::{infeasible, plan_text};
+pub use planner::{BEND, Infeasible, Plan, Task, plan};
+pub use report::{Ideal, PlanReport, Reached, Spread};
+pub use transcription::Weights;

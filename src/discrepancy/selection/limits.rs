@@ -1,7 +1,10 @@
-//! Effects that are no more than their limits: where what builds up does so at once, the rest of the effect has a name of its own.
+//! Effects that are no more than their limits: where what builds up does so at once, the rest of the effect has a name of its own;
+//! where a scope or a course is not worth its price, the effect holds always.
 
+use super::scopes::is_partial;
 use super::search::{Search, without_effect};
 use crate::discrepancy::estimation::fit::Fit;
+use crate::discrepancy::evidence::information_criterion::bic;
 use crate::discrepancy::selection::choice::SelectedEffect;
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
@@ -10,7 +13,8 @@ use crate::error::Result;
 const DEVIATIONS: f64 = 2.0;
 
 impl Search<'_> {
-    /// The first effect whose length or time is zero within its deviation, and the fit with its limit in its place.
+    /// The first effect whose length or time is zero within its deviation, or whose scope or course the data do not pay for, and
+    /// the fit with its limit in its place.
     pub(crate) fn at_limit(&self, fit: &Fit, chosen: &[SelectedEffect]) -> Result<Option<(Applied, Fit)>> {
         for c in chosen.iter().filter(|c| is_at_once(c)) {
             let Some(limit) = limit(&c.applied, self.library) else { continue };
@@ -19,8 +23,26 @@ impl Search<'_> {
                 return Ok(Some((c.applied.clone(), there)));
             }
         }
+        for c in chosen.iter().filter(|c| is_partial(&c.applied)) {
+            let Some(always) = always(&c.applied, self.library) else { continue };
+            let model = without_effect(&fit.model, &c.applied, &self.before.model).with_effect(always.freed());
+            let Some(there) = self.fit_instead(fit, &model)? else { continue };
+            let n = fit.sample_size.max(there.sample_size);
+            if bic(&there, n) < bic(fit, n) + self.margin() {
+                return Ok(Some((c.applied.clone(), there)));
+            }
+        }
         Ok(None)
     }
+}
+
+/// The same effect without its scope and its course.
+fn always(partial: &Applied, library: &[Effect]) -> Option<Applied> {
+    let is_same = |e: &&Effect| e.id == partial.effect.id && e.on == partial.effect.on && e.scope.is_none();
+    let effect = library.iter().find(is_same)?;
+    let value = |name: &String| partial.effect.parameters.keys().position(|n| n == name).map(|k| partial.values[k]);
+    let values: Option<Vec<f64>> = effect.parameters.keys().map(value).collect();
+    Some(Applied::new(effect, partial.trailer, values?))
 }
 
 /// Whether every value of an effect that is never negative is zero within its deviation. Of one in part that builds up

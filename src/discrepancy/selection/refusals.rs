@@ -5,7 +5,7 @@ use super::input_sampling::{InputSampling, keep_sampled};
 use super::search::{Search, SearchState, find, first_of, forget};
 use crate::discrepancy::estimation::bounds::is_possible;
 use crate::discrepancy::estimation::fit::Fit;
-use crate::discrepancy::estimation::unexplained::remaining;
+use crate::discrepancy::estimation::unexplained::{remaining, remains};
 use crate::discrepancy::evidence::jackknife::Jackknife;
 use crate::discrepancy::evidence::wald_test::{is_one_way, neutral_at_zero};
 use crate::discrepancy::selection::choice::{Refusal, Refused, SelectedEffect, Weighed};
@@ -17,6 +17,8 @@ use crate::progress::OnProgress;
 
 /// Two effects whose values are correlated by this much and more are one effect, or none.
 const RIDGE: f64 = 0.97;
+/// Unless each is worth so many times its price beside the other, and both together leave nothing.
+const TOLD_APART: f64 = 10.0;
 /// A value that moves by so large a share of itself when a law without a name is taken out leans on it.
 const LEANS: f64 = 0.5;
 
@@ -126,7 +128,15 @@ impl Search<'_> {
             .map(|a| (a, Refusal::Impossible))
             .or_else(|| worst(&is_open).map(|a| (a, Refusal::NoDeviation)))
             .or_else(|| worst(&is_cheap).map(|a| (a, Refusal::BelowBar)))
-            .or_else(|| ridge(fit, chosen).map(|(a, other)| (a, Refusal::Ridge(Box::new(other)))))
+            .or_else(|| {
+                ridge(fit, chosen, self.tells_apart(fit)).map(|(a, other)| (a, Refusal::Ridge(Box::new(other))))
+            })
+    }
+
+    /// The evidence at which both of a pair stand though they pull against each other: many times what a parameter costs, where both
+    /// together leave nothing. Beside a rest no evidence is enough, for it may be that of the rest.
+    fn tells_apart(&self, fit: &Fit) -> f64 {
+        if remains(fit) { f64::INFINITY } else { TOLD_APART * self.price(fit) }
     }
 
     /// Whether an effect's values stand out of their own deviations by less than what a parameter costs.
@@ -227,10 +237,13 @@ pub(super) fn names_on_ridge(fit: &Fit) -> bool {
     on_ridge(fit, |pair| !pair.iter().any(|e| is_term(e))).is_some()
 }
 
-/// Of two effects on a ridge, not both of them terms, the one that is worth less, and the other.
-fn ridge(fit: &Fit, chosen: &[SelectedEffect]) -> Option<(Applied, Applied)> {
-    let [a, b] = on_ridge(fit, |pair| !pair.iter().all(|e| is_term(e)))?;
+/// Of two effects on a ridge, not both of them terms, the one that is worth less, and the other; a pair of which each is worth
+/// more than some evidence beside the other is told apart.
+fn ridge(fit: &Fit, chosen: &[SelectedEffect], told_apart: f64) -> Option<(Applied, Applied)> {
     let worth = |e: &Applied| chosen.iter().find(|c| c.applied.same_as(e)).map_or(f64::INFINITY, |c| c.delta_bic);
+    let is_asked =
+        |pair: &[&Applied; 2]| !pair.iter().all(|e| is_term(e)) && pair.iter().any(|e| worth(e) < told_apart);
+    let [a, b] = on_ridge(fit, is_asked)?;
     let (less, more) = if worth(a) < worth(b) { (a, b) } else { (b, a) };
     Some((less.clone(), more.clone()))
 }
@@ -257,12 +270,15 @@ mod tests {
     fn two_on_a_ridge_are_one() {
         let mut fit = fit_of(unicycle(&KNOWN));
         let chosen = chosen(&fit);
-        let mut at = |rho: f64| {
+        let mut within = |rho: f64, told_apart: f64| {
             let mut c = DMatrix::identity(4, 4);
             (c[(0, 3)], c[(3, 0)]) = (rho, rho);
             fit.covariance = Some(c);
-            ridge(&fit, &chosen).map(|(less, more)| [less.effect.id, more.effect.id])
+            ridge(&fit, &chosen, told_apart).map(|(less, more)| [less.effect.id, more.effect.id])
         };
+        // The lesser of the two is worth 50.
+        assert!(within(0.98, 49.0).is_none() && within(0.98, 51.0).is_some());
+        let mut at = |rho: f64| within(rho, f64::INFINITY);
         assert_eq!(at(0.96), None);
         let both = Some(["traction-creep".to_string(), "traverse-creep".to_string()]);
         assert_eq!((at(0.98), at(-0.98)), (both.clone(), both));

@@ -14,6 +14,7 @@ mod hinge_chain;
 mod ideal_limit;
 mod introduction;
 mod laws;
+mod planned_vehicles;
 mod planning;
 mod platforms;
 mod power;
@@ -62,6 +63,7 @@ pub fn all() -> Vec<Claim> {
         towing::claims(),
         ideal_limit::claims(),
         planning::claims(),
+        planned_vehicles::claims(),
         symmetry::claims(),
         hinge_chain::claims(),
         falling_cat::claims(),

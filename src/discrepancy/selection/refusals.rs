@@ -6,6 +6,7 @@ use super::search::{Search, SearchState, find, first_of, forget};
 use crate::discrepancy::estimation::bounds::is_possible;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::unexplained::{remaining, remains};
+use crate::discrepancy::evidence::information_criterion::delta_bic;
 use crate::discrepancy::evidence::jackknife::Jackknife;
 use crate::discrepancy::evidence::wald_test::{is_one_way, neutral_at_zero};
 use crate::discrepancy::selection::choice::{Refusal, Refused, SelectedEffect, Weighed};
@@ -133,6 +134,23 @@ impl Search<'_> {
             })
     }
 
+    /// Whether two effects with names lie on a ridge and are one: a law without a name may be about to take the place of a name.
+    pub(super) fn has_two_that_are_one(&self, fit: &Fit) -> Result<bool> {
+        let (pairs, told_apart) = (all_on_ridge(fit, |pair| !pair.iter().any(|e| is_term(e))), self.tells_apart(fit));
+        if pairs.is_empty() || told_apart.is_infinite() {
+            return Ok(!pairs.is_empty());
+        }
+        for pair in pairs {
+            for effect in pair {
+                let Some(smaller) = self.without(fit, effect)? else { return Ok(true) };
+                if delta_bic(fit, &smaller, fit.sample_size.max(smaller.sample_size)) < told_apart {
+                    return Ok(true);
+                }
+            }
+        }
+        Ok(false)
+    }
+
     /// The evidence at which both of a pair stand though they pull against each other: many times what a parameter costs, where both
     /// together leave nothing. Beside a rest no evidence is enough, for it may be that of the rest.
     fn tells_apart(&self, fit: &Fit) -> f64 {
@@ -219,22 +237,17 @@ fn moved(fit: &Fit, other: &Fit, effect: &Applied) -> Option<f64> {
     (far > 0.0).then(|| f64::sqrt(by / far))
 }
 
-/// The first pair of effects on a ridge, of the pairs that are asked for.
-fn on_ridge(fit: &Fit, is_asked: impl Fn(&[&Applied; 2]) -> bool) -> Option<[&Applied; 2]> {
-    let covariance = fit.covariance.as_ref()?;
+/// The pairs of effects on a ridge, of the pairs that are asked for.
+fn all_on_ridge(fit: &Fit, is_asked: impl Fn(&[&Applied; 2]) -> bool) -> Vec<[&Applied; 2]> {
+    let Some(covariance) = fit.covariance.as_ref() else { return vec![] };
     let correlation = |i: usize, j: usize| covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt();
     let along = |[a, b]: &[&Applied; 2]| {
         let [a, b] = [a, b].map(|e| neutral_at_zero(fit, e));
         a.iter().any(|(i, _)| b.iter().any(|(j, _)| correlation(*i, *j).abs() > RIDGE))
     };
     let effects: Vec<&Applied> = fit.model.free_effects().collect();
-    let mut pairs = effects.iter().enumerate().flat_map(|(k, a)| effects[k + 1..].iter().map(move |b| [*a, *b]));
-    pairs.find(|pair| is_asked(pair) && along(pair))
-}
-
-/// Whether two effects with names lie on a ridge; a law without a name may be about to take the place of a name.
-pub(super) fn names_on_ridge(fit: &Fit) -> bool {
-    on_ridge(fit, |pair| !pair.iter().any(|e| is_term(e))).is_some()
+    let pairs = effects.iter().enumerate().flat_map(|(k, a)| effects[k + 1..].iter().map(move |b| [*a, *b]));
+    pairs.filter(|pair| is_asked(pair) && along(pair)).collect()
 }
 
 /// Of two effects on a ridge, not both of them terms, the one that is worth less, and the other; a pair of which each is worth
@@ -243,7 +256,7 @@ fn ridge(fit: &Fit, chosen: &[SelectedEffect], told_apart: f64) -> Option<(Appli
     let worth = |e: &Applied| chosen.iter().find(|c| c.applied.same_as(e)).map_or(f64::INFINITY, |c| c.delta_bic);
     let is_asked =
         |pair: &[&Applied; 2]| !pair.iter().all(|e| is_term(e)) && pair.iter().any(|e| worth(e) < told_apart);
-    let [a, b] = on_ridge(fit, is_asked)?;
+    let [a, b] = all_on_ridge(fit, is_asked).into_iter().next()?;
     let (less, more) = if worth(a) < worth(b) { (a, b) } else { (b, a) };
     Some((less.clone(), more.clone()))
 }
@@ -284,7 +297,7 @@ mod tests {
         assert_eq!((at(0.98), at(-0.98)), (both.clone(), both));
     }
 
-    /// Names on a ridge are not built upon, a name and a law without one are.
+    /// Names on a ridge are asked for, a name and a law without one are not.
     #[test]
     fn a_law_may_take_the_place_of_a_name_on_its_ridge() {
         let bare = unicycle(&[]);
@@ -294,7 +307,8 @@ mod tests {
         let are_on_ridge = |pair: [&Applied; 2], rho: f64| {
             let model = pair.into_iter().cloned().fold(bare.clone(), crate::model::Model::with_effect);
             let covariance = Some(DMatrix::from_row_slice(2, 2, &[1.0, rho, rho, 1.0]));
-            names_on_ridge(&Fit { covariance, ..fit_of(model) })
+            let fit = Fit { covariance, ..fit_of(model) };
+            !all_on_ridge(&fit, |pair| !pair.iter().any(|e| is_term(e))).is_empty()
         };
         assert!(are_on_ridge([&name, &other], 0.98) && !are_on_ridge([&name, &other], 0.96));
         assert!(!are_on_ridge([&name, &term], 0.98));

@@ -2,7 +2,6 @@
 
 use super::candidates::Ranking;
 use super::input_noise;
-use super::refusals::names_on_ridge;
 use super::search::{Addition, Candidate, Search, SearchState};
 use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
 use crate::discrepancy::estimation::fit::Fit;
@@ -53,11 +52,13 @@ impl Search<'_> {
         let counts = |s: &Candidate, fit: &Fit| s.delta_bic > bar(s) && independent(fit);
         let inside = |s: &Candidate| !vanishes(&s.applied) && is_possible(&s.applied);
         // What noise of the inputs asks for is not built upon, nor two effects that are one.
-        let is_sound = |fit: &Fit| input_noise::taken_back(self.problem, fit).is_none() && !names_on_ridge(fit);
-        let good = fitted.filter(|(s, fit)| counts(s, fit) && inside(s) && repeats(fit, &s.applied) && is_sound(fit));
-        let singles: Vec<(Candidate, Fit)> = good.collect();
-        let pair = self.pair(base, &ranked.pairs, singles.first().map(|(_, f)| f))?.filter(|(_, fit)| is_sound(fit));
-        let singles = singles.into_iter().map(|(s, fit)| (vec![s.applied], fit));
+        let is_sound =
+            |fit: &Fit| Ok(input_noise::taken_back(self.problem, fit).is_none() && !self.has_two_that_are_one(fit)?);
+        let good = fitted.filter(|(s, fit)| counts(s, fit) && inside(s) && repeats(fit, &s.applied));
+        let sound = |of: Addition| Ok(is_sound(&of.1)?.then_some(of));
+        let singles = good.map(|(s, fit)| sound((vec![s.applied], fit)));
+        let singles: Vec<Addition> = singles.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
+        let pair = self.pair(base, &ranked.pairs, singles.first().map(|(_, f)| f))?.map(sound).transpose()?.flatten();
         self.predicting(base, pair.into_iter().chain(singles))
     }
 

@@ -19,7 +19,7 @@ use crate::progress::OnProgress;
 /// Two effects whose values are correlated by this much and more are one effect, or none.
 const RIDGE: f64 = 0.97;
 /// Unless each is worth so many times its price beside the other, and both together leave nothing.
-const TOLD_APART: f64 = 10.0;
+const TOLD_APART: f64 = 5.0;
 /// A value that moves by so large a share of itself when a law without a name is taken out leans on it.
 const LEANS: f64 = 0.5;
 

@@ -5,6 +5,7 @@
 //! are not known here; the caller passes what may stand in a model file as [`Known`].
 
 pub(crate) mod atomic_write;
+mod csv_quoting;
 pub mod extension;
 pub mod log;
 pub mod manifest;
@@ -17,6 +18,7 @@ mod write_together;
 
 pub(crate) use atomic_write::{put_in_place, write_whole_with};
 pub use atomic_write::{write_whole, write_whole_by};
+pub(crate) use csv_quoting::quoted;
 pub use extension::claims::{ClaimEntry, read_claims};
 pub use extension::effects::{EffectsFile, UserEffect};
 pub use extension::user_vehicle::{UserConstraint, UserPart, UserVehicle};

@@ -1,15 +1,15 @@
 //! The join of a fleet: from the rows of robots to what the fleet has, which robots differ, and a model for each.
 
-use super::covariates::{Covariate, Kind};
+use super::column::{Column, columns_of, parameter};
+use super::covariates::Covariate;
 use super::fits::{Plan, fits};
 use super::needed_effects::{Wanted, wanted};
 use super::outlying_robots::Outlier;
-use super::parameter_model::{Levels, ParameterModel, Said};
+use super::parameter_model::{Levels, ParameterModel};
 use super::rendering::fleet_text;
 use super::report::*;
 use super::robot_models::RobotModel;
 use super::rows::{Discovered, Fitted, Mapped, Rows, Vote};
-use crate::discrepancy::calibration_report::CalibratedEffect;
 use crate::error::{Error, Result};
 use crate::progress::OnProgress;
 use std::collections::BTreeMap;
@@ -68,15 +68,6 @@ struct Fleet {
     plan: Plan,
 }
 
-/// A parameter of the fleet with what every run says of it.
-struct Column {
-    effect: String,
-    parameter: String,
-    unit: String,
-    said: Vec<Said>,
-    without: usize,
-}
-
 impl Fleet {
     fn report(&self, missing: &[String]) -> FleetReport {
         let columns = self.columns();
@@ -114,32 +105,7 @@ impl Fleet {
 
     /// Every parameter of the effects that the fleet shares.
     fn columns(&self) -> Vec<Column> {
-        self.plan.shared.iter().flat_map(|target| self.columns_of(target)).collect()
-    }
-
-    fn columns_of(&self, target: &str) -> Vec<Column> {
-        let mut found: BTreeMap<String, Column> = BTreeMap::new();
-        let mut run = 0;
-        for (robot, (_, fitted)) in self.all.iter().enumerate() {
-            for one in &fitted.runs {
-                let effect = one.calibration.effects.iter().find(|e| is_target(e, target));
-                for (name, p) in effect.iter().flat_map(|e| &e.parameters) {
-                    let column = found.entry(name.clone()).or_insert_with(|| Column {
-                        effect: target.into(),
-                        parameter: name.clone(),
-                        unit: p.unit.clone(),
-                        said: vec![],
-                        without: 0,
-                    });
-                    match p.std.filter(|s| s.is_finite() && p.value.is_finite()) {
-                        Some(std) => column.said.push(Said { robot, run, value: p.value, std }),
-                        None => column.without += 1,
-                    }
-                }
-                run += 1;
-            }
-        }
-        found.into_values().collect()
+        self.plan.shared.iter().flat_map(|target| columns_of(&self.all, target)).collect()
     }
 
     /// Tags and dates as columns of a design.
@@ -232,83 +198,6 @@ impl Fleet {
             mend: vec![],
         }
     }
-}
-
-impl Column {
-    fn name(&self) -> String {
-        format!("{} {}", self.effect, self.parameter)
-    }
-
-    fn odd(&self, robot: &str, run: Option<String>, [value, std, others]: [f64; 3], o: &Outlier) -> OddRobot {
-        let mut odd = OddRobot {
-            robot: robot.into(),
-            run,
-            effect: self.effect.clone(),
-            parameter: self.parameter.clone(),
-            value,
-            std,
-            unit: self.unit.clone(),
-            others,
-            z: o.z,
-            p_value: o.p_value,
-            says: String::new(),
-        };
-        odd.says = fleet_text::odd(&odd);
-        odd
-    }
-}
-
-/// Whether a fitted effect is the one that a target names.
-pub(super) fn is_target(e: &CalibratedEffect, target: &str) -> bool {
-    let on = e.on.clone().or_else(|| e.trailer.map(|t| t.to_string()));
-    match target.split_once('@') {
-        Some((id, place)) => e.id == id && on.as_deref() == Some(place),
-        None => e.id == target,
-    }
-}
-
-fn parameter(column: &Column, model: Option<&ParameterModel>) -> FleetParameter {
-    let mean = |m: &ParameterModel| {
-        let (value, half) = (m.mean(), m.mean_half());
-        Interval { value, std: Some(m.mean_std()), interval: [value - half, value + half] }
-    };
-    let between = |m: &ParameterModel| Interval { value: m.model.between, std: None, interval: m.between };
-    FleetParameter {
-        unit: column.unit.clone(),
-        robots: model.map_or(0, |m| m.model.robots),
-        runs: column.said.len(),
-        runs_without: column.without,
-        mean: model.map(mean),
-        between_robots: model.map(between),
-        between_runs: model.filter(|m| m.has_repeats).map(|m| m.model.within),
-        tags: model.map(tags).unwrap_or_default(),
-    }
-}
-
-/// The slopes and contrasts of a model.
-fn tags(model: &ParameterModel) -> Vec<TagEffect> {
-    let mut at = 1;
-    let mut found = vec![];
-    for (covariate, p_value) in &model.covariates {
-        let one = |k: usize, level: Option<String>, against: Option<String>| TagEffect {
-            tag: covariate.tag.clone(),
-            level,
-            against,
-            value: model.model.coefficients[k],
-            std: model.model.covariance[(k, k)].sqrt(),
-            p_value: *p_value,
-        };
-        match &covariate.kind {
-            Kind::Levels { against, levels } => {
-                found.extend(
-                    levels.iter().enumerate().map(|(k, l)| one(at + k, Some(l.clone()), Some(against.clone()))),
-                );
-            }
-            Kind::Number { .. } | Kind::Date => found.push(one(at, None, None)),
-        }
-        at += covariate.width();
-    }
-    found
 }
 
 fn own_effect(robot: &str, vote: &Vote) -> OwnEffect {

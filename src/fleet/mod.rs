@@ -8,8 +8,9 @@
 //! | `fit` of these on every run, significant or not | `fits` |
 //! | robots, runs, tags and wear: a mixed model by restricted maximum likelihood | `linear_mixed_model`, `covariates`, `parameter_model` |
 //! | robots and runs that differ | `outlying_robots` |
-//! | the report, a page, a table, a model for each robot | `join`, `report`, `rendering`, `robot_models` |
+//! | the report, a page, a table, a model for each robot | `join`, `column`, `report`, `rendering`, `robot_models` |
 
+mod column;
 mod covariates;
 mod false_discovery_rate;
 mod fits;

@@ -2,7 +2,7 @@
 
 use super::execution::{Executed, plan_rows};
 use super::planner::Plan;
-use crate::files::{ColumnEntry, Kind, ModelFile};
+use crate::files::{ColumnEntry, Kind, ModelFile, quoted};
 use crate::model::Model;
 use crate::motion::Timing;
 use std::fmt::Write;
@@ -63,11 +63,4 @@ fn csv(columns: &[Column]) -> String {
         let _ = writeln!(out, "{}", cells.join(","));
     }
     out
-}
-
-fn quoted(name: &str) -> String {
-    match name.contains([',', '"', '\n']) {
-        true => format!("\"{}\"", name.replace('"', "\"\"")),
-        false => name.to_string(),
-    }
 }

@@ -1,6 +1,8 @@
 //! A fleet as a table: a row for every value of every run, as CSV and as Apache Parquet.
 
-use crate::fleet::join::{Joined, is_target};
+use crate::files::quoted;
+use crate::fleet::column::is_target;
+use crate::fleet::join::Joined;
 use std::fmt::Write;
 
 /// The columns before the tags, and whether they hold numbers.
@@ -74,14 +76,6 @@ pub fn fleet_table(joined: &Joined) -> String {
         let _ = writeln!(out, "{}", row.iter().map(cell).collect::<Vec<_>>().join(","));
     }
     out
-}
-
-/// A cell, in quotation marks where it needs them (RFC 4180).
-fn quoted(cell: &str) -> String {
-    match cell.contains([',', '"', '\n', '\r']) {
-        true => format!("\"{}\"", cell.replace('"', "\"\"")),
-        false => cell.to_string(),
-    }
 }
 
 /// The table as Apache Parquet.

@@ -1,7 +1,7 @@
 //! `discover` names what was hidden, measures it, mends the gap, and names nothing where nothing is hidden.
 
 use crate::read_back::read_back;
-use crate::simulator::{Hidden, Noise, Scenario, Tractor};
+use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
 use creepage::discrepancy::discovery::Discovery;
 use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::report::{Report, Verdict};
@@ -133,6 +133,26 @@ fn wheel_radius_mismatch_of_a_differential_drive() {
 fn steering_offset_of_a_car() {
     let s = drive(Tractor::Car, vec![Hidden::SteeringOffset { offset: 0.02 }], 20);
     named(&s, &[("steering-offset", &[("offset", 0.02)]), ("front-traverse-creep", &[("e_tc", 0.02)])]);
+}
+
+/// On a drive that leans to one side both pull against each other, and each is worth many times its price beside the other.
+#[test]
+fn steering_offset_and_understeer_of_a_car_that_turns_mostly_left() {
+    let hidden = vec![Hidden::SteeringOffset { offset: 0.012 }, Hidden::Understeer { gradient: 0.0098 }];
+    let profile = Profile {
+        speed: Signal::constant(4.0) + Signal::wave(1.2, 17.0, 0.4),
+        turn: Signal::constant(0.05) + Signal::wave(0.25, 9.0, 2.0),
+    };
+    let noise = Noise { position: 0.02, heading: 0.01 };
+    let scenario = Scenario { profile, noise, duration: 60.0, ..drive(Tractor::Car, hidden, 301) };
+    let report = discovery(&scenario).report;
+    let mut found: Vec<(&str, bool)> = report
+        .effects
+        .iter()
+        .map(|e| (e.id.as_str(), e.scope.is_none() && e.parameters.values().all(|p| p.course.is_none())))
+        .collect();
+    found.sort_unstable();
+    assert_eq!(found, [("steering-offset", true), ("understeer", true)], "{:?}", report.refuted);
 }
 
 #[test]

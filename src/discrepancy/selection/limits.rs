@@ -92,4 +92,16 @@ mod tests {
         let within = limited.effect.within(Scope::Above(1.0));
         assert!(of(9.0, limited.clone()) && !of(9.0, Applied { effect: within, ..limited }));
     }
+    /// What is left of an effect in part is the effect of the library with its values.
+    #[test]
+    fn an_effect_without_its_scope_and_course_has_its_own_values() {
+        let moving = crate::effects::named("yaw-rate-bias").unwrap().drifting("bias", 3.0).unwrap();
+        let course = Applied::new(&moving, None, vec![0.01, 0.002]);
+        let rate = course.effect.parameters.keys().position(|n| n == "bias").unwrap();
+        let whole = always(&course, all()).unwrap();
+        assert_eq!((whole.effect.course.is_none(), &whole.values[..]), (true, &[course.values[rate]][..]));
+        let within = Applied { effect: whole.effect.within(Scope::Above(1.0)), ..whole.clone() };
+        assert_eq!(always(&within, all()), Some(whole));
+        assert_eq!(always(&within, &[]), None);
+    }
 }

@@ -9,6 +9,7 @@ use creepage::discrepancy::request::Request;
 use creepage::effects;
 use creepage::progress::unheard;
 use creepage::{OnProgress, Progress, Stage};
+use std::f64::consts::FRAC_PI_2;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 
@@ -138,13 +139,16 @@ fn steering_offset_of_a_car() {
 /// On a drive that leans to one side both pull against each other, and each is worth many times its price beside the other.
 #[test]
 fn steering_offset_and_understeer_of_a_car_that_turns_mostly_left() {
-    let hidden = vec![Hidden::SteeringOffset { offset: 0.012 }, Hidden::Understeer { gradient: 0.0098 }];
+    let hidden = vec![Hidden::SteeringOffset { offset: 0.0122 }, Hidden::Understeer { gradient: 0.00976 }];
+    let phase = 300_001.0_f64;
     let profile = Profile {
-        speed: Signal::constant(4.0) + Signal::wave(1.2, 17.0, 0.4),
-        turn: Signal::constant(0.05) + Signal::wave(0.25, 9.0, 2.0),
+        speed: Signal::constant(4.0) + Signal::wave(1.2, 17.0, phase),
+        turn: Signal::constant(0.05) + Signal::wave(0.25, 9.0 + 3.0 * phase.sin(), FRAC_PI_2 + phase),
     };
     let noise = Noise { position: 0.02, heading: 0.01 };
-    let scenario = Scenario { profile, noise, duration: 60.0, ..drive(Tractor::Car, hidden, 301) };
+    let mut scenario = Scenario { profile, noise, duration: 60.0, rate: 20.0, ..drive(Tractor::Car, hidden, 300_001) };
+    scenario.parameters.wheelbase = 2.6;
+    scenario.parameters.wheel_radius = 0.3;
     let report = discovery(&scenario).report;
     let mut found: Vec<(&str, bool)> = report
         .effects

@@ -51,5 +51,5 @@ pub use write_together::write_all_or_nothing;
 
 pub(crate) use log::cells::is_without_names;
 pub(crate) use log::csv_cell::Cell;
-pub(crate) use log::time_stamp::is_iso_8601;
+pub(crate) use log::time_stamp::{is_iso_8601, iso_8601};
 pub(crate) use toml::suggestions::{advice, shown};

@@ -1,10 +1,11 @@
 //! Covariates of runs: tags as contrasts to the most common level (Searle 1987, treatment coding), numbers and dates as
 //! slopes about their mean.
 
+use crate::files::iso_8601;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Days of a year and of the months before a month.
-const DAYS_BEFORE: [i64; 12] = [0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334];
+/// Nanoseconds of a day.
+const DAY: f64 = 86_400e9;
 
 /// A tag of the runs as columns of a design.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,19 +81,10 @@ impl Covariate {
     }
 }
 
-/// Days since 1970-01-01 of a date YYYY-MM-DD, with what follows it left out.
+/// Days since 1970 of a date, with a time of day behind it or without.
 pub fn days(text: &str) -> Option<f64> {
-    let date = text.get(..10)?;
-    let mut parts = date.split('-').map(|p| p.parse::<i64>().ok());
-    let (year, month, day) = (parts.next()??, parts.next()??, parts.next()??);
-    if parts.next().is_some() || !(1..=12).contains(&month) || !(1..=31).contains(&day) {
-        return None;
-    }
-    let leap = year % 4 == 0 && year % 100 != 0 || year % 400 == 0;
-    let before = year - 1;
-    let years = 365 * before + before / 4 - before / 100 + before / 400;
-    let within = DAYS_BEFORE[usize::try_from(month - 1).ok()?] + i64::from(leap && month > 2) + day - 1;
-    Some((years + within - 719_162) as f64)
+    let found = iso_8601(text).or_else(|| iso_8601(&format!("{text}T00:00:00")));
+    found.map(|nanoseconds| nanoseconds as f64 / DAY)
 }
 
 #[cfg(test)]
@@ -107,7 +99,7 @@ mod tests {
     fn dates_are_days() {
         assert_eq!(
             ["1970-01-01", "2026-11-28", "2024-03-01T08:00:00Z"].map(days),
-            [Some(0.0), Some(20785.0), Some(19783.0)]
+            [Some(0.0), Some(20785.0), Some(19783.0 + 1.0 / 3.0)]
         );
         assert_eq!(["2026-13-01", "28.11.2026", "2026-1-1", "soon"].map(days), [None; 4]);
         let dated = of(&["2026-01-01", "2026-01-03", "2026-01-05"]).unwrap();

@@ -194,3 +194,28 @@ fn floors_wear_an_effect_of_one_robot_and_an_odd_run_are_told_apart() {
     let own = fs::read_to_string(dir.path().join("fleet/robots/r04.toml")).unwrap();
     assert!(own.contains("lever-arm"));
 }
+
+/// The table as Parquet has the rows and the numbers of the table as CSV.
+#[cfg(feature = "parquet")]
+#[test]
+fn parquet_holds_what_the_table_holds() {
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+    use parquet::record::Field;
+    let dir = tempfile::tempdir().unwrap();
+    done(dir.path(), &["fleet", "map", &bundled(), "--out", "rows"]);
+    done(dir.path(), &["fleet", "join", "rows", "--out", "fleet"]);
+    let table = fs::read_to_string(dir.path().join("fleet/fleet.csv")).unwrap();
+    let file = fs::File::open(dir.path().join("fleet/fleet.parquet")).unwrap();
+    let reader = SerializedFileReader::new(file).unwrap();
+    let cell = |field: &Field| match field {
+        Field::Str(words) => words.clone(),
+        Field::Double(v) => format!("{v:?}"),
+        Field::Null => String::new(),
+        other => panic!("{other:?}"),
+    };
+    let rows = reader.get_row_iter(None).unwrap().map(Result::unwrap);
+    let rows: Vec<String> =
+        rows.map(|row| row.get_column_iter().map(|(_, f)| cell(f)).collect::<Vec<_>>().join(",")).collect();
+    let expected: Vec<&str> = table.lines().skip(1).collect();
+    assert_eq!(rows, expected);
+}

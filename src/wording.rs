@@ -14,6 +14,11 @@ pub(crate) const HELD: &str = "the measured pose repeats";
 /// Why rows are left out in which something else moves the vehicle, or nothing.
 pub(crate) const LIFTED: &str = "the vehicle is lifted or carried";
 
+/// A count with its noun, such as "1 run" or "3 runs".
+pub(crate) fn counted(count: usize, noun: &str) -> String {
+    if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
+}
+
 /// Names as a phrase: "a", "a and b", "a, b and c".
 pub(crate) fn listed<S: Borrow<str>>(names: impl IntoIterator<Item = S>) -> String {
     let names: Vec<S> = names.into_iter().collect();

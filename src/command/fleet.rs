@@ -2,6 +2,7 @@
 
 use super::output::{Format, print, print_answer};
 use super::progress::ProgressLine;
+use super::user_catalogues::UserCatalogues;
 use clap::{Args, Subcommand};
 use creepage::files::{Manifest, write_all_or_nothing};
 use creepage::fleet::{Joined, Mapped, Rows, fleet_html, fleet_table, fleet_text, join, map};
@@ -49,12 +50,8 @@ struct MapArguments {
     /// Ask the robots of the I-th of N parts, counted from 1
     #[arg(long, value_name = "I/N", allow_hyphen_values = true)]
     shard: Option<Shard>,
-    /// Vehicles of your own
-    #[arg(long, value_name = "FILE.toml")]
-    vehicles: Option<PathBuf>,
-    /// Effects of your own; they join the library
-    #[arg(long, value_name = "FILE.toml")]
-    effects: Option<PathBuf>,
+    #[command(flatten)]
+    own: UserCatalogues,
 }
 
 /// Put the rows of a fleet together
@@ -91,7 +88,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
 
 fn run_map(arguments: &MapArguments, quiet: bool) -> Result<()> {
     let manifest = Manifest::read(&arguments.manifest)?;
-    let (vehicles, effects) = (arguments.vehicles.clone(), arguments.effects.clone());
+    let [vehicles, effects] = arguments.own.files().map(|path| path.map(PathBuf::from));
     let mapped = Mapped { schema: 1, manifest, vehicles, effects };
     let progress = ProgressLine::new(quiet);
     let shard = arguments.shard.unwrap_or(Shard::WHOLE);

@@ -41,6 +41,11 @@ impl UserVehicles {
 }
 
 impl UserCatalogues {
+    /// The files of vehicles and of effects, if they are given.
+    pub fn files(&self) -> [Option<&Path>; 2] {
+        [self.vehicles.file(), self.effects.as_deref()]
+    }
+
     /// The vehicles, and the library of effects.
     pub fn catalogues(&self) -> Result<(Vec<Vehicle>, Vec<Effect>)> {
         let vehicles = self.vehicles.all()?;

@@ -6,6 +6,7 @@ use super::parameter_model::{ParameterModel, Said};
 use super::rendering::fleet_text;
 use super::report::{FleetParameter, Interval, OddRobot, TagEffect};
 use super::rows::{Discovered, Fitted};
+use crate::discrepancy::calibration::targets::Target;
 use crate::discrepancy::calibration_report::CalibratedEffect;
 use std::collections::BTreeMap;
 
@@ -77,11 +78,7 @@ pub(super) fn columns_of(all: &[(Discovered, Fitted)], target: &str) -> Vec<Colu
 
 /// Whether a fitted effect is the one that a target names.
 pub(super) fn is_target(e: &CalibratedEffect, target: &str) -> bool {
-    let on = e.on.clone().or_else(|| e.trailer.map(|t| t.to_string()));
-    match target.split_once('@') {
-        Some((id, place)) => e.id == id && on.as_deref() == Some(place),
-        None => e.id == target,
-    }
+    Target::of(&e.id, e.on.as_deref(), e.trailer).to_string() == target
 }
 
 /// The parameter as the report has it.

@@ -1,7 +1,7 @@
 //! Fits of every run of a fleet with the effects that the fleet needs, significant or not: a run that says little of an
 //! effect says that, and is not left out for it.
 
-use super::map::model_and_runs;
+use super::map::{model, model_and_runs};
 use super::needed_effects::Wanted;
 use super::rows::{Discovered, Fitted, FittedRun, Mapped, Rows, Vote, identity};
 use crate::discrepancy::calibration::calibrate::calibrate;
@@ -50,19 +50,14 @@ impl Plan {
         }
         let known = |v: &Vote| wanted.iter().any(|w| plan.shared.contains(&w.target) && w.names.contains(&v.target));
         let own = |row: &Discovered| {
-            let (model, runs) = model_and_runs(mapped, &row.robot)?;
-            let chances = (rows.len() * model.library.len()) as f64;
+            let chances = (rows.len() * model(mapped, &row.robot)?.library.len()) as f64;
             let strong = |v: &&Vote| v.evidence.p_value * chances < level && (v.in_part || !known(v));
-            let mut found = vec![];
-            for vote in row.named.iter().filter(strong) {
-                let values = if vote.in_part {
-                    Some(vote.parameters.clone())
-                } else {
-                    values_beside(&model, &runs, &plan.shared, &vote.target)?
-                };
-                found.extend(values.map(|parameters| Vote { parameters, ..vote.clone() }));
-            }
-            Ok((row.robot.robot.clone(), found))
+            let of = |vote: &Vote| match vote.in_part {
+                true => Ok(Some(vote.clone())),
+                false => beside(mapped, &row.robot, &plan.shared, vote),
+            };
+            let found: Vec<Option<Vote>> = row.named.iter().filter(strong).map(of).collect::<Result<_>>()?;
+            Ok((row.robot.robot.clone(), found.into_iter().flatten().collect()))
         };
         let own: Vec<(String, Vec<Vote>)> =
             rows.par_iter().filter(|r| !r.named.is_empty()).map(own).collect::<Result<_>>()?;
@@ -83,19 +78,16 @@ fn is_told(mapped: &Mapped, rows: &[Discovered], shared: &[String], one: &Wanted
     Ok(2 * told > asked)
 }
 
-/// The values of an effect that a robot's runs ask for beside those that the fleet shares; none where they do not.
-fn values_beside(
-    model: &Model,
-    runs: &[Run],
-    shared: &[String],
-    target: &str,
-) -> Result<Option<BTreeMap<String, Estimate>>> {
-    let all: Vec<String> = shared.iter().cloned().chain([target.to_string()]).collect();
-    let found = fitted(model, runs, &all)?;
+/// An effect, with its values, that a robot's runs ask for beside those that the fleet shares; none where they do not.
+fn beside(mapped: &Mapped, robot: &Robot, shared: &[String], vote: &Vote) -> Result<Option<Vote>> {
+    let (model, runs) = model_and_runs(mapped, robot)?;
+    let all: Vec<String> = shared.iter().chain([&vote.target]).cloned().collect();
+    let found = fitted(&model, &runs, &all)?;
     let asked = |e: &&CalibratedEffect| found.verdict == Standing::Fitted && e.delta_bic.is_some_and(|d| d > 0.0);
     let value = |p: &CalibratedValue| Estimate { value: p.value, std: p.std, unit: p.unit.clone(), course: None };
     let values = |e: &CalibratedEffect| e.parameters.iter().map(|(name, p)| (name.clone(), value(p))).collect();
-    Ok(found.effects.last().filter(asked).map(values))
+    let with = |parameters| Vote { parameters, ..vote.clone() };
+    Ok(found.effects.last().filter(asked).map(values).map(with))
 }
 
 /// The fit of those effects that apply to runs.

@@ -46,6 +46,64 @@ pub struct MixedModel {
     pub deviance: f64,
     /// How many robots there are.
     pub robots: usize,
+    /// A variance below which none is believed.
+    least: f64,
+}
+
+/// Weighted sums over observations.
+pub struct Sums {
+    /// Σ w.
+    pub weight: f64,
+    /// Σ w·(y − x·β).
+    pub residual: f64,
+    /// Σ w·x.
+    pub row: DVector<f64>,
+}
+
+impl MixedModel {
+    /// The weight of an observation beside the others of its robot.
+    pub fn weight(&self, o: &Observation) -> f64 {
+        weight(o, self.within, self.least)
+    }
+
+    /// y − x·β.
+    pub fn residual(&self, o: &Observation) -> f64 {
+        o.value - self.predicted(o)
+    }
+
+    /// x·β.
+    pub fn predicted(&self, o: &Observation) -> f64 {
+        o.row.iter().zip(self.coefficients.iter()).map(|(x, b)| x * b).sum()
+    }
+
+    /// The variance of a·β.
+    pub fn explained(&self, a: &DVector<f64>) -> f64 {
+        (a.transpose() * &self.covariance * a)[0]
+    }
+
+    /// The sums over some observations.
+    pub fn sums<'a>(&self, of: impl IntoIterator<Item = &'a Observation>) -> Sums {
+        let none = Sums { weight: 0.0, residual: 0.0, row: DVector::zeros(self.coefficients.len()) };
+        of.into_iter().fold(none, |sum, o| {
+            let w = self.weight(o);
+            Sums {
+                weight: sum.weight + w,
+                residual: sum.residual + w * self.residual(o),
+                row: sum.row + w * o.design(),
+            }
+        })
+    }
+}
+
+impl Observation {
+    /// x.
+    pub fn design(&self) -> DVector<f64> {
+        DVector::from_column_slice(&self.row)
+    }
+}
+
+fn weight(o: &Observation, within: f64, least: f64) -> f64 {
+    1.0 / (o.variance + within * within).max(least)
 }
 
 /// The observations of each robot, one robot after another.
@@ -92,11 +150,6 @@ impl<'a> Groups<'a> {
         self.all.iter().any(|g| g.len() > 1)
     }
 
-    /// The weight of an observation beside the others of its robot.
-    pub fn weight(&self, o: &Observation, within: f64) -> f64 {
-        1.0 / (o.variance + within * within).max(self.least)
-    }
-
     /// Generalised least squares at given spreads; none where the coefficients are not determined.
     pub fn at(&self, between: f64, within: f64) -> Option<MixedModel> {
         let n = self.width;
@@ -106,7 +159,7 @@ impl<'a> Groups<'a> {
         for group in &self.all {
             let (mut total, mut values, mut rows) = (0.0, 0.0, DVector::zeros(n));
             for o in group {
-                let (w, x, y) = (self.weight(o, within), DVector::from_column_slice(&o.row), o.value - self.centre);
+                let (w, x, y) = (weight(o, within, self.least), o.design(), o.value - self.centre);
                 information += w * &x * x.transpose();
                 right += w * y * &x;
                 square += w * y * y;
@@ -134,6 +187,7 @@ impl<'a> Groups<'a> {
             within,
             deviance,
             robots: self.all.len(),
+            least: self.least,
         })
     }
 

@@ -5,6 +5,7 @@
 //! run names anything all are asked in one call, which sees what is too small for one.
 
 use super::rows::{Answer, Discovered, Mapped, Rows, Vote, identity};
+use crate::discrepancy::calibration::targets::Target;
 use crate::discrepancy::discover::discover_aligned;
 use crate::discrepancy::discovery::Discovery;
 use crate::discrepancy::report::{Named, Verdict};
@@ -126,21 +127,12 @@ pub(super) fn model_and_runs(mapped: &Mapped, robot: &Robot) -> Result<(Model, V
     Ok((model, runs))
 }
 
-/// An effect of a model file as `creepage fit` takes it.
-fn target(entry: &EffectEntry) -> String {
-    match (&entry.input, entry.trailer) {
-        (Some(input), _) => format!("{}@{input}", entry.id),
-        (None, Some(trailer)) => format!("{}@{trailer}", entry.id),
-        (None, None) => entry.id.clone(),
-    }
-}
-
 /// What a discovery names, each with the entry that it gives to the model file.
 fn votes(found: &Discovery, model: &Model) -> Vec<Vote> {
     let of_library = |e: &&EffectEntry| model.library.iter().any(|l| l.id == e.id);
     let entries = found.added.iter().filter(of_library);
     let vote = |(named, entry): (&Named, &EffectEntry)| Vote {
-        target: target(entry),
+        target: Target::of(&entry.id, entry.input.as_deref(), entry.trailer).to_string(),
         says: named.says.clone(),
         in_part: entry.scope.is_some() || entry.course.is_some(),
         identical: named.indistinguishable_from.iter().filter(|r| r.why == "identical").map(|r| r.id.clone()).collect(),

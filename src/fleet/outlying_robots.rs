@@ -6,7 +6,6 @@
 //! robot does not hide another behind the spread that both make.
 
 use super::linear_mixed_model::{Groups, MixedModel, Observation};
-use nalgebra::DVector;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 use std::collections::BTreeMap;
 
@@ -86,26 +85,21 @@ pub fn standing(all: &[&Observation], model: &MixedModel, unit: Unit) -> BTreeMa
     let tau2 = model.between * model.between;
     let mut found = BTreeMap::new();
     for group in &groups.all {
-        let weights: Vec<f64> = group.iter().map(|o| groups.weight(o, model.within)).collect();
-        let residuals: Vec<f64> = group.iter().map(|o| o.value - predicted(o, model)).collect();
-        let total: f64 = weights.iter().sum();
-        let pulled: f64 = weights.iter().zip(&residuals).map(|(w, r)| w * r).sum();
-        let mut rows = DVector::zeros(model.coefficients.len());
-        weights.iter().zip(group).for_each(|(w, o)| rows += *w * DVector::from_column_slice(&o.row));
-        let explained = |a: &DVector<f64>| (a.transpose() * &model.covariance * a)[0];
+        let sums = model.sums(group.iter().copied());
+        let shrunk = 1.0 + tau2 * sums.weight;
         match unit {
             Unit::Robot => {
-                let shrunk = 1.0 + tau2 * total;
-                let variance = total / shrunk - explained(&(&rows / shrunk));
-                found.insert(group[0].robot, pulled / shrunk / variance.max(0.0).sqrt());
+                let variance = sums.weight / shrunk - model.explained(&(&sums.row / shrunk));
+                found.insert(group[0].robot, sums.residual / shrunk / variance.max(0.0).sqrt());
             }
             Unit::Run if group.len() < 3 => {}
             Unit::Run => {
-                let share = tau2 / (1.0 + tau2 * total);
-                for ((o, w), r) in group.iter().zip(&weights).zip(&residuals) {
-                    let a = *w * (DVector::from_column_slice(&o.row) - share * &rows);
-                    let variance = w - share * w * w - explained(&a);
-                    found.insert(o.run, w * (r - share * pulled) / variance.max(0.0).sqrt());
+                let share = tau2 / shrunk;
+                for o in group {
+                    let w = model.weight(o);
+                    let a = w * (o.design() - share * &sums.row);
+                    let variance = w - share * w * w - model.explained(&a);
+                    found.insert(o.run, w * (model.residual(o) - share * sums.residual) / variance.max(0.0).sqrt());
                 }
             }
         }
@@ -114,40 +108,20 @@ pub fn standing(all: &[&Observation], model: &MixedModel, unit: Unit) -> BTreeMa
     found
 }
 
-/// x·β.
-pub fn predicted(o: &Observation, model: &MixedModel) -> f64 {
-    o.row.iter().zip(model.coefficients.iter()).map(|(x, b)| x * b).sum()
-}
-
 /// How far what was left out lies from what the model of the rest predicts, in deviations of the prediction.
 fn deleted(out: &[&Observation], kept: &[&Observation], model: &MixedModel, unit: Unit) -> f64 {
-    let Some(groups) = Groups::of(kept) else { return 0.0 };
     let tau2 = model.between * model.between;
-    let (mut total, mut value, mut row) = (0.0, 0.0, DVector::zeros(model.coefficients.len()));
-    for o in out {
-        let w = groups.weight(o, model.within);
-        total += w;
-        value += w * (o.value - predicted(o, model));
-        row += w * DVector::from_column_slice(&o.row);
-    }
-    let (mut value, mut variance, mut row) = (value / total, 1.0 / total + tau2, row / total);
+    let own = model.sums(out.iter().copied());
+    let (mut value, mut variance, mut row) = (own.residual / own.weight, 1.0 / own.weight + tau2, own.row / own.weight);
     if unit == Unit::Run {
         // The robot's other runs tell of it.
-        let others = kept.iter().filter(|o| out.iter().any(|x| x.robot == o.robot));
-        let (mut pulled, mut weight, mut rows) = (0.0, 0.0, DVector::zeros(row.len()));
-        for o in others {
-            let w = groups.weight(o, model.within);
-            pulled += w * (o.value - predicted(o, model));
-            weight += w;
-            rows += w * DVector::from_column_slice(&o.row);
-        }
-        let share = tau2 / (1.0 + tau2 * weight);
-        value -= share * pulled;
-        variance -= share * tau2 * weight;
-        row -= share * rows;
+        let others = model.sums(kept.iter().copied().filter(|o| out.iter().any(|x| x.robot == o.robot)));
+        let share = tau2 / (1.0 + tau2 * others.weight);
+        value -= share * others.residual;
+        variance -= share * tau2 * others.weight;
+        row -= share * others.row;
     }
-    variance += (row.transpose() * &model.covariance * &row)[0];
-    value / variance.sqrt()
+    value / (variance + model.explained(&row)).sqrt()
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 
 use super::covariates::Covariate;
 use super::linear_mixed_model::{Groups, MixedModel, Observation};
-use super::outlying_robots::{Outlier, Unit, outliers, predicted, standing};
+use super::outlying_robots::{Outlier, Unit, outliers, standing};
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, FisherSnedecor, StudentsT};
 use std::collections::{BTreeMap, BTreeSet};
@@ -91,20 +91,10 @@ impl ParameterModel {
         let mut z = standing(&even, &model, Unit::Robot);
         z.extend(odd_robots.iter().map(|o| (o.which, o.z)));
         let q = q_values(&z, (model.robots - model.coefficients.len()) as f64);
-        let mut robots = BTreeMap::new();
-        for (group, is_odd) in
-            groups.all.iter().map(|g| (g, false)).chain(Groups::of(&odd).iter().flat_map(|g| &g.all).map(|g| (g, true)))
-        {
-            let robot = group[0].robot;
-            let known = (z.get(&robot).copied().unwrap_or(f64::NAN), q.get(&robot).copied().unwrap_or(f64::NAN));
-            robots.insert(robot, value(group, &model, is_odd, known));
-        }
-        // A robot that is odd alone is a group that no model is fitted to.
-        for o in &odd_robots {
-            let own: Vec<&Observation> = odd.iter().filter(|x| x.robot == o.which).copied().collect();
-            let known = (o.z, q.get(&o.which).copied().unwrap_or(f64::NAN));
-            robots.entry(o.which).or_insert_with(|| value(&own, &model, true, known));
-        }
+        let odd = odd_robots.iter().map(|o| odd.iter().filter(|x| x.robot == o.which).copied().collect::<Vec<_>>());
+        let known = |robot: usize| [&z, &q].map(|of| of.get(&robot).copied().unwrap_or(f64::NAN));
+        let all = groups.all.iter().map(|g| (g.clone(), false)).chain(odd.map(|g| (g, true)));
+        let robots = all.map(|(g, is_odd)| (g[0].robot, value(&g, &model, is_odd, known(g[0].robot)))).collect();
         Some(Self {
             between: groups.interval_between(&model),
             has_repeats: groups.has_repeats(),
@@ -189,20 +179,15 @@ fn chance(said: &[Said], candidates: &[Covariate], chosen: &[(usize, f64)], next
 }
 
 /// A robot's value under the covariates of its last run.
-fn value(group: &[&Observation], model: &MixedModel, is_odd: bool, (z, q_value): (f64, f64)) -> RobotValue {
-    let weight = |o: &Observation| 1.0 / (o.variance + model.within * model.within).max(f64::MIN_POSITIVE);
-    let total: f64 = group.iter().map(|o| weight(o)).sum();
-    let residual = group.iter().map(|o| weight(o) * (o.value - predicted(o, model))).sum::<f64>() / total;
-    let row = |o: &Observation| DVector::from_column_slice(&o.row);
-    let mean_row =
-        group.iter().fold(DVector::zeros(model.coefficients.len()), |sum, o| sum + weight(o) / total * row(o));
-    let last = group.iter().max_by_key(|o| o.run).map(|o| (predicted(o, model), row(o)));
+fn value(group: &[&Observation], model: &MixedModel, is_odd: bool, [z, q_value]: [f64; 2]) -> RobotValue {
+    let sums = model.sums(group.iter().copied());
+    let (total, residual, mean_row) = (sums.weight, sums.residual / sums.weight, sums.row / sums.weight);
+    let last = group.iter().max_by_key(|o| o.run).map(|o| (model.predicted(o), o.design()));
     let (at, last) = last.unwrap_or((f64::NAN, mean_row.clone()));
     let (own, own_std) = (at + residual, (1.0 / total).sqrt());
     let tau2 = model.between * model.between;
     let share = tau2 / (tau2 + 1.0 / total);
-    let lever = last - share * &mean_row;
-    let variance = share / total + (lever.transpose() * &model.covariance * &lever)[0];
+    let variance = share / total + model.explained(&(last - share * &mean_row));
     match is_odd {
         true => RobotValue { own, own_std, value: own, std: own_std, z, q_value },
         false => RobotValue { own, own_std, value: at + share * residual, std: variance.sqrt(), z, q_value },

@@ -4,9 +4,10 @@ use super::fits::Plan;
 use super::map::model;
 use super::report::RobotReport;
 use super::rows::{Discovered, Mapped, Vote};
+use crate::discrepancy::calibration::targets::Target;
 use crate::effects::Effect;
 use crate::error::Result;
-use crate::export::{Gains, Target};
+use crate::export::{self, Gains};
 use crate::files::{EffectEntry, ModelFile};
 use crate::front_door::Model;
 
@@ -54,32 +55,31 @@ fn patched(model: &Model, report: &RobotReport, own: &[Vote]) -> Result<Model> {
     let mut entries: Vec<EffectEntry> = vec![];
     for (key, value) in &report.values {
         let Some((effect, parameter)) = key.split_once(' ') else { continue };
-        let new = entry(effect);
-        if !entries.iter().any(|e| e.same_target(&new)) {
-            entries.push(entry(effect));
-        }
-        if let Some(known) = entries.iter_mut().find(|e| e.same_target(&new)) {
-            known.parameters.insert(parameter.into(), value.value);
-        }
+        let new = entry(effect)?;
+        let at = entries.iter().position(|e| e.same_target(&new)).unwrap_or_else(|| {
+            entries.push(new);
+            entries.len() - 1
+        });
+        entries[at].parameters.insert(parameter.into(), value.value);
     }
-    entries.extend(own.iter().filter(|v| !v.in_part).map(alone));
+    let alone = own.iter().filter(|v| !v.in_part).map(alone).collect::<Result<Vec<_>>>()?;
+    entries.extend(alone);
     entries.retain(|e| is_whole(e, model));
     entries.iter_mut().for_each(|e| clamp(e, model));
     model.rewritten(&model.file.patched(&entries))
 }
 
 /// An effect that a robot alone needs.
-fn alone(vote: &Vote) -> EffectEntry {
+fn alone(vote: &Vote) -> Result<EffectEntry> {
     let parameters = vote.parameters.iter().map(|(name, e)| (name.clone(), e.value)).collect();
-    EffectEntry { parameters, ..entry(&vote.target) }
+    Ok(EffectEntry { parameters, ..entry(&vote.target)? })
 }
 
 /// An entry of a model file without values, from `ID`, `ID@INPUT` or `ID@TRAILER`.
-fn entry(target: &str) -> EffectEntry {
-    let (id, on) = target.split_once('@').map_or((target, None), |(id, on)| (id, Some(on)));
-    let trailer = on.and_then(|on| on.parse().ok());
-    let input = on.filter(|_| trailer.is_none()).map(String::from);
-    EffectEntry { id: id.into(), trailer, input, ..EffectEntry::default() }
+fn entry(target: &str) -> Result<EffectEntry> {
+    let Target { id, on } = target.parse()?;
+    let trailer = on.as_ref().and_then(|on| on.parse().ok());
+    Ok(EffectEntry { id, trailer, input: on.filter(|_| trailer.is_none()), ..EffectEntry::default() })
 }
 
 fn of_library<'m>(e: &EffectEntry, model: &'m Model) -> Option<&'m Effect> {
@@ -103,6 +103,6 @@ fn clamp(e: &mut EffectEntry, model: &Model) {
 
 /// The parameters of a ROS 2 controller, where there is one for the vehicle.
 fn controller(file: &ModelFile) -> Option<String> {
-    let targets = [Target::Ros2DiffDrive, Target::Ros2Steering];
+    let targets = [export::Target::Ros2DiffDrive, export::Target::Ros2Steering];
     targets.into_iter().find_map(|t| t.export(file, Gains::default()).ok()).map(|e| e.text)
 }

@@ -1,5 +1,6 @@
 //! The rows of a fleet: a file for every robot, written whole, from which an interrupted map goes on.
 
+use crate::discrepancy::calibration::targets::Target;
 use crate::discrepancy::calibration_report::Calibration;
 use crate::discrepancy::report::{Estimate, Evidence, Report, Verdict};
 use crate::error::{Error, Result};
@@ -86,10 +87,8 @@ impl Vote {
 
     /// Whether no data tell it from an effect on the same input or trailer.
     pub fn means(&self, target: &str) -> bool {
-        let parts =
-            |t: &str| t.split_once('@').map_or((t.to_string(), None), |(id, on)| (id.into(), Some(on.to_string())));
-        let ((_, on), (id, other)) = (parts(&self.target), parts(target));
-        self.target == target || on == other && self.identical.contains(&id)
+        let (Ok(own), Ok(other)) = (self.target.parse::<Target>(), target.parse::<Target>()) else { return false };
+        own == other || own.on == other.on && self.identical.contains(&other.id)
     }
 }
 

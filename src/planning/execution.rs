@@ -1,13 +1,13 @@
 //! The execution of a plan: rows of inputs as a robot is given them, where they lead on a model, and how far what is not known of
 //! the model spreads that.
 
+use super::initial_guess::nearest;
 use super::planner::{Plan, Task};
 use super::tracked_point::TrackedPoint;
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::motion::{Integrator, Signals, Table, Timing, simulate_model, visible_state};
 use nalgebra::{DMatrix, DVector};
-use std::f64::consts::TAU;
 
 /// The longest time between two rows, s.
 const ROW: f64 = 0.05;
@@ -60,8 +60,7 @@ pub fn execute(plan: &Plan, task: &Task, model: &Model, timing: Timing) -> Resul
     z.resize(equations.n(), 0.0);
     let (end, _) = point.at(&z);
     let (x, y, heading) = task.poses.last().copied().unwrap_or((end[0], end[1], None));
-    let wrapped = |angle: f64| angle - TAU * (angle / TAU).round();
-    let (miss, heading_miss) = ((end[0] - x).hypot(end[1] - y), heading.map(|h| wrapped(end[2] - h)));
+    let (miss, heading_miss) = ((end[0] - x).hypot(end[1] - y), heading.map(|h| nearest(end[2] - h, 0.0)));
     Ok(Executed { table, end, miss, heading_miss })
 }
 

@@ -112,6 +112,14 @@ fn hermite(from: [f64; 3], to: [f64; 3], slopes: [[f64; 2]; 2], s: f64) -> [f64;
     [0, 1].map(|i| weights[0] * from[i] + weights[1] * slopes[0][i] + weights[2] * to[i] + weights[3] * slopes[1][i])
 }
 
+/// A state at a pose, with the trailers straight behind and all else as at the start.
+pub fn straight(start: &[f64], equations: &Equations, pose: [f64; 3]) -> Vec<f64> {
+    let mut z = start.to_vec();
+    z[..3].copy_from_slice(&pose);
+    z[3..equations.visible].fill(pose[2]);
+    z
+}
+
 /// The point of a search that follows a curve in a duration.
 pub fn point(
     curve: &Curve,
@@ -123,13 +131,7 @@ pub fn point(
 ) -> Point {
     let step = duration / spline.spans as f64;
     let mut states: Vec<Vec<f64>> = vec![start.to_vec()];
-    for [x, y, heading] in &curve.poses {
-        let mut z = start.to_vec();
-        (z[0], z[1], z[2]) = (*x, *y, *heading);
-        // Trailers behind the tractor, turned with it by whole turns.
-        (3..equations.visible).for_each(|i| z[i] = *heading);
-        states.push(z);
-    }
+    states.extend(curve.poses.iter().map(|pose| straight(start, equations, *pose)));
     let mut inputs: Vec<Vec<f64>> = vec![];
     let mut last = vec![0.0; limits.len()];
     for k in 0..spline.spans {

@@ -2,7 +2,7 @@
 //! sequential quadratic programming from several first guesses.
 
 use super::b_spline::BSpline;
-use super::initial_guess::{Curve, curves, followed, nearest, point};
+use super::initial_guess::{Curve, curves, followed, nearest, point, straight};
 use super::limits::Limit;
 use super::path::Path;
 use super::sequential_quadratic_programming::solved;
@@ -167,12 +167,7 @@ impl Planner {
 
     /// Poses of the tracked point as poses of the body, as if a train were straight.
     fn on_body(&self, poses: &[[f64; 3]], task: &Task) -> Vec<[f64; 3]> {
-        let straight = |heading: f64| {
-            let mut z = self.start.clone();
-            (z[0], z[1], z[2]) = (0.0, 0.0, heading);
-            (3..self.equations.visible).for_each(|i| z[i] = heading);
-            z
-        };
+        let straight = |heading: f64| straight(&self.start, &self.equations, [0.0, 0.0, heading]);
         let offset = self.point.at(&straight(0.0)).0;
         let turn = if task.of_trailer == 0 { offset[2] } else { 0.0 };
         let body = |[x, y, heading]: &[f64; 3]| {
@@ -207,11 +202,8 @@ impl Planner {
         let mut at = 0;
         let waypoints = task.poses.iter().zip(spans).map(|((x, y, heading), spans)| {
             at += spans;
-            let mut z = self.start.clone();
-            (z[0], z[1], z[2]) = (guess[at - 1][0], guess[at - 1][1], guess[at - 1][2]);
-            (3..self.equations.visible).for_each(|i| z[i] = guess[at - 1][2]);
             // A heading counts by whole turns as the guess arrives.
-            let arrives = self.point.at(&z).0[2];
+            let arrives = self.point.at(&straight(&self.start, &self.equations, guess[at - 1])).0[2];
             Waypoint { span: at - 1, pose: (*x, *y, heading.map(|h| nearest(h, arrives))) }
         });
         Program {

@@ -30,6 +30,11 @@ pub struct Solution {
 }
 
 impl QuadraticProgram {
+    /// The same program with a share of b.
+    pub fn with_share(&self, share: f64) -> Self {
+        Self { equal_to: self.equal_to.iter().map(|b| share * b).collect(), ..self.clone() }
+    }
+
     /// The solution; none where there is no feasible point.
     pub fn solution(&self) -> Option<Solution> {
         let (n, equations, bounds) = (self.linear.len(), self.equal_to.len(), self.below_of.len());

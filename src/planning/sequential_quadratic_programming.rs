@@ -79,8 +79,7 @@ fn size(violations: &[f64]) -> f64 {
 
 /// The step from a point, and the largest multiplier of its equations.
 fn step(program: &Program, point: &Point, damping: f64) -> Option<(Vec<f64>, f64)> {
-    SHARES.into_iter().find_map(|share| {
-        let found = program.step(point, share, damping).ok()?.solution()?;
-        Some((found.x, found.multiplier))
-    })
+    let whole = program.step(point, damping).ok()?;
+    let found = SHARES.into_iter().find_map(|share| whole.with_share(share).solution())?;
+    Some((found.x, found.multiplier))
 }

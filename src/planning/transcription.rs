@@ -147,22 +147,22 @@ impl Program<'_> {
         cost + 0.5 * PATH * point.states.iter().enumerate().map(off).sum::<f64>()
     }
 
-    /// The program of a step from a point, with the share of what equations are off by that it takes back.
+    /// The program of a step from a point that takes back all that equations are off by.
     ///
     /// # Errors
     /// When the motion from the point is undefined.
-    pub fn step(&self, point: &Point, share: f64, damping: f64) -> Result<QuadraticProgram> {
+    pub fn step(&self, point: &Point, damping: f64) -> Result<QuadraticProgram> {
         let span = |k: usize| self.shooting.span(self.before(point, k), &point.coefficients, k, point.duration);
         let spans: Vec<Span> = (0..self.spans()).into_par_iter().map(span).collect::<Result<_>>()?;
         let mut program = QuadraticProgram { linear: vec![0.0; self.width()], ..QuadraticProgram::default() };
-        self.joined(point, &spans, share, &mut program);
-        self.reached(point, share, &mut program);
+        self.joined(point, &spans, &mut program);
+        self.reached(point, &mut program);
         self.bounded(point, &mut program);
         self.costs(point, damping, &mut program);
         Ok(program)
     }
 
-    fn joined(&self, point: &Point, spans: &[Span], share: f64, program: &mut QuadraticProgram) {
+    fn joined(&self, point: &Point, spans: &[Span], program: &mut QuadraticProgram) {
         let (n, acting) = (self.n(), self.shooting.spline.degree + 1);
         for (k, span) in spans.iter().enumerate() {
             for i in 0..n {
@@ -176,23 +176,23 @@ impl Program<'_> {
                 for (column, slope) in columns.chain(of_inputs).chain([of_duration]) {
                     program.equal.push((row, column, -span.slopes[(i, slope)]));
                 }
-                program.equal_to.push(-share * (point.states[k][i] - span.end[i]));
+                program.equal_to.push(span.end[i] - point.states[k][i]);
             }
         }
     }
 
-    fn reached(&self, point: &Point, share: f64, program: &mut QuadraticProgram) {
+    fn reached(&self, point: &Point, program: &mut QuadraticProgram) {
         for way in &self.waypoints {
             let (at, slopes) = self.point.at(&point.states[way.span]);
             for (i, miss) in self.missed(way, &at).into_iter().enumerate() {
                 let row = program.equal_to.len();
                 program.equal.extend((0..self.n()).map(|j| (row, self.of_state(way.span, j), slopes[(i, j)])));
-                program.equal_to.push(-share * miss);
+                program.equal_to.push(-miss);
             }
         }
         for (channel, j) in self.resting() {
             program.equal.push((program.equal_to.len(), self.of_coefficient(channel, j), 1.0));
-            program.equal_to.push(-share * point.coefficients[channel][j]);
+            program.equal_to.push(-point.coefficients[channel][j]);
         }
     }
 

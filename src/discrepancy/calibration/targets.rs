@@ -4,6 +4,7 @@ use crate::effects::{Applied, Effect};
 use crate::error::{Error, Result};
 use crate::files::{EffectEntry, ModelFile, advice};
 use crate::model::Model;
+use std::fmt;
 use std::str::FromStr;
 
 /// An effect named by its id, `track-width`, with the input or the trailer it acts on where there are several:
@@ -13,6 +14,7 @@ use std::str::FromStr;
 /// use creepage::discrepancy::calibration::targets::Target;
 /// let lag: Target = "input-lag@yaw_rate".parse().unwrap();
 /// assert_eq!((lag.id.as_str(), lag.on.as_deref()), ("input-lag", Some("yaw_rate")));
+/// assert_eq!(lag.to_string(), "input-lag@yaw_rate");
 /// assert!("@yaw_rate".parse::<Target>().is_err());
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -34,10 +36,24 @@ impl FromStr for Target {
     }
 }
 
+impl fmt::Display for Target {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match &self.on {
+            Some(on) => write!(f, "{}@{on}", self.id),
+            None => f.write_str(&self.id),
+        }
+    }
+}
+
 impl Target {
+    /// The target that means an effect on an input or on a trailer.
+    pub fn of(id: &str, input: Option<&str>, trailer: Option<usize>) -> Self {
+        Self { id: id.into(), on: input.map(String::from).or_else(|| trailer.map(|i| i.to_string())) }
+    }
+
     fn is(&self, effect: &Effect, trailer: Option<usize>) -> bool {
-        let on = effect.on.clone().or_else(|| trailer.map(|i| i.to_string()));
-        self.id == effect.id && (self.on.is_none() || self.on == on)
+        let whole = Self::of(&effect.id, effect.on.as_deref(), trailer);
+        self.id == whole.id && (self.on.is_none() || self.on == whole.on)
     }
 }
 
@@ -72,22 +88,19 @@ pub(crate) fn resolved<'l>(
 }
 
 fn ambiguous(target: &Target, several: &[&(&Effect, Option<usize>)]) -> Error {
-    let name = |(e, t): &(&Effect, Option<usize>)| {
-        format!("{}@{}", e.id, e.on.clone().unwrap_or_else(|| t.map_or(String::new(), |t| t.to_string())))
-    };
+    let name = |(e, t): &(&Effect, Option<usize>)| Target::of(&e.id, e.on.as_deref(), *t).to_string();
     let names: Vec<String> = several.iter().map(|one| name(one)).collect();
     Error::input(format!("{} is an effect on one of several", target.id)).help(format!("write {}", names.join(" or ")))
 }
 
 fn unknown(target: &Target, open: &[(&Effect, Option<usize>)], known: &[Effect]) -> Error {
-    let shown = target.on.as_ref().map_or(target.id.clone(), |on| format!("{}@{on}", target.id));
     if known.iter().any(|e| e.id == target.id) {
-        return Error::input(format!("{shown} does not apply to this vehicle and these runs")).help(
+        return Error::input(format!("{target} does not apply to this vehicle and these runs")).help(
             "`creepage effects --vehicle VEHICLE` lists those that do, one on an input asks that the runs move it",
         );
     }
     let ids: Vec<&str> = open.iter().map(|(e, _)| e.id.as_str()).collect();
-    Error::input(format!("unknown effect \"{shown}\"")).help(advice(&target.id, "effects of this vehicle", &ids))
+    Error::input(format!("unknown effect \"{target}\"")).help(advice(&target.id, "effects of this vehicle", &ids))
 }
 
 /// Free effects where a fit would begin, with the bounds that the model file has for them.

@@ -2,16 +2,11 @@
 
 use crate::fleet::report::{FleetEffect, FleetParameter, FleetReport, Interval, OddRobot, OwnEffect, TagEffect};
 use crate::number_format::{probability, significant, with_error};
-use crate::wording::{listed, listed_to};
+use crate::wording::{counted, listed, listed_to};
 use std::fmt::Write;
 
 /// Names in a sentence at most.
 const NAMES: usize = 6;
-
-/// A count with its noun.
-fn counted(n: usize, noun: &str) -> String {
-    if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
-}
 
 /// The whole answer in two or three sentences.
 pub fn summary(report: &FleetReport) -> String {

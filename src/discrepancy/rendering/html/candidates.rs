@@ -1,12 +1,12 @@
 //! The candidates by their evidence.
 
-use super::head::counted;
 use super::part;
 use crate::discrepancy::report::{CandidatePicture, Pictures};
 use crate::number_format::plain;
 use crate::picture::axis::{Axis, extent};
 use crate::picture::bars::{Bar, Look, chart};
 use crate::picture::svg::Element;
+use crate::wording::counted;
 
 /// Candidates that get a bar, besides those chosen and their rivals.
 const MOST_BARS: usize = 14;

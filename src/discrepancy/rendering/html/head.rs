@@ -7,6 +7,7 @@ use crate::discrepancy::report::{Estimate, Named, Report, Verdict};
 use crate::discrepancy::report::{judged, middle};
 use crate::number_format::{plain, prefixed, significant, with_error};
 use crate::picture::svg::Element;
+use crate::wording::counted;
 
 /// The verdict as one sentence, the gap before and after, and the effects in one line each.
 pub fn header(report: &Report) -> Element {
@@ -43,11 +44,6 @@ fn eyebrow(report: &Report) -> Element {
         .with("class", "eyebrow")
         .child(holding("span", verdict_name(report.verdict)).with("class", class))
         .text(what)
-}
-
-/// A count with its noun, such as "1 run" or "3 runs".
-pub fn counted(count: usize, noun: &str) -> String {
-    if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
 }
 
 /// Before → after at the middle horizon, how much smaller, and the noise floor.

@@ -1,11 +1,11 @@
 //! Runs seen from above: measured, predicted before, predicted after.
 
-use super::head::counted;
 use super::part;
 use crate::discrepancy::report::{PathPicture, Pictures};
 use crate::picture::axis::{Axis, equal_aspect, extent, widened};
 use crate::picture::plot::{Key, Marker, Panel, Size, legend};
 use crate::picture::svg::{Element, cut};
+use crate::wording::counted;
 
 /// Runs that get a panel.
 const MOST_PANELS: usize = 6;

@@ -1,12 +1,12 @@
 //! How much each constraint is violated over time: two strips on one scale, before above after.
 
-use super::head::counted;
 use super::part;
 use crate::discrepancy::report::{Pictures, ResidualPicture};
 use crate::number_format::significant;
 use crate::picture::axis::{Axis, extent, widened};
 use crate::picture::plot::{Panel, Size, frame_svg};
 use crate::picture::svg::{Element, cut, label};
+use crate::wording::counted;
 use std::collections::BTreeSet;
 
 /// Residuals that get a panel.

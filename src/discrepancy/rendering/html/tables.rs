@@ -1,6 +1,6 @@
 //! The tables under the pictures.
 
-use super::head::{counted, parameter, shrinkage};
+use super::head::{parameter, shrinkage};
 use super::part::{Cell, holding, section, table};
 use super::runs;
 use crate::discrepancy::rendering::summary::{seconds, why};
@@ -9,6 +9,7 @@ use crate::discrepancy::report;
 use crate::discrepancy::report::{BeforeAfter, Gap, Pictures, Report};
 use crate::number_format::{decimals, plain, prefixed, probability, significant, with_error};
 use crate::picture::svg::Element;
+use crate::wording::counted;
 
 /// Every table that has a row, in sections.
 pub fn all(report: &Report, pictures: &Pictures) -> Vec<Element> {

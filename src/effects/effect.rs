@@ -80,6 +80,9 @@ pub struct Effect {
     /// that one, with the same parameters, where that one does not explain everything.
     #[serde(default)]
     pub limit: Option<String>,
+    /// The kinds of input of which it is a first-order lag, with the same value, where the vehicle does not creep sideways.
+    #[serde(default)]
+    pub lag_of: Vec<Moves>,
     /// Its place in the library; effects are applied in this order.
     #[serde(skip)]
     pub order: usize,

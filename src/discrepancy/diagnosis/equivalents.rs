@@ -2,7 +2,7 @@
 
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::selection::choice::{Selected, SelectedEffect};
-use crate::effects::{Applied, Effect};
+use crate::effects::{self, Applied, Effect};
 use crate::equivalence::{Measured, relation};
 use crate::model::Model;
 use crate::model::effect_equation;
@@ -60,7 +60,18 @@ fn of_one(chosen: &SelectedEffect, after: &Model, library: &[Effect], measured: 
     let listed: Vec<EquivalentEffect> = identical.into_iter().chain(by_data).collect();
     let limit =
         quasi_static(&chosen.applied, library).filter(|l| !listed.iter().any(|r| r.applied.same_as(&l.applied)));
-    listed.into_iter().chain(limit).collect()
+    let lag = lag_of_input(&chosen.applied, after).filter(|l| !listed.iter().any(|r| r.applied.same_as(&l.applied)));
+    listed.into_iter().chain(limit).chain(lag).collect()
+}
+
+/// The lag of the input that drives the vehicle where a chosen effect is one: what the contact does, and what an actuator
+/// ahead of it would do.
+fn lag_of_input(chosen: &Applied, model: &Model) -> Option<EquivalentEffect> {
+    let is_driven = |role: &&String| model.vehicle.moved_by(role).is_some_and(|m| chosen.effect.lag_of.contains(&m));
+    let role = model.inputs.iter().find(is_driven)?;
+    let unit = model.vehicle.inputs.get(role.as_str()).map_or("m/s", |input| &input.unit);
+    let lag = effects::named("input-lag")?.on_input(role, unit, 1.0);
+    Some(EquivalentEffect { applied: Applied::new(&lag, None, chosen.values.clone()), why: "first order" })
 }
 
 /// What a chosen effect becomes where its states follow at once: the same to first order in the time they take.
@@ -94,6 +105,18 @@ mod tests {
         };
         assert_eq!([of(2, false), of(3, true)], [[false, false], [true, false]]);
         assert_eq!([of(3, false), of(4, true)], [[false, true], [true, true]]);
+    }
+
+    /// Traction creep is the lag of the input that drives; creep across the vehicle is none.
+    #[test]
+    fn a_lag_of_the_driving_input_is_told_beside_traction_creep() {
+        let lag = lag_of_input(&Applied { values: vec![0.3], ..applied("traction-creep") }, &unicycle(&[])).unwrap();
+        let Applied { effect, values, .. } = &lag.applied;
+        assert_eq!(
+            (effect.id.as_str(), effect.on.as_deref(), &values[..]),
+            ("input-lag", Some("wheel_rate"), &[0.3][..])
+        );
+        assert!(lag.differs() && lag_of_input(&applied("cornering-creep"), &unicycle(&[])).is_none());
     }
 
     #[test]

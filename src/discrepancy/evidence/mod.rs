@@ -11,3 +11,4 @@ pub mod regime_stability;
 pub(crate) mod scope_scan;
 pub mod score_test;
 pub(crate) mod wald_test;
+mod walk_increments;

@@ -14,12 +14,13 @@
 //! | c | mean, without a prior |
 //! | q | variance of its steps a second |
 //!
-//! What moves from one block to the next by more than a block tells is no walk that these data show: a law that is not the
-//! effect's, asked block by block, looks like that. So only walks are found that are slow beside what the blocks tell.
+//! What moves from one block to the next by more than a block tells may be a law that is not the effect's: asked block by
+//! block it looks like that. Then the increments are asked whether they are those of a walk (`walk_increments`).
 
 use super::cross_validation::Along;
 use super::scope_scan::{BlockScores, Blocks};
 use super::wald_test::neutral_at_zero;
+use super::walk_increments::{are_random, driving};
 use crate::discrepancy::estimation::elimination::eliminate;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::noise_model::NoiseModel;
@@ -47,6 +48,8 @@ pub(crate) struct Walk {
     /// √q and its standard deviation.
     pub per_sqrt_s: f64,
     pub std: f64,
+    /// The standard deviation of the mean of the parameter, about which it walks.
+    pub std_of_mean: f64,
     /// Deviance without less deviance with it.
     pub gain: f64,
 }
@@ -65,6 +68,7 @@ struct Likelihood {
     /// A·1 and g by the eigenvectors.
     ones: DVector<f64>,
     gradient: DVector<f64>,
+    eigenvectors: DMatrix<f64>,
 }
 
 impl Likelihood {
@@ -82,7 +86,20 @@ impl Likelihood {
             gradient: turned(g),
             // By rounding alone they are less than nothing.
             eigenvalues: eigenvalues.map(|lambda| lambda.max(0.0)),
+            eigenvectors,
         }
+    }
+
+    /// The information on the mean with a walk of that variance a second.
+    fn weight_at(&self, q: f64) -> f64 {
+        let taken = self.eigenvalues.iter().zip(&self.ones).map(|(lambda, one)| q / (1.0 + q * lambda) * one * one);
+        self.weight - taken.sum::<f64>()
+    }
+
+    /// What the parameter is beside its value, block by block, with a walk of that variance a second.
+    fn course(&self, q: f64, factor: &DMatrix<f64>) -> DVector<f64> {
+        let parts = self.eigenvalues.zip_map(&self.gradient, |lambda, g| -q / (1.0 + q * lambda) * g);
+        factor * (&self.eigenvectors * parts)
     }
 
     /// With a walk of that variance a second.
@@ -106,6 +123,8 @@ impl Likelihood {
 struct Reached {
     deviance: f64,
     share: f64,
+    weight: f64,
+    course: DVector<f64>,
     /// The place of the step, and the deviance at all of them.
     at: usize,
     each: Vec<f64>,
@@ -142,19 +161,29 @@ impl Problem {
             let each: Vec<f64> = (0..STEPS).map(|k| likelihood.at(step(k).powi(2))).collect();
             let Some(at) = (0..STEPS).min_by(|a, b| each[*a].total_cmp(&each[*b])) else { continue };
             if best.as_ref().is_none_or(|b| each[at] < b.deviance) {
-                best = Some(Reached { deviance: each[at], share, at, each });
+                best = Some(Reached {
+                    deviance: each[at],
+                    share,
+                    weight: likelihood.weight_at(step(at).powi(2)),
+                    course: likelihood.course(step(at).powi(2), &factor),
+                    at,
+                    each,
+                });
             }
         }
-        let Some(Reached { deviance, share, at: k, each }) = best else { return Ok(None) };
+        let Some(Reached { deviance, share, weight, course, at: k, each }) = best else { return Ok(None) };
         let is_slow = |told: f64| step(k) * (duration / blocks.count as f64).sqrt() < told;
-        if share > LEFT || k == 0 || k + 1 == STEPS || !told.is_some_and(is_slow) {
+        let is_walk = || told.is_some_and(is_slow) || self.steps_at_random(&blocks, &course);
+        if share > LEFT || k == 0 || k + 1 == STEPS || !is_walk() {
             return Ok(None);
         }
         // The curvature in ln √q at the lowest of the points.
         let width = 2.0 * DECADES * 10f64.ln() / (STEPS - 1) as f64;
         let curvature = (each[k - 1] - 2.0 * each[k] + each[k + 1]) / (width * width);
         let std = step(k) * (2.0 / curvature).sqrt();
-        Ok((curvature > 0.0).then_some(Walk { per_sqrt_s: step(k), std, gain: fit.deviance - deviance }))
+        let std_of_mean = weight.sqrt().recip();
+        let found = Walk { per_sqrt_s: step(k), std, std_of_mean, gain: fit.deviance - deviance };
+        Ok((curvature > 0.0 && std_of_mean.is_finite()).then_some(found))
     }
 
     fn likelihood(
@@ -171,6 +200,17 @@ impl Problem {
         let scores = BlockScores::of(linear, blocks, v, fit.p.len(), &kept, &[own])?;
         let all = eliminate(linear, v, fit.p.len())?;
         Some(Likelihood::of(deviance(linear, v, &all), &scores.information, &scores.gradient, factor))
+    }
+
+    /// Whether the increments of a course over the blocks may be those of a walk.
+    fn steps_at_random(&self, blocks: &Blocks, course: &DVector<f64>) -> bool {
+        let rows = blocks.rows(&self.plan);
+        let asked: Vec<Vec<f64>> = rows.iter().map(|(run, rows)| driving(&self.records[*run], rows)).collect();
+        let within = (1..rows.len()).filter(|k| rows[k - 1].0 == rows[*k].0);
+        let change = |k: usize| asked[k].iter().zip(&asked[k - 1]).map(|(a, b)| a - b).collect();
+        let (increments, beside): (Vec<f64>, Vec<Vec<f64>>) =
+            within.map(|k| (course[k] - course[k - 1], change(k))).unzip();
+        are_random(&increments, &beside)
     }
 
     /// min(t, t') from the beginning of each run on, between the blocks.

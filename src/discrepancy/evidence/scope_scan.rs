@@ -126,8 +126,7 @@ impl BlockScores {
                 }
             }
         }
-        (0..k).for_each(|p| a[(p, p)] = if a[(p, p)] > 0.0 { a[(p, p)] * (1.0 + 1e-9) } else { 1.0 });
-        a.cholesky().map_or(0.0, |a| g.dot(&a.solve(&g)))
+        gained(g, a)
     }
 
     /// Sums of gradient and information over the blocks before each, for gains of intervals.
@@ -158,19 +157,58 @@ pub(crate) struct Cumulated {
 impl Cumulated {
     /// What one value gains in some intervals of blocks that do not overlap.
     pub fn gain(&self, intervals: &[Range<usize>]) -> f64 {
+        let Taken { g, a, .. } = self.taken(intervals);
+        gained(g, a)
+    }
+
+    /// The sums over some intervals of blocks that do not overlap.
+    pub fn taken(&self, intervals: &[Range<usize>]) -> Taken {
         let n = self.blocks + 1;
         let k = self.g[0].len();
-        let (mut g, mut a) = (DVector::zeros(k), DMatrix::zeros(k, k));
+        let mut along = vec![DMatrix::zeros(k, k); n];
+        let mut g = DVector::zeros(k);
         for i in intervals {
             g += &self.g[i.end] - &self.g[i.start];
-            for j in intervals {
-                a += &self.a[i.end * n + j.end] + &self.a[i.start * n + j.start];
-                a -= &self.a[i.start * n + j.end] + &self.a[i.end * n + j.start];
+            for (j, sum) in along.iter_mut().enumerate() {
+                *sum += &self.a[i.end * n + j] - &self.a[i.start * n + j];
             }
         }
-        (0..k).for_each(|p| a[(p, p)] = if a[(p, p)] > 0.0 { a[(p, p)] * (1.0 + 1e-9) } else { 1.0 });
-        a.cholesky().map_or(0.0, |a| g.dot(&a.solve(&g)))
+        let a = intervals.iter().fold(DMatrix::zeros(k, k), |a, i| a + (&along[i.end] - &along[i.start]));
+        Taken { g, a, along }
     }
+
+    /// What one value gains in intervals with one more, or with one taken out of them.
+    pub fn gain_with(&self, taken: &Taken, ends: &Range<usize>, is_more: bool) -> f64 {
+        let n = self.blocks + 1;
+        let sign = if is_more { 1.0 } else { -1.0 };
+        let Range { start, end } = *ends;
+        if taken.g.len() == 1 {
+            let g = taken.g[0] + sign * (self.g[end][0] - self.g[start][0]);
+            let across = taken.along[end][0] - taken.along[start][0];
+            let at = |i: usize, j: usize| self.a[i * n + j][0];
+            let own = at(end, end) + at(start, start) - at(start, end) - at(end, start);
+            let a = taken.a[0] + 2.0 * sign * across + own;
+            return if a > 0.0 { g * g / (a * (1.0 + 1e-9)) } else { 0.0 };
+        }
+        let g = &taken.g + (&self.g[end] - &self.g[start]) * sign;
+        let across = &taken.along[end] - &taken.along[start];
+        let at = |i: usize, j: usize| &self.a[i * n + j];
+        let own = at(end, end) + at(start, start) - at(start, end) - at(end, start);
+        gained(g, &taken.a + (&across + across.transpose()) * sign + own)
+    }
+}
+
+/// Sums over intervals of blocks, and of the information that they have with the blocks before each.
+pub(crate) struct Taken {
+    g: DVector<f64>,
+    a: DMatrix<f64>,
+    along: Vec<DMatrix<f64>>,
+}
+
+/// gᵀ·A⁻¹·g; nothing where the data say nothing.
+fn gained(g: DVector<f64>, mut a: DMatrix<f64>) -> f64 {
+    (0..g.len()).for_each(|p| a[(p, p)] = if a[(p, p)] > 0.0 { a[(p, p)] * (1.0 + 1e-9) } else { 1.0 });
+    a.cholesky().map_or(0.0, |a| g.dot(&a.solve(&g)))
 }
 
 /// A window whose columns are its poses, the parameters kept, and for each block the effect's own: zero but in its own.
@@ -214,5 +252,29 @@ fn in_block(
         gram: window.gram.iter().zip(&window.count).enumerate().map(|(i, (g, n))| unless_empty(i, *n, g)).collect(),
         back: window.back.as_ref().map(wide_back),
         ..window.clone()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Five blocks of one value and of two: what is gained with an interval more, or less, is what all of them gain.
+    #[test]
+    fn a_change_of_intervals_gains_what_the_intervals_gain() {
+        for k in [1, 2] {
+            let n = 5 * k;
+            let root = DMatrix::from_fn(n, n, |i, j| ((3 * i + 7 * j) as f64).sin());
+            let information = &root * root.transpose() + DMatrix::identity(n, n);
+            let gradient = DVector::from_fn(n, |i, _| (1.0 + i as f64).cos());
+            let scores = BlockScores { parameters: k, information, gradient };
+            let sums = scores.cumulated();
+            let is_same = |a: f64, b: f64| (a - b).abs() < 1e-9 * b;
+            let whole = sums.taken(&[0..2, 3..5]);
+            let some = sums.taken(&[0..4]);
+            assert!(is_same(sums.gain_with(&whole, &(2..3), true), scores.gain(&[1.0; 5])));
+            assert!(is_same(sums.gain_with(&some, &(1..3), false), scores.gain(&[1.0, 0.0, 0.0, 1.0, 0.0])));
+            assert!(is_same(sums.gain(&[0..2, 3..5]), scores.gain(&[1.0, 1.0, 0.0, 1.0, 1.0])));
+        }
     }
 }

@@ -9,6 +9,7 @@ use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::evidence::wald_test::distance_of;
+use crate::discrepancy::record::local_polynomial::median;
 use crate::discrepancy::record::run_record::Record;
 use crate::effects::Applied;
 use crate::error::Result;
@@ -20,6 +21,12 @@ const MOST: f64 = 0.5;
 
 /// What is missed at twice the time between rows, less what is missed at the time itself, in units of the latter.
 const GROWTH: f64 = 3.0;
+
+/// A delay below so large a share of the time between rows may be what the interpolation makes up: no row shows it.
+const OF_A_ROW: f64 = 0.025;
+
+/// The definitions by which all inputs are late, and one of them.
+const DELAYS: [&str; 2] = ["delay", "{delay}"];
 
 /// What a fit is worth where its inputs are logged half as often.
 #[derive(Default)]
@@ -41,13 +48,18 @@ pub(crate) fn keep_sampled(
         return Ok(found);
     }
     let Some(coarse) = with_half_the_inputs(selection.problem) else { return Ok(found) };
+    let rows = selection.problem.records.iter().filter_map(|r| median_step(&r.time)).fold(0.0, f64::max);
     while !grown.fit.p.is_empty() {
         begin(progress, Stage::InputSampling)?;
         let Some(half) = coarse.fit(&grown.fit.model, &grown.fit.window_states, &grown.fit.variances, Effort::FULL)?
         else {
             break;
         };
-        let moved = grown.fit.model.free_effects().map(|e| (share_missed(&grown.fit, &half, e), e));
+        let moved = grown
+            .fit
+            .model
+            .free_effects()
+            .map(|e| (share_missed(&grown.fit, &half, e).max(share_of_a_row(e, rows)), e));
         let Some((share, worst)) = moved.max_by(|a, b| a.0.total_cmp(&b.0)) else { break };
         if share <= MOST {
             found.missed = grown.fit.p.iter().zip(&half.p).map(|(all, half)| (half - all).abs() / GROWTH).collect();
@@ -75,9 +87,34 @@ fn with_half_the_inputs(problem: &Problem) -> Option<Problem> {
     Some(Problem { records: problem.records.iter().zip(thinned).map(of).collect(), ..problem.clone() })
 }
 
+/// How much of a delay may be made up between rows that are so many seconds apart; nothing of another effect.
+fn share_of_a_row(effect: &Applied, rows: f64) -> f64 {
+    let is_delay = effect.effect.changes.keys().any(|name| DELAYS.contains(&name.as_str()));
+    let far = effect.values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    if is_delay && far > 0.0 && effect.effect.scope.is_none() { OF_A_ROW * rows / far } else { 0.0 }
+}
+
+/// The middle one of the times between rows, s.
+fn median_step(time: &[f64]) -> Option<f64> {
+    median(&mut time.windows(2).map(|w| w[1] - w[0]).collect::<Vec<f64>>())
+}
+
 /// How much of the distance of an effect's values from neutral the interpolation may make up.
 fn share_missed(fit: &Fit, half: &Fit, effect: &Applied) -> f64 {
     let by = |p: &dyn Fn(usize, f64) -> f64| distance_of(fit, fit.covariance.as_ref(), effect, p);
     let far = by(&|_, v| v);
     if far > 0.0 { (by(&|i, v| half.p[i] - v) / far).sqrt() / GROWTH } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discrepancy::fixtures::applied;
+
+    #[test]
+    fn a_delay_of_a_small_share_of_a_row_is_none() {
+        let share = |id: &str, value: f64| share_of_a_row(&Applied { values: vec![value], ..applied(id) }, 0.02);
+        assert!(share("input-delay", -0.0006) > MOST && share("input-delay", 0.0012) < MOST);
+        assert_eq!([share("input-delay", 0.0), share("yaw-rate-bias", 0.0006)], [0.0; 2]);
+    }
 }

@@ -100,7 +100,8 @@ impl Search<'_> {
         let gaps_without = |smaller: &Model| judge.gaps([&fit.model, smaller], noise);
         let mut worst: Option<(Growth, &SelectedEffect, &Fit)> = None;
         for (c, smaller) in chosen.iter().zip(without) {
-            let Some(smaller) = smaller else { continue };
+            // What walks has another value there: no one value is refuted by that.
+            let Some(smaller) = smaller.as_ref().filter(|_| c.applied.effect.walk.is_none()) else { continue };
             let gaps = gaps_without(&smaller.model)?;
             let Some(growth) = refuting(judge.which(), &gaps) else {
                 let n = fit.sample_size.max(smaller.sample_size);
@@ -121,7 +122,9 @@ impl Search<'_> {
         if let Some((growth, c, smaller)) = worst {
             return Ok(Some((c.applied.clone(), why(growth), smaller.clone())));
         }
-        let Some((least, smaller)) = worth_least(chosen, without).filter(|_| judge.which() != Judging::Fitted) else {
+        let walks = chosen.iter().any(|c| c.applied.effect.walk.is_some());
+        let least = worth_least(chosen, without).filter(|_| judge.which() != Judging::Fitted && !walks);
+        let Some((least, smaller)) = least else {
             return Ok(None);
         };
         // Where only all together make a gap grow, the effect that is worth least goes.

@@ -17,6 +17,10 @@ const RADII: [f64; 8] = [0.06, 0.09, 0.13, 0.19, 0.27, 0.36, 0.5, 0.7];
 
 /// How long the data in a scope, and those outside of it, last at least, s.
 pub(crate) const SHORTEST: f64 = 8.0;
+/// The same of a scope that the vehicle enters again and again by what it does.
+const SHORTEST_BY_DRIVING: f64 = 4.0;
+/// A growth of the speed below such a share of the largest is none: a speed that is held has hardly any.
+const HARDLY: f64 = 0.02;
 /// What a scope, or a course, gains in a run that bears it out.
 pub(crate) const BORNE_OUT: f64 = 10.0;
 
@@ -93,15 +97,19 @@ impl BlockRows {
         found.extend(self.above_speed(scores));
         found.extend(self.while_growing(scores));
         found.extend(self.in_disk(scores));
-        found.retain(|p| self.is_told(&p.shares) && self.is_shared(p, scores));
+        found.retain(|p| self.is_told(p) && self.is_shared(p, scores));
         found
     }
 
     /// Whether enough of the data lie in a scope, and enough outside.
-    fn is_told(&self, shares: &[f64]) -> bool {
+    fn is_told(&self, p: &Proposal) -> bool {
+        let shortest = match p.scope {
+            Scope::Times(_) | Scope::Disk(_) => SHORTEST,
+            Scope::Regime(_) | Scope::Above(_) | Scope::Where(_) => SHORTEST_BY_DRIVING,
+        };
         let durations = self.times.iter().map(|[from, until]| until - from);
-        let inside: f64 = durations.clone().zip(shares).map(|(d, share)| d * share).sum();
-        inside >= SHORTEST && durations.sum::<f64>() - inside >= SHORTEST
+        let inside: f64 = durations.clone().zip(&p.shares).map(|(d, share)| d * share).sum();
+        inside >= shortest && durations.sum::<f64>() - inside >= shortest
     }
 
     /// Whether more than one run bears a scope out, where there are several: what one run has alone is that run's.
@@ -132,21 +140,20 @@ impl BlockRows {
         let mut intervals: Vec<Range<usize>> = vec![];
         let mut reached = 0.0;
         while intervals.len() < MOST_INTERVALS {
-            let free = |a: usize, b: usize| intervals.iter().all(|i| b < i.start || i.end < a);
-            let pairs = (0..n).flat_map(|a| (a + 1..=n).map(move |b| (a, b))).filter(|(a, b)| free(*a, *b));
-            let with = |(a, b): (usize, usize)| {
-                let all: Vec<Range<usize>> = intervals.iter().cloned().chain(std::iter::once(a..b)).collect();
-                let gain = sums.gain(&all);
-                (all, gain)
-            };
-            let Some((all, gain)) = pairs.map(with).max_by(|a, b| a.1.total_cmp(&b.1)) else { break };
+            let taken = sums.taken(&intervals);
+            let pairs = (0..n).flat_map(|a| (a + 1..=n).map(move |b| a..b));
+            let gains = pairs.filter_map(|ends| {
+                let gain = sums.gain_with(&taken, &ends, is_apart_or_within(&intervals, &ends)?);
+                Some((ends, gain))
+            });
+            let Some((ends, gain)) = gains.max_by(|a, b| a.1.total_cmp(&b.1)) else { break };
+            let Some(all) = joined_or_cut(&intervals, ends) else { break };
             if gain <= reached {
                 break;
             }
             (intervals, reached) = (all, gain);
-            intervals.sort_by_key(|i| i.start);
             let shares = self.shares(&intervals);
-            found.push(Proposal { scope: self.times(&intervals), gain, shares, of: n * n / 2 * intervals.len() });
+            found.push(Proposal { scope: self.times(&intervals), gain, shares, of: n * n / 2 });
         }
         found
     }
@@ -205,7 +212,8 @@ impl BlockRows {
 
     /// While the speed grows, or falls, by more than a bound.
     fn while_growing(&self, scores: &BlockScores) -> Vec<Proposal> {
-        let bounds = self.quantiles(|r| r.growth.abs());
+        let most = self.rows.iter().flatten().map(|r| r.growth.abs()).filter(|g| g.is_finite()).fold(0.0, f64::max);
+        let bounds = self.quantiles(|r| if r.growth.abs() > HARDLY * most { r.growth.abs() } else { f64::NAN });
         let mut tried = vec![];
         for bound in bounds.into_iter().map(rounded).filter(|b| *b > 0.0) {
             for (sign, text) in [(1.0, "sign(v_0)*v_0'"), (-1.0, "-sign(v_0)*v_0'")] {
@@ -258,6 +266,38 @@ impl BlockRows {
     }
 }
 
+/// Places within a block that a refined edge may have.
+const PLACES: usize = 10;
+
+/// The logarithm of how many more ways there are to place the edges of several intervals along so many blocks than those of one.
+pub(super) fn ways_of_more_intervals(scope: &Scope, blocks: usize) -> f64 {
+    let Scope::Times(intervals) = scope else { return 0.0 };
+    let edges = intervals.iter().flatten().filter(|t| t.is_finite()).count();
+    let places = PLACES * blocks;
+    (2..edges).map(|k| (places.saturating_sub(k).max(1) as f64 / (k + 1) as f64).ln()).sum::<f64>().max(0.0)
+}
+
+/// Whether an interval touches none of others, or lies in the middle of one of them; `None` where it does neither.
+fn is_apart_or_within(intervals: &[Range<usize>], ends: &Range<usize>) -> Option<bool> {
+    let apart = |i: &Range<usize>| ends.end < i.start || i.end < ends.start;
+    let is_within = |i: &Range<usize>| i.start < ends.start && ends.end < i.end;
+    if intervals.iter().all(apart) { Some(true) } else { intervals.iter().any(is_within).then_some(false) }
+}
+
+/// Intervals with one more that touches none of them, or with one cut out of the middle of one of them; in order.
+fn joined_or_cut(intervals: &[Range<usize>], ends: Range<usize>) -> Option<Vec<Range<usize>>> {
+    let mut all = intervals.to_vec();
+    if is_apart_or_within(intervals, &ends)? {
+        all.push(ends);
+    } else {
+        let k = intervals.iter().position(|i| i.start < ends.start && ends.end < i.end)?;
+        all.push(ends.end..all[k].end);
+        all[k].end = ends.start;
+    }
+    all.sort_by_key(|i| i.start);
+    Some(all)
+}
+
 fn best(tried: Vec<Proposal>) -> Vec<Proposal> {
     tried.into_iter().max_by(|a, b| a.gain.total_cmp(&b.gain)).into_iter().collect()
 }
@@ -265,4 +305,28 @@ fn best(tried: Vec<Proposal>) -> Vec<Proposal> {
 /// A number for people: three digits.
 fn rounded(x: f64) -> f64 {
     format!("{x:.2e}").parse().unwrap_or(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Edges at a hundred places: two of them in 4950 ways, three in 161700, four in 3921225.
+    #[test]
+    fn more_edges_are_chosen_among_more() {
+        let more = |edges: &[[f64; 2]]| ways_of_more_intervals(&Scope::Times(edges.to_vec()), 10);
+        assert!((more(&[[1.0, 2.0], [3.0, 4.0]]) - (3_921_225.0_f64 / 4950.0).ln()).abs() < 1e-12);
+        assert!((more(&[[f64::NEG_INFINITY, 2.0], [3.0, 4.0]]) - (161_700.0_f64 / 4950.0).ln()).abs() < 1e-12);
+        assert_eq!([more(&[[1.0, 2.0]]), more(&[[1.0, f64::INFINITY]])], [0.0; 2]);
+        assert_eq!(ways_of_more_intervals(&Scope::Above(1.0), 10), 0.0);
+    }
+
+    #[test]
+    fn an_interval_is_added_beside_others_or_cut_out_of_one() {
+        let with = |ends: Range<usize>| joined_or_cut(&[2..8, 12..20], ends);
+        assert_eq!(with(9..11), Some(vec![2..8, 9..11, 12..20]));
+        assert_eq!(with(4..6), Some(vec![2..4, 6..8, 12..20]));
+        // What touches an interval, or ends within it, is another's edge moved.
+        assert_eq!([with(8..10), with(0..4), with(2..5), with(0..30)], [None, None, None, None]);
+    }
 }

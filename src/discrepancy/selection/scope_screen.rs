@@ -3,7 +3,7 @@
 //! What an effect gains block by block is a score test where the effect vanishes. Some vanish where a parameter of theirs
 //! means nothing (a slope of no steepness has no direction: Davies, 1977), so they are weighed at several values of it.
 
-use super::scope_proposals::{BlockRows, Proposal};
+use super::scope_proposals::{BlockRows, Proposal, ways_of_more_intervals};
 use super::search::Search;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::evidence::scope_scan::{BlockScores, Blocks};
@@ -14,9 +14,10 @@ use crate::error::Result;
 use rayon::prelude::*;
 
 /// Proposals that are linearised with gates of their own, at most.
-const SHORTLIST: usize = 24;
-/// And of one effect so many.
-const OF_AN_EFFECT: usize = 4;
+const SHORTLIST: usize = 30;
+/// And of one effect so many, and so many of one kind of scope: intervals of time have many neighbours that promise as much.
+const OF_AN_EFFECT: usize = 5;
+const OF_A_KIND: usize = 3;
 /// Effects of which the blocks are weighed by one linearisation.
 const TOGETHER: usize = 8;
 /// Scopes that are tried for each block and effect, about.
@@ -32,8 +33,10 @@ pub(super) struct Proposed {
     pub scoped: Vec<(Effect, Option<usize>)>,
     /// Effects with their first parameter moving, with their second one, and so on.
     pub moving: Vec<Vec<(Effect, Option<usize>)>>,
-    /// How many scopes were tried.
+    /// How many scopes of one interval and of all other kinds were tried.
     pub tried: f64,
+    /// How many blocks there are between which intervals begin and end.
+    pub blocks: usize,
 }
 
 /// An effect where it vanishes, and which of its parameters are weighed there.
@@ -80,7 +83,7 @@ impl Search<'_> {
         let is_regular = |(e, t): &(&Effect, Option<usize>)| score_test::is_regular(e, &base.model, *t);
         let regular: Vec<(&Effect, Option<usize>)> = open.into_iter().filter(is_regular).collect();
         let tried = (regular.len() * blocks.count * TRIED_PER_BLOCK).max(1) as f64;
-        Ok(Proposed { scoped, moving: self.moving(&regular), tried })
+        Ok(Proposed { scoped, moving: self.moving(&regular), tried, blocks: blocks.count })
     }
 
     /// Effects within the scopes by which they promise most, a few of each effect.
@@ -97,7 +100,8 @@ impl Search<'_> {
         let mut all: Vec<(Applied, Proposal)> = all.into_iter().flatten().collect();
         let n = base.sample_size;
         let worth = |(a, p): &(Applied, Proposal)| {
-            p.gain - (a.values.len() + p.scope.cost()) as f64 * n.ln() - 2.0 * (p.of as f64).ln()
+            let tried = (p.of as f64).ln() + ways_of_more_intervals(&p.scope, blocks.count);
+            p.gain - (a.values.len() + p.scope.cost()) as f64 * n.ln() - 2.0 * tried
         };
         all.retain(|one| worth(one) > 0.0);
         all.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
@@ -105,7 +109,9 @@ impl Search<'_> {
         for (a, p) in all {
             let own = || kept.iter().filter(|(k, _)| k.same_as(&a));
             let is_new = !own().any(|(_, q)| q.scope == p.scope);
-            if is_new && own().count() < OF_AN_EFFECT && kept.len() < SHORTLIST {
+            let few =
+                own().count() < OF_AN_EFFECT && own().filter(|(_, q)| q.scope.is_like(&p.scope)).count() < OF_A_KIND;
+            if is_new && few && kept.len() < SHORTLIST {
                 kept.push((a, p));
             }
         }

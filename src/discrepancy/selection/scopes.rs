@@ -1,7 +1,7 @@
 //! Effects that hold in part only, or move with time, asked for where what holds always does not explain the data.
 
 use super::candidates::{FINALISTS, place, rounded};
-use super::scope_proposals::{BORNE_OUT, SHORTEST};
+use super::scope_proposals::{BORNE_OUT, SHORTEST, ways_of_more_intervals};
 use super::scope_screen::Proposed;
 use super::search::{Search, SearchState, find, first_of};
 use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
@@ -89,8 +89,9 @@ impl Search<'_> {
 
     /// The effect in part that gains most beyond what it costs, and the fit with it.
     fn next_in_part(&self, base: &Fit) -> Result<Option<(String, Fit)>> {
-        let Proposed { scoped, moving, tried } = self.proposed(base)?;
-        let margin = 2.0 * tried.ln();
+        let Proposed { scoped, moving, tried, blocks } = self.proposed(base)?;
+        let more = |scope: &Scope| ways_of_more_intervals(scope, blocks);
+        let margin = |a: &Applied| 2.0 * (tried.ln() + a.effect.scope.as_ref().map_or(0.0, more));
         let promises = |some: &[(&Effect, Option<usize>)]| score_test::promises(self.problem, base, &base.model, some);
         // Each scope of an effect is a candidate of its own; of a parameter that moves there is one for each effect.
         let alone = scoped.par_iter().map(|(e, t)| promises(&[(e, *t)]));
@@ -104,10 +105,14 @@ impl Search<'_> {
         let cost = |a: &Applied| (a.values.len() + a.effect.scope.as_ref().map_or(0, |s| s.cost())) as f64 * n.ln();
         let worth = |p: &ScoreTest| rounded(p.deviance + cost(&p.applied));
         weighed.sort_by(|a, b| worth(a).total_cmp(&worth(b)).then(place(&a.applied).cmp(&place(&b.applied))));
-        let rough = of_each_kind(&weighed).into_par_iter().map(|promise| self.rough(base, promise, margin));
+        let rough =
+            of_each_kind(&weighed).into_par_iter().map(|promise| self.rough(base, promise, margin(&promise.applied)));
         let mut rough: Vec<(Applied, Fit)> = rough.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
         by_evidence(&mut rough, n);
-        let finalists = best_of_each_kind(rough).into_par_iter().map(|(own, fit)| self.refined(base, own, fit, margin));
+        let finalists = best_of_each_kind(rough).into_par_iter().map(|(own, fit)| {
+            let margin = margin(&own);
+            self.refined(base, own, fit, margin)
+        });
         let mut fits: Vec<(Applied, Fit)> = finalists.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
         by_evidence(&mut fits, n);
         for (own, fit) in fits {

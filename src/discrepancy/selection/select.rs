@@ -82,7 +82,7 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &O
     let choice =
         Selected { before, after, chosen, steps, candidates, inconsistent, sampling_sensitive, refused, missed };
     let second = second_choice(&Search::over(problem, &choice.before, &quick), &choice, progress)?;
-    Ok(Some(second.unwrap_or(choice)))
+    walks::in_its_place(problem, &quick, second.unwrap_or(choice)).map(Some)
 }
 
 impl Search<'_> {

@@ -1,21 +1,34 @@
 //! Effects whose parameter walks at random, told where that explains most of what a constant leaves.
 
+use super::choice::{Selected, SelectedEffect};
 use super::scopes::is_partial;
-use super::search::Search;
-use crate::discrepancy::estimation::fit::Fit;
-use crate::effects::{Applied, RandomWalk};
+use super::search::{Search, find};
+use crate::discrepancy::estimation::fit::{Effort, Fit};
+use crate::discrepancy::estimation::problem::Problem;
+use crate::discrepancy::estimation::unexplained::remains;
+use crate::discrepancy::evidence::chi_squared::tail;
+use crate::discrepancy::evidence::information_criterion::bic;
+use crate::discrepancy::evidence::random_walk::Walk;
+use crate::discrepancy::evidence::score_test::{is_regular, vanishes_first};
+use crate::effects::{Applied, Effect, RandomWalk};
 use crate::error::Result;
+use crate::model::Model;
 use crate::model::effect_equation::is_term;
+use rayon::prelude::*;
 
 /// The walk of an effect's parameter, where it pays, and what it gains.
 fn walking(search: &Search, fit: &Fit, effect: &Applied) -> Result<Option<(RandomWalk, f64)>> {
-    if is_term(effect) || is_partial(effect) {
+    if is_term(effect) || is_partial(effect) || effect.effect.parameters.len() != 1 || !vanishes_first(&effect.effect) {
         return Ok(None);
     }
-    let price = search.margin() + fit.sample_size.ln();
-    let walk = search.problem.walk(fit, effect)?.filter(|w| w.gain / fit.noise_correlation_time > price);
+    let walk = search.problem.walk(fit, effect)?.filter(|w| w.gain / fit.noise_correlation_time > search.price(fit));
+    Ok(walk.map(|w| (course(effect, &w), w.gain)))
+}
+
+/// The walk of the one parameter of an effect.
+fn course(effect: &Applied, walk: &Walk) -> RandomWalk {
     let parameter = effect.effect.parameters.keys().next().cloned().unwrap_or_default();
-    Ok(walk.map(|w| (RandomWalk { parameter, per_sqrt_s: w.per_sqrt_s, std: Some(w.std) }, w.gain)))
+    RandomWalk { parameter, per_sqrt_s: walk.per_sqrt_s, std: Some(walk.std) }
 }
 
 /// Lets the one effect of a fit walk whose walk gains most.
@@ -35,4 +48,70 @@ pub(crate) fn let_walk(search: &Search, fit: &mut Fit) -> Result<()> {
         own.for_each(|e| e.effect.walk = Some(walk.clone()));
     }
     Ok(())
+}
+
+/// The choice with an effect that walks in the place of what leaves a rest, where it explains the data better.
+///
+/// A parameter that walks about zero has no mean to be found by: the effect is asked for with its walk. Its price is that of
+/// two parameters, once more than that of any other way to explain the data.
+pub(crate) fn in_its_place(problem: &Problem, library: &[Effect], choice: Selected) -> Result<Selected> {
+    let before = choice.before.clone();
+    let search = &Search::over(problem, &before, library);
+    // Beside a name that always holds a walk may be no more than what that name is not.
+    let lasts = |c: &SelectedEffect| !is_term(&c.applied) && !is_partial(&c.applied);
+    if !remains(&choice.after) || choice.chosen.iter().any(lasts) {
+        return Ok(choice);
+    }
+    let base = &before;
+    let all = base.model.applicable(search.library).into_iter();
+    let open: Vec<(&Effect, Option<usize>)> = all.filter(|(e, t)| may_walk(e, &base.model, *t)).collect();
+    let beside = |(effect, trailer): (&Effect, Option<usize>)| -> Result<Option<(Applied, Fit, Walk)>> {
+        let applied = Applied::new(effect, trailer, effect.starts().swap_remove(0)).freed();
+        let model = base.model.clone().with_effect(applied.clone());
+        let fit = search.problem.fit(&model, &base.window_states, &base.variances, Effort::FULL)?;
+        let Some(fit) = fit else { return Ok(None) };
+        let walk = search.problem.walk(&fit, &applied)?;
+        Ok(walk.and_then(|walk| Some((find(&fit.model, &applied)?, fit, walk))))
+    };
+    let found: Vec<Option<(Applied, Fit, Walk)>> = open.into_par_iter().map(beside).collect::<Result<_>>()?;
+    let deviance = |fit: &Fit, walk: &Walk| fit.deviance - walk.gain;
+    let best = found.into_iter().flatten().min_by(|a, b| deviance(&a.1, &a.2).total_cmp(&deviance(&b.1, &b.2)));
+    let Some((applied, fit, walk)) = best else { return Ok(choice) };
+    let n = fit.sample_size.max(choice.after.sample_size);
+    let with_walk = deviance(&fit, &walk) + (fit.p.len() + 1) as f64 * n.ln();
+    let worth = (bic(&choice.after, n) - with_walk) / fit.noise_correlation_time;
+    if worth <= 2.0 * search.margin() {
+        return Ok(choice);
+    }
+    let gain = base.deviance - deviance(&fit, &walk);
+    Ok(walked(choice, gain, applied, fit, &walk))
+}
+
+/// Whether an effect that every vehicle has more or less of has one value, which may be zero, and says at every time what it is.
+fn may_walk(effect: &Effect, model: &Model, trailer: Option<usize>) -> bool {
+    effect.basic && effect.parameters.len() == 1 && effect.scope.is_none() && is_regular(effect, model, trailer)
+}
+
+/// The choice of an effect that walks, beside those that were chosen and hold always.
+fn walked(choice: Selected, gain: f64, applied: Applied, mut fit: Fit, walk: &Walk) -> Selected {
+    let walking = course(&applied, walk);
+    let is_own = |e: &Applied| e.same_as(&applied);
+    fit.model.effects.iter_mut().filter(|e| is_own(e)).for_each(|e| e.effect.walk = Some(walking.clone()));
+    let n = fit.sample_size;
+    let one = |e: &Applied| match (is_own(e), choice.chosen.iter().find(|c| c.applied.same_as(e))) {
+        (false, Some(known)) => SelectedEffect { applied: e.clone(), ..known.clone() },
+        _ => SelectedEffect {
+            applied: e.clone(),
+            std: vec![Some(walk.std_of_mean)],
+            delta_bic: gain - 2.0 * n.ln(),
+            p_value: tail(gain / fit.noise_correlation_time, 2),
+            rivals: vec![],
+        },
+    };
+    let chosen = fit.model.free_effects().map(one).collect();
+    let mut missed = choice.missed;
+    missed.truncate(fit.p.len());
+    missed.resize(fit.p.len(), 0.0);
+    let steps = vec![(applied.label(), fit.model.clone())];
+    Selected { after: fit, chosen, steps, missed, ..choice }
 }

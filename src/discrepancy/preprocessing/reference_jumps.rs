@@ -7,6 +7,11 @@ use crate::files::Run;
 /// A step off by so many times the usual error of a step, and by so many usual steps, is a jump.
 const OFF: f64 = 15.0;
 const STEPS: f64 = 4.0;
+/// The same of one between rows that are hardly off: no vehicle slides for one row alone, nor further than it drives.
+const OFF_ALONE: f64 = 40.0;
+const STEPS_ALONE: f64 = 1.5;
+/// What the rows beside are off by, as a share of a jump, at most.
+const BESIDE: f64 = 0.3;
 /// The same where the reference has jumped already: some five deviations of a step, which noise makes in no run.
 const OFF_AGAIN: f64 = 4.5;
 const STEPS_AGAIN: f64 = 0.5;
@@ -58,7 +63,10 @@ pub fn jumps(run: &Run, reckoned: &[Vec<f64>; 3]) -> Vec<Jumps> {
         let found: Vec<usize> = (2..run.time.len() - 1).filter(|i| bar > 0.0 && is_jump(*i, bar)).collect();
         if found.len() as f64 > MOST * run.time.len() as f64 { vec![] } else { found }
     };
+    let is_alone = |i: &usize| each[i - 2].max(each[*i]) < BESIDE * each[i - 1];
     let large = beyond(OFF, STEPS);
+    let alone = || beyond(OFF_ALONE, STEPS_ALONE).into_iter().filter(is_alone).collect::<Vec<usize>>();
+    let large = if large.is_empty() { alone() } else { large };
     if large.is_empty() {
         return vec![];
     }
@@ -145,6 +153,13 @@ mod tests {
             jumps(&run, &reckoned).len()
         };
         assert_eq!([small(&[]), small(&[80])], [0, 2]);
+        // Further than the vehicle drives in a row, and in one row alone: a slide lasts.
+        let far = |rows: usize| {
+            let (mut run, reckoned) = run(&[], None);
+            (150..200).for_each(|i| run.y[i] += 0.17 * (i - 149).min(rows) as f64);
+            jumps(&run, &reckoned).len()
+        };
+        assert_eq!([far(1), far(2), far(3)], [1, 0, 0]);
         // A reference that is lost through most of a run is no exception in it.
         assert_eq!(of(&[20, 100, 180], None), []);
     }

@@ -80,15 +80,28 @@ pub struct Effect {
     /// that one, with the same parameters, where that one does not explain everything.
     #[serde(default)]
     pub limit: Option<String>,
-    /// The kinds of input of which it is a first-order lag, with the same value, where the vehicle does not creep sideways.
+    /// Whether its one parameter is known to walk at random, as the bias of a gyroscope is.
     #[serde(default)]
-    pub lag_of: Vec<Moves>,
+    pub walks: bool,
+    /// The effect of the vehicle that it is, with the same value, on inputs of some kinds where nothing creeps sideways.
+    #[serde(default)]
+    pub twin: Option<Box<Twin>>,
     /// Its place in the library; effects are applied in this order.
     #[serde(skip)]
     pub order: usize,
     /// The file of a user that defines it; none for one of the catalogue.
     #[serde(skip)]
     pub origin: Option<Arc<Origin>>,
+}
+
+/// What an effect on an input is the same as, where it acts on inputs of some kinds.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Twin {
+    /// The other effect.
+    pub id: String,
+    /// The kinds of inputs.
+    pub inputs_that: Vec<Moves>,
 }
 
 /// A parameter of an effect.

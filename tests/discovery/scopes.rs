@@ -6,10 +6,14 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 const UNICYCLE: &str = "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 0.1\n";
+const DRIVE: &str = "vehicle = \"differential-drive\"\n[parameters]\nwheel_radius = 0.1\ntrack_width = 0.4\n";
 const CAR: &str = "vehicle = \"car\"\n[parameters]\nwheel_radius = 0.3\nwheelbase = 2.5\n";
 
+/// Times, and inputs by their roles.
+type Driven = (Vec<f64>, [(&'static str, Vec<f64>); 2]);
+
 /// The inputs of a drive of 80 s at 20 Hz that goes forward and backward, speeds up and slows down, and turns both ways.
-fn inputs(turning: &'static str, by: f64, wheel: f64) -> (Vec<f64>, [(&'static str, Vec<f64>); 2]) {
+fn inputs(turning: &'static str, by: f64, wheel: f64) -> Driven {
     let time: Vec<f64> = (0..1600).map(|i| 0.05 * f64::from(i)).collect();
     let of = |f: &dyn Fn(f64) -> f64| time.iter().map(|t| f(*t)).collect::<Vec<f64>>();
     let rate = of(&|t| wheel * (0.4 + (0.21 * t).sin() + 0.3 * (0.57 * t).cos()));
@@ -17,10 +21,19 @@ fn inputs(turning: &'static str, by: f64, wheel: f64) -> (Vec<f64>, [(&'static s
     (time, [("wheel_rate", rate), (turning, turn)])
 }
 
+/// The rates of two wheels with the speed of one in their middle, and its yaw rate.
+fn wheels((time, [(_, rate), (_, turn)]): Driven) -> Driven {
+    let one = |side: f64| rate.iter().zip(&turn).map(|(r, w)| r + side * 2.0 * w).collect::<Vec<f64>>();
+    (time, [("wheel_rate_left", one(-1.0)), ("wheel_rate_right", one(1.0))])
+}
+
 /// A run of a model that includes what is hidden, with noise.
 fn driven(head: &str, hidden: &str, noise: f64, seed: u64) -> Run {
-    let car = head == CAR;
-    let (time, inputs) = if car { inputs("steering_angle", 0.25, 4.0) } else { inputs("yaw_rate", 0.5, 8.0) };
+    let (time, inputs) = match head {
+        CAR => inputs("steering_angle", 0.25, 4.0),
+        DRIVE => wheels(inputs("yaw_rate", 0.5, 8.0)),
+        _ => inputs("yaw_rate", 0.5, 8.0),
+    };
     let truth = Model::parse(&format!("{head}{hidden}")).unwrap();
     noisy_run(&truth, time, inputs.to_vec(), noise, seed)
 }
@@ -140,26 +153,89 @@ fn runs_of_one_clock_share_a_course() {
     assert!(courses(&apart).is_empty(), "{}", apart.summary);
 }
 
-/// The bias of a gyroscope that walks, with a deviation of 0.0004 rad/s over a second: 0.0036 rad/s over the run.
-#[test]
-fn a_bias_that_walks_is_named_with_its_walk() {
+/// A drive whose gyroscope has a bias that begins somewhere and walks.
+fn walking(begin: f64, per_sqrt_s: f64, seed: u64) -> Run {
     let mut run = driven(UNICYCLE, "", 2e-3, 31);
-    let mut random = ChaCha8Rng::seed_from_u64(32);
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
     let rate = run.roles.iter().position(|r| r == "yaw_rate").unwrap();
-    let mut bias = 0.02;
+    let mut bias = begin;
     for value in &mut run.inputs[rate] {
         *value -= bias;
-        bias += 4e-4 * 0.05_f64.sqrt() * (0..12).map(|_| random.random_range(-0.5..0.5)).sum::<f64>();
+        bias += per_sqrt_s * 0.05_f64.sqrt() * (0..12).map(|_| random.random_range(-0.5..0.5)).sum::<f64>();
     }
-    let found = creepage::discover(&Model::parse(UNICYCLE).unwrap(), &[run]).unwrap();
-    let [one] = &found.report.effects[..] else { panic!("{}", found.report.summary) };
-    let course = one.parameters["bias"].course.clone().unwrap();
-    let walk = course.per_sqrt_s.unwrap();
-    assert_eq!((one.id.as_str(), course.kind.as_str()), ("yaw-rate-bias", "random-walk"), "{}", found.report.summary);
-    assert!((2e-4..8e-4).contains(&walk) && course.std.is_some_and(|std| std < walk), "{course:?}");
-    let text = found.model.text();
-    assert!(text.contains("course = { kind = \"random-walk\", parameter = \"bias\", per_sqrt_s = "), "{text}");
-    assert!(Model::parse(text).is_ok());
+    run
+}
+
+/// A bias with a deviation of 0.0004 rad/s over a second, 0.0036 rad/s over the run; and two that walk about zero, one of them
+/// further from one window to the next than a window tells.
+#[test]
+fn a_bias_that_walks_is_named_with_its_walk() {
+    for (begin, per_sqrt_s, seed) in [(0.02, 4e-4, 32), (0.0, 1e-3, 33), (0.0, 4e-3, 34)] {
+        let run = walking(begin, per_sqrt_s, seed);
+        let found = creepage::discover(&Model::parse(UNICYCLE).unwrap(), &[run]).unwrap();
+        let [one] = &found.report.effects[..] else { panic!("{}", found.report.summary) };
+        let course = one.parameters["bias"].course.clone().unwrap();
+        let walk = course.per_sqrt_s.unwrap();
+        assert_eq!(
+            (one.id.as_str(), course.kind.as_str()),
+            ("yaw-rate-bias", "random-walk"),
+            "{}",
+            found.report.summary
+        );
+        assert!((0.5 * per_sqrt_s..2.0 * per_sqrt_s).contains(&walk), "{course:?}");
+        assert!(course.std.is_some_and(|std| std < walk), "{course:?}");
+        let text = found.model.text();
+        assert!(text.contains("course = { kind = \"random-walk\", parameter = \"bias\", per_sqrt_s = "), "{text}");
+        assert!(Model::parse(text).is_ok());
+    }
+}
+
+/// What comes and goes is no constant creep of half the size: the times in between are cut out of a longer one.
+#[test]
+fn what_comes_and_goes_is_named_with_its_intervals() {
+    let intervals = "intervals = [[0.0, 9.5], [19.0, 28.5], [38.0, 47.5], [57.0, 66.5], [76.0, 85.5]]";
+    let (report, _) = answer(CAR, &effect("rotation-creep", &format!("e_rc = 0.07\nscope = {{ {intervals} }}")), 9);
+    let [one] = &report.effects[..] else { panic!("{}", report.summary) };
+    let found = one.scope.as_ref().map(|s| s.intervals.clone()).unwrap_or_default();
+    let edges: Vec<f64> = found.into_iter().flatten().filter(|t| t.is_finite()).collect();
+    // Of the last one three seconds are fitted.
+    let truth = [9.5, 19.0, 28.5, 38.0, 47.5, 57.0];
+    let is_true = |(e, t): (&f64, f64)| (e - t).abs() < 0.3;
+    assert!(edges.len() >= 5 && edges.iter().zip(truth).all(is_true), "{}: {edges:?}", report.summary);
+    assert!((one.parameters["e_rc"].value - 0.07).abs() < 0.002, "{:?}", one.parameters);
+}
+
+/// A speed that is held between short ramps: what is there while it grows lasts for seconds in all.
+#[test]
+fn what_holds_on_short_ramps_is_named_with_what_the_vehicle_does() {
+    let time: Vec<f64> = (0..1600).map(|i| 0.05 * f64::from(i)).collect();
+    let ramp = |t: f64| (t / 1.2).clamp(0.0, 1.0);
+    let held = |t: f64| {
+        3.0 + 5.0 * (0..10).map(|k| ramp(t - 8.0 * f64::from(k)) - ramp(t - 4.0 - 8.0 * f64::from(k))).sum::<f64>()
+    };
+    let rate: Vec<f64> = time.iter().map(|t| held(*t)).collect();
+    let turn: Vec<f64> = time.iter().map(|t| 0.5 * (0.37 * t).sin()).collect();
+    let hidden = effect("rotation-creep", "e_rc = 0.1\nscope = { where = \"sign(v_0)*v_0' - 0.05 > 0\" }");
+    let truth = Model::parse(&format!("{UNICYCLE}{hidden}")).unwrap();
+    let run = noisy_run(&truth, time, vec![("wheel_rate", rate), ("yaw_rate", turn)], 1e-3, 10);
+    let report = creepage::discover(&Model::parse(UNICYCLE).unwrap(), &[run]).unwrap().report;
+    let [one] = &report.effects[..] else { panic!("{}", report.summary) };
+    let formula = one.scope.as_ref().and_then(|s| s.positive.clone());
+    assert!(
+        one.id == "rotation-creep" && formula.is_some_and(|f| f.starts_with("sign(v_0)*v_0'")),
+        "{}",
+        report.summary
+    );
+    assert!((one.parameters["e_rc"].value - 0.1).abs() < 0.01, "{:?}", one.parameters);
+}
+
+/// The play of a steering that is small beside its angles is named, and no delay of a share of a row beside it.
+#[test]
+fn small_play_is_named_alone() {
+    let (report, _) = answer(CAR, &effect("input-backlash", "input = \"steering_angle\"\nwidth = 0.008"), 11);
+    let [one] = &report.effects[..] else { panic!("{}", report.summary) };
+    assert_eq!((one.id.as_str(), one.on.as_deref()), ("input-backlash", Some("steering_angle")), "{}", report.summary);
+    assert!((one.parameters["width"].value - 0.008).abs() < 4e-4, "{:?}", one.parameters);
 }
 
 #[test]
@@ -167,6 +243,7 @@ fn one_input_that_is_late_limited_or_dead_is_named_with_its_input() {
     for (head, id, rest, input) in [
         (UNICYCLE, "input-delay", "delay = -0.3", "yaw_rate"),
         (UNICYCLE, "input-lag", "time_constant = 0.4", "yaw_rate"),
+        (DRIVE, "input-lag", "time_constant = 0.3", "wheel_rate_left"),
         (CAR, "input-saturation", "limit = 0.2", "steering_angle"),
         (CAR, "input-dead-band", "width = 0.03", "steering_angle"),
     ] {

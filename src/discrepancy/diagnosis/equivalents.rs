@@ -60,18 +60,21 @@ fn of_one(chosen: &SelectedEffect, after: &Model, library: &[Effect], measured: 
     let listed: Vec<EquivalentEffect> = identical.into_iter().chain(by_data).collect();
     let limit =
         quasi_static(&chosen.applied, library).filter(|l| !listed.iter().any(|r| r.applied.same_as(&l.applied)));
-    let lag = lag_of_input(&chosen.applied, after).filter(|l| !listed.iter().any(|r| r.applied.same_as(&l.applied)));
-    listed.into_iter().chain(limit).chain(lag).collect()
+    let twin = twin_on_input(&chosen.applied, after).filter(|l| !listed.iter().any(|r| r.applied.same_as(&l.applied)));
+    listed.into_iter().chain(limit).chain(twin).collect()
 }
 
-/// The lag of the input that drives the vehicle where a chosen effect is one: what the contact does, and what an actuator
-/// ahead of it would do.
-fn lag_of_input(chosen: &Applied, model: &Model) -> Option<EquivalentEffect> {
-    let is_driven = |role: &&String| model.vehicle.moved_by(role).is_some_and(|m| chosen.effect.lag_of.contains(&m));
-    let role = model.inputs.iter().find(is_driven)?;
-    let unit = model.vehicle.inputs.get(role.as_str()).map_or("m/s", |input| &input.unit);
-    let lag = effects::named("input-lag")?.on_input(role, unit, 1.0);
-    Some(EquivalentEffect { applied: Applied::new(&lag, None, chosen.values.clone()), why: "first order" })
+/// The effect on the input that drives which is the same as a chosen one: what the contact does, and what an actuator ahead of it
+/// would do.
+fn twin_on_input(chosen: &Applied, model: &Model) -> Option<EquivalentEffect> {
+    let all = effects::all().iter().filter_map(|e| Some((e, e.twin.as_ref()?)));
+    all.filter(|(_, twin)| twin.id == chosen.effect.id).find_map(|(effect, twin)| {
+        let moves = |role: &&String| model.vehicle.moved_by(role).is_some_and(|m| twin.inputs_that.contains(&m));
+        let role = model.inputs.iter().find(moves)?;
+        let unit = model.vehicle.inputs.get(role.as_str()).map_or("m/s", |input| &input.unit);
+        let applied = Applied::new(&effect.on_input(role, unit, 1.0), None, chosen.values.clone());
+        Some(EquivalentEffect { applied, why: "first order" })
+    })
 }
 
 /// What a chosen effect becomes where its states follow at once: the same to first order in the time they take.
@@ -110,13 +113,13 @@ mod tests {
     /// Traction creep is the lag of the input that drives; creep across the vehicle is none.
     #[test]
     fn a_lag_of_the_driving_input_is_told_beside_traction_creep() {
-        let lag = lag_of_input(&Applied { values: vec![0.3], ..applied("traction-creep") }, &unicycle(&[])).unwrap();
+        let lag = twin_on_input(&Applied { values: vec![0.3], ..applied("traction-creep") }, &unicycle(&[])).unwrap();
         let Applied { effect, values, .. } = &lag.applied;
         assert_eq!(
             (effect.id.as_str(), effect.on.as_deref(), &values[..]),
             ("input-lag", Some("wheel_rate"), &[0.3][..])
         );
-        assert!(lag.differs() && lag_of_input(&applied("cornering-creep"), &unicycle(&[])).is_none());
+        assert!(lag.differs() && twin_on_input(&applied("cornering-creep"), &unicycle(&[])).is_none());
     }
 
     #[test]

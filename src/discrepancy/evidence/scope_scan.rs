@@ -271,7 +271,7 @@ mod tests {
             let sums = scores.cumulated();
             let is_same = |a: f64, b: f64| (a - b).abs() < 1e-9 * b;
             let whole = sums.taken(&[0..2, 3..5]);
-            let some = sums.taken(&[0..4]);
+            let some = sums.taken(std::slice::from_ref(&(0..4)));
             assert!(is_same(sums.gain_with(&whole, &(2..3), true), scores.gain(&[1.0; 5])));
             assert!(is_same(sums.gain_with(&some, &(1..3), false), scores.gain(&[1.0, 0.0, 0.0, 1.0, 0.0])));
             assert!(is_same(sums.gain(&[0..2, 3..5]), scores.gain(&[1.0, 1.0, 0.0, 1.0, 1.0])));

@@ -17,8 +17,9 @@ const RADII: [f64; 8] = [0.06, 0.09, 0.13, 0.19, 0.27, 0.36, 0.5, 0.7];
 
 /// How long the data in a scope, and those outside of it, last at least, s.
 pub(crate) const SHORTEST: f64 = 8.0;
-/// The same of a scope that the vehicle enters again and again by what it does.
+/// The same of a scope that the vehicle enters by what it does, so often at least that bears it out.
 const SHORTEST_BY_DRIVING: f64 = 4.0;
+const TIMES: usize = 4;
 /// A growth of the speed below such a share of the largest is none: a speed that is held has hardly any.
 const HARDLY: f64 = 0.02;
 /// What a scope, or a course, gains in a run that bears it out.
@@ -97,19 +98,29 @@ impl BlockRows {
         found.extend(self.above_speed(scores));
         found.extend(self.while_growing(scores));
         found.extend(self.in_disk(scores));
-        found.retain(|p| self.is_told(p) && self.is_shared(p, scores));
+        found.retain(|p| self.is_told(p, scores) && self.is_shared(p, scores));
         found
     }
 
     /// Whether enough of the data lie in a scope, and enough outside.
-    fn is_told(&self, p: &Proposal) -> bool {
-        let shortest = match p.scope {
-            Scope::Times(_) | Scope::Disk(_) => SHORTEST,
-            Scope::Regime(_) | Scope::Above(_) | Scope::Where(_) => SHORTEST_BY_DRIVING,
-        };
+    fn is_told(&self, p: &Proposal, scores: &BlockScores) -> bool {
         let durations = self.times.iter().map(|[from, until]| until - from);
         let inside: f64 = durations.clone().zip(&p.shares).map(|(d, share)| d * share).sum();
-        inside >= shortest && durations.sum::<f64>() - inside >= shortest
+        let least = inside.min(durations.sum::<f64>() - inside);
+        let is_by_driving = !matches!(p.scope, Scope::Times(_) | Scope::Disk(_));
+        least >= SHORTEST || is_by_driving && least >= SHORTEST_BY_DRIVING && self.is_repeated(p, scores)
+    }
+
+    /// Whether a scope is entered several times, each of which bears it out: what happened once is no rule.
+    fn is_repeated(&self, p: &Proposal, scores: &BlockScores) -> bool {
+        let n = p.shares.len();
+        let begins = (0..n).filter(|b| p.shares[*b] > 0.0 && (*b == 0 || p.shares[b - 1] == 0.0));
+        let each = begins.map(|b| b..(b..n).find(|e| p.shares[*e] == 0.0).unwrap_or(n));
+        let gain = |time: Range<usize>| {
+            let own = (0..n).map(|b| if time.contains(&b) { p.shares[b] } else { 0.0 });
+            scores.gain(&own.collect::<Vec<_>>())
+        };
+        each.filter(|time| gain(time.clone()) > BORNE_OUT).count() >= TIMES
     }
 
     /// Whether more than one run bears a scope out, where there are several: what one run has alone is that run's.

@@ -214,7 +214,7 @@ fn by_evidence(fits: &mut [(Applied, Fit)], n: f64) {
 }
 
 /// Whether the data tell what an effect in part is held by, as a limit is: one of fewer deviations than these is not told.
-const TOLD: f64 = 2.0;
+const TOLD: f64 = 3.0;
 
 /// Whether every positive parameter of an effect in part that is not its size stands out of its deviation.
 pub(crate) fn are_limits_told(fit: &Fit) -> bool {

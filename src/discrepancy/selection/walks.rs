@@ -59,7 +59,8 @@ pub(crate) fn in_its_place(problem: &Problem, library: &[Effect], choice: Select
     let search = &Search::over(problem, &before, library);
     // Beside a name that always holds a walk may be no more than what that name is not.
     let lasts = |c: &SelectedEffect| !is_term(&c.applied) && !is_partial(&c.applied);
-    if !remains(&choice.after) || choice.chosen.iter().any(lasts) {
+    // Of several runs each may have a value of its own, which looks like a walk from one to the other.
+    if !remains(&choice.after) || before.runs > 1 || choice.chosen.iter().any(lasts) {
         return Ok(choice);
     }
     let base = &before;
@@ -87,9 +88,9 @@ pub(crate) fn in_its_place(problem: &Problem, library: &[Effect], choice: Select
     Ok(walked(choice, gain, applied, fit, &walk))
 }
 
-/// Whether an effect that every vehicle has more or less of has one value, which may be zero, and says at every time what it is.
+/// Whether an effect is known to walk, and has one value, which may be zero.
 fn may_walk(effect: &Effect, model: &Model, trailer: Option<usize>) -> bool {
-    effect.basic && effect.parameters.len() == 1 && effect.scope.is_none() && is_regular(effect, model, trailer)
+    effect.walks && effect.parameters.len() == 1 && effect.scope.is_none() && is_regular(effect, model, trailer)
 }
 
 /// The choice of an effect that walks, beside those that were chosen and hold always.

@@ -95,6 +95,7 @@ fn read_effect(section: &Section, origin: &Arc<Origin>) -> Result<UserEffect> {
         "source",
         "per_trailer",
         "basic",
+        "walks",
         "needs",
         "limit",
         "parameters",
@@ -112,6 +113,7 @@ fn read_effect(section: &Section, origin: &Arc<Origin>) -> Result<UserEffect> {
             source: section.get("source").map(|v| v.text()).transpose()?.unwrap_or("the user's own").into(),
             per_trailer: section.get("per_trailer").map_or(Ok(false), |v| v.truth())?,
             basic: section.get("basic").map_or(Ok(false), |v| v.truth())?,
+            walks: section.get("walks").map_or(Ok(false), |v| v.truth())?,
             limit: limit.as_ref().map(|v| v.text().map(str::to_string)).transpose()?,
             origin: Some(origin.clone()),
             ..Effect::default()

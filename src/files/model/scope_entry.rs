@@ -130,7 +130,9 @@ fn intervals(list: &Value) -> Result<Vec<[f64; 2]>> {
     let example = "intervals = [[35.3, 50.1], [63.0, 68.5]]";
     let mut found: Vec<[f64; 2]> = vec![];
     for element in list.list(example)? {
-        let [from, until] = numbers(&element)?[..] else {
+        let times: Vec<f64> =
+            element.list("[1.0, 2.0]")?.iter().map(Value::number_or_infinity).collect::<Result<_>>()?;
+        let [from, until] = times[..] else {
             return Err(element.error("an interval must be a list of two times").help(format!("write {example}")));
         };
         ordered(&element, [from, until])?;
@@ -189,6 +191,7 @@ mod tests {
             "scope = { until = 35.3 }",
             "scope = { from = 35.3, until = 50.1 }",
             "scope = { intervals = [[1.0, 2.0], [3.0, 4.5]] }",
+            "scope = { intervals = [[-inf, 2.0], [3.0, inf]] }",
             "scope = { regime = \"reverse\" }",
             "scope = { above = { speed = 1.2 } }",
             "scope = { disk = [6.27, -8.98, 2.68] }",
@@ -211,6 +214,8 @@ mod tests {
         for (line, expected) in [
             ("scope = { from = 3.0, until = 2.0 }", "ends at 2.0 before it begins at 3.0"),
             ("scope = { intervals = [[1.0, 3.0], [2.0, 4.0]] }", "begins before the one before it ends"),
+            ("scope = { intervals = [[1.0, inf], [2.0, 4.0]] }", "begins before the one before it ends"),
+            ("scope = { intervals = [[nan, 1.0]] }", "finite"),
             ("scope = { regime = \"sideways\" }", "no regime is called"),
             ("scope = { disk = [1.0, 2.0] }", "x, y and radius"),
             ("scope = { where = \"x - 3\" }", "ends in > 0"),

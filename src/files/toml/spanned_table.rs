@@ -198,6 +198,18 @@ impl<'a, 'd> Value<'a, 'd> {
         Err(self.error(format!("{} must be a finite number", self.name)).help(format!("write {} = 0.5", self.name)))
     }
 
+    /// A number, or `inf` or `-inf`: a time without an end.
+    pub fn number_or_infinity(&self) -> Result<f64> {
+        match self.value.get_ref() {
+            DeValue::Float(float) => match float.as_str() {
+                "inf" | "+inf" => Ok(f64::INFINITY),
+                "-inf" => Ok(f64::NEG_INFINITY),
+                _ => self.number(),
+            },
+            _ => self.number(),
+        }
+    }
+
     /// A number greater than zero.
     pub fn positive(&self) -> Result<f64> {
         match self.number()? {

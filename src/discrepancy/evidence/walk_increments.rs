@@ -5,6 +5,7 @@
 //! What begins and ends is a few large steps between many small ones.
 
 use crate::discrepancy::record::run_record::Record;
+use crate::model::observation::BODY_HEADING;
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
 
@@ -25,7 +26,7 @@ pub(crate) fn driving(record: &Record, rows: &Range<usize>) -> Vec<f64> {
         here.extend(u.iter().map(|u| u.abs()));
         here.extend(products.map(|(i, j)| u[i] * u[j]));
         if record.has_heading() {
-            let (sin, cos) = record.columns[2][i].sin_cos();
+            let (sin, cos) = record.columns[BODY_HEADING][i].sin_cos();
             here.extend([sin, cos]);
         }
         sum.resize(here.len(), 0.0);

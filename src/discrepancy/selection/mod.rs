@@ -5,6 +5,7 @@ pub(crate) mod candidates;
 pub mod choice;
 pub(crate) mod input_noise;
 pub(crate) mod input_sampling;
+mod interval_search;
 pub(crate) mod limits;
 pub mod odd_run;
 pub mod other_vehicle;

@@ -1,5 +1,6 @@
 //! Scopes that an effect may have, proposed by where it would gain: in time, in a regime, above a speed, in a place.
 
+use super::interval_search::{is_apart_or_within, joined_or_cut};
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::evidence::scope_scan::{BlockScores, Blocks, Cumulated};
 use crate::effects::{DrivingRegime, Scope};
@@ -277,38 +278,6 @@ impl BlockRows {
     }
 }
 
-/// Places within a block that a refined edge may have.
-const PLACES: usize = 10;
-
-/// The logarithm of how many more ways there are to place the edges of several intervals along so many blocks than those of one.
-pub(super) fn ways_of_more_intervals(scope: &Scope, blocks: usize) -> f64 {
-    let Scope::Times(intervals) = scope else { return 0.0 };
-    let edges = intervals.iter().flatten().filter(|t| t.is_finite()).count();
-    let places = PLACES * blocks;
-    (2..edges).map(|k| (places.saturating_sub(k).max(1) as f64 / (k + 1) as f64).ln()).sum::<f64>().max(0.0)
-}
-
-/// Whether an interval touches none of others, or lies in the middle of one of them; `None` where it does neither.
-fn is_apart_or_within(intervals: &[Range<usize>], ends: &Range<usize>) -> Option<bool> {
-    let apart = |i: &Range<usize>| ends.end < i.start || i.end < ends.start;
-    let is_within = |i: &Range<usize>| i.start < ends.start && ends.end < i.end;
-    if intervals.iter().all(apart) { Some(true) } else { intervals.iter().any(is_within).then_some(false) }
-}
-
-/// Intervals with one more that touches none of them, or with one cut out of the middle of one of them; in order.
-fn joined_or_cut(intervals: &[Range<usize>], ends: Range<usize>) -> Option<Vec<Range<usize>>> {
-    let mut all = intervals.to_vec();
-    if is_apart_or_within(intervals, &ends)? {
-        all.push(ends);
-    } else {
-        let k = intervals.iter().position(|i| i.start < ends.start && ends.end < i.end)?;
-        all.push(ends.end..all[k].end);
-        all[k].end = ends.start;
-    }
-    all.sort_by_key(|i| i.start);
-    Some(all)
-}
-
 fn best(tried: Vec<Proposal>) -> Vec<Proposal> {
     tried.into_iter().max_by(|a, b| a.gain.total_cmp(&b.gain)).into_iter().collect()
 }
@@ -316,28 +285,4 @@ fn best(tried: Vec<Proposal>) -> Vec<Proposal> {
 /// A number for people: three digits.
 fn rounded(x: f64) -> f64 {
     format!("{x:.2e}").parse().unwrap_or(x)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Edges at a hundred places: two of them in 4950 ways, three in 161700, four in 3921225.
-    #[test]
-    fn more_edges_are_chosen_among_more() {
-        let more = |edges: &[[f64; 2]]| ways_of_more_intervals(&Scope::Times(edges.to_vec()), 10);
-        assert!((more(&[[1.0, 2.0], [3.0, 4.0]]) - (3_921_225.0_f64 / 4950.0).ln()).abs() < 1e-12);
-        assert!((more(&[[f64::NEG_INFINITY, 2.0], [3.0, 4.0]]) - (161_700.0_f64 / 4950.0).ln()).abs() < 1e-12);
-        assert_eq!([more(&[[1.0, 2.0]]), more(&[[1.0, f64::INFINITY]])], [0.0; 2]);
-        assert_eq!(ways_of_more_intervals(&Scope::Above(1.0), 10), 0.0);
-    }
-
-    #[test]
-    fn an_interval_is_added_beside_others_or_cut_out_of_one() {
-        let with = |ends: Range<usize>| joined_or_cut(&[2..8, 12..20], ends);
-        assert_eq!(with(9..11), Some(vec![2..8, 9..11, 12..20]));
-        assert_eq!(with(4..6), Some(vec![2..4, 6..8, 12..20]));
-        // What touches an interval, or ends within it, is another's edge moved.
-        assert_eq!([with(8..10), with(0..4), with(2..5), with(0..30)], [None, None, None, None]);
-    }
 }

@@ -3,7 +3,8 @@
 //! What an effect gains block by block is a score test where the effect vanishes. Some vanish where a parameter of theirs
 //! means nothing (a slope of no steepness has no direction: Davies, 1977), so they are weighed at several values of it.
 
-use super::scope_proposals::{BlockRows, Proposal, ways_of_more_intervals};
+use super::interval_search::ways_of_more_intervals;
+use super::scope_proposals::{BlockRows, Proposal};
 use super::search::Search;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::evidence::scope_scan::{BlockScores, Blocks};

@@ -1,7 +1,8 @@
 //! Effects that hold in part only, or move with time, asked for where what holds always does not explain the data.
 
 use super::candidates::{FINALISTS, place, rounded};
-use super::scope_proposals::{BORNE_OUT, SHORTEST, ways_of_more_intervals};
+use super::interval_search::ways_of_more_intervals;
+use super::scope_proposals::{BORNE_OUT, SHORTEST};
 use super::scope_screen::Proposed;
 use super::search::{Search, SearchState, find, first_of};
 use crate::discrepancy::estimation::bounds::{is_possible, vanishes};

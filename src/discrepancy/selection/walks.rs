@@ -93,26 +93,18 @@ fn may_walk(effect: &Effect, model: &Model, trailer: Option<usize>) -> bool {
     effect.walks && effect.parameters.len() == 1 && effect.scope.is_none() && is_regular(effect, model, trailer)
 }
 
-/// The choice of an effect that walks, beside those that were chosen and hold always.
+/// The choice of an effect that walks.
 fn walked(choice: Selected, gain: f64, applied: Applied, mut fit: Fit, walk: &Walk) -> Selected {
     let walking = course(&applied, walk);
-    let is_own = |e: &Applied| e.same_as(&applied);
-    fit.model.effects.iter_mut().filter(|e| is_own(e)).for_each(|e| e.effect.walk = Some(walking.clone()));
-    let n = fit.sample_size;
-    let one = |e: &Applied| match (is_own(e), choice.chosen.iter().find(|c| c.applied.same_as(e))) {
-        (false, Some(known)) => SelectedEffect { applied: e.clone(), ..known.clone() },
-        _ => SelectedEffect {
-            applied: e.clone(),
-            std: vec![Some(walk.std_of_mean)],
-            delta_bic: gain - 2.0 * n.ln(),
-            p_value: tail(gain / fit.noise_correlation_time, 2),
-            rivals: vec![],
-        },
+    let own = fit.model.effects.iter_mut().filter(|e| e.same_as(&applied));
+    own.for_each(|e| e.effect.walk = Some(walking.clone()));
+    let chosen = SelectedEffect {
+        applied: find(&fit.model, &applied).unwrap_or(applied),
+        std: vec![Some(walk.std_of_mean)],
+        delta_bic: gain - 2.0 * fit.sample_size.ln(),
+        p_value: tail(gain / fit.noise_correlation_time, 2),
+        rivals: vec![],
     };
-    let chosen = fit.model.free_effects().map(one).collect();
-    let mut missed = choice.missed;
-    missed.truncate(fit.p.len());
-    missed.resize(fit.p.len(), 0.0);
-    let steps = vec![(applied.label(), fit.model.clone())];
-    Selected { after: fit, chosen, steps, missed, ..choice }
+    let steps = vec![(chosen.applied.label(), fit.model.clone())];
+    Selected { missed: vec![0.0; fit.p.len()], after: fit, chosen: vec![chosen], steps, ..choice }
 }

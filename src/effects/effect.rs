@@ -192,6 +192,11 @@ impl Effect {
         self.place == CLOCK
     }
 
+    /// Whether it makes all inputs late, or one of them.
+    pub fn delays_inputs(&self) -> bool {
+        [DELAY, DELAY_PATTERN].iter().any(|name| self.changes.contains_key(*name))
+    }
+
     /// The effect on an input of a unit and a size; one that acts on no single input stays as it is.
     ///
     /// ```

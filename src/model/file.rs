@@ -142,7 +142,7 @@ fn applied(entry: &EffectEntry, library: &[Effect], vehicle: &Vehicle) -> Option
     let effect = library.iter().find(|e| e.id == entry.id)?;
     let mut effect = effect.clone();
     if let Some(role) = &entry.input {
-        effect = effect.on_input(role, vehicle.inputs.get(role).map_or("m/s", |input| &input.unit), 1.0);
+        effect = effect.on_input(role, vehicle.unit_of(role), 1.0);
     }
     let mut per_s = None;
     match entry.course.as_ref().map(|c| (c.parameter.clone(), c.motion)) {

@@ -95,6 +95,11 @@ impl Vehicle {
         declared.or_else(|| Moves::usual(role))
     }
 
+    /// The unit of a logged input; a speed may be logged in the place of a wheel's rate, whatever the vehicle.
+    pub fn unit_of(&self, role: &str) -> &str {
+        self.inputs.get(role).map_or("m/s", |input| &input.unit)
+    }
+
     /// The first input that does this to the body.
     pub fn input_that(&self, moves: Moves) -> Option<&str> {
         self.inputs.keys().find(|role| self.moved_by(role) == Some(moves)).map(String::as_str)

@@ -58,10 +58,10 @@ fn of_one(chosen: &SelectedEffect, after: &Model, library: &[Effect], measured: 
     let by_data: Vec<EquivalentEffect> =
         by_data.map(|r| EquivalentEffect { applied: r.clone(), why: related(r).word().unwrap_or("data") }).collect();
     let listed: Vec<EquivalentEffect> = identical.into_iter().chain(by_data).collect();
-    let limit =
-        quasi_static(&chosen.applied, library).filter(|l| !listed.iter().any(|r| r.applied.same_as(&l.applied)));
-    let twin = twin_on_input(&chosen.applied, after).filter(|l| !listed.iter().any(|r| r.applied.same_as(&l.applied)));
-    listed.into_iter().chain(limit).chain(twin).collect()
+    let declared = [quasi_static(&chosen.applied, library), twin_on_input(&chosen.applied, after)];
+    let is_new = |d: &EquivalentEffect| !listed.iter().any(|r| r.applied.same_as(&d.applied));
+    let declared: Vec<EquivalentEffect> = declared.into_iter().flatten().filter(is_new).collect();
+    listed.into_iter().chain(declared).collect()
 }
 
 /// The effect on the input that drives which is the same as a chosen one: what the contact does, and what an actuator ahead of it
@@ -71,8 +71,8 @@ fn twin_on_input(chosen: &Applied, model: &Model) -> Option<EquivalentEffect> {
     all.filter(|(_, twin)| twin.id == chosen.effect.id).find_map(|(effect, twin)| {
         let moves = |role: &&String| model.vehicle.moved_by(role).is_some_and(|m| twin.inputs_that.contains(&m));
         let role = model.inputs.iter().find(moves)?;
-        let unit = model.vehicle.inputs.get(role.as_str()).map_or("m/s", |input| &input.unit);
-        let applied = Applied::new(&effect.on_input(role, unit, 1.0), None, chosen.values.clone());
+        let on_input = effect.on_input(role, model.vehicle.unit_of(role), 1.0);
+        let applied = Applied::new(&on_input, None, chosen.values.clone());
         Some(EquivalentEffect { applied, why: "first order" })
     })
 }

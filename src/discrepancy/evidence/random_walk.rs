@@ -123,8 +123,7 @@ impl Likelihood {
 struct Reached {
     deviance: f64,
     share: f64,
-    weight: f64,
-    course: DVector<f64>,
+    likelihood: Likelihood,
     /// The place of the step, and the deviance at all of them.
     at: usize,
     each: Vec<f64>,
@@ -161,19 +160,13 @@ impl Problem {
             let each: Vec<f64> = (0..STEPS).map(|k| likelihood.at(step(k).powi(2))).collect();
             let Some(at) = (0..STEPS).min_by(|a, b| each[*a].total_cmp(&each[*b])) else { continue };
             if best.as_ref().is_none_or(|b| each[at] < b.deviance) {
-                best = Some(Reached {
-                    deviance: each[at],
-                    share,
-                    weight: likelihood.weight_at(step(at).powi(2)),
-                    course: likelihood.course(step(at).powi(2), &factor),
-                    at,
-                    each,
-                });
+                best = Some(Reached { deviance: each[at], share, likelihood, at, each });
             }
         }
-        let Some(Reached { deviance, share, weight, course, at: k, each }) = best else { return Ok(None) };
+        let Some(Reached { deviance, share, likelihood, at: k, each }) = best else { return Ok(None) };
         let is_slow = |told: f64| step(k) * (duration / blocks.count as f64).sqrt() < told;
-        let is_walk = || told.is_some_and(is_slow) || self.steps_at_random(&blocks, &course);
+        let q = step(k).powi(2);
+        let is_walk = || told.is_some_and(is_slow) || self.steps_at_random(&blocks, &likelihood.course(q, &factor));
         if share > LEFT || k == 0 || k + 1 == STEPS || !is_walk() {
             return Ok(None);
         }
@@ -181,7 +174,7 @@ impl Problem {
         let width = 2.0 * DECADES * 10f64.ln() / (STEPS - 1) as f64;
         let curvature = (each[k - 1] - 2.0 * each[k] + each[k + 1]) / (width * width);
         let std = step(k) * (2.0 / curvature).sqrt();
-        let std_of_mean = weight.sqrt().recip();
+        let std_of_mean = likelihood.weight_at(q).sqrt().recip();
         let found = Walk { per_sqrt_s: step(k), std, std_of_mean, gain: fit.deviance - deviance };
         Ok((curvature > 0.0 && std_of_mean.is_finite()).then_some(found))
     }

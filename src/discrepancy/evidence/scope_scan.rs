@@ -155,12 +155,6 @@ pub(crate) struct Cumulated {
 }
 
 impl Cumulated {
-    /// What one value gains in some intervals of blocks that do not overlap.
-    pub fn gain(&self, intervals: &[Range<usize>]) -> f64 {
-        let Taken { g, a, .. } = self.taken(intervals);
-        gained(g, a)
-    }
-
     /// The sums over some intervals of blocks that do not overlap.
     pub fn taken(&self, intervals: &[Range<usize>]) -> Taken {
         let n = self.blocks + 1;
@@ -271,10 +265,11 @@ mod tests {
             let sums = scores.cumulated();
             let is_same = |a: f64, b: f64| (a - b).abs() < 1e-9 * b;
             let whole = sums.taken(&[0..2, 3..5]);
-            let some = sums.taken(std::slice::from_ref(&(0..4)));
+            let alone = |interval: Range<usize>| sums.taken(&[interval]);
+            let some = alone(0..4);
             assert!(is_same(sums.gain_with(&whole, &(2..3), true), scores.gain(&[1.0; 5])));
             assert!(is_same(sums.gain_with(&some, &(1..3), false), scores.gain(&[1.0, 0.0, 0.0, 1.0, 0.0])));
-            assert!(is_same(sums.gain(&[0..2, 3..5]), scores.gain(&[1.0, 1.0, 0.0, 1.0, 1.0])));
+            assert!(is_same(sums.gain_with(&alone(0..2), &(3..5), true), scores.gain(&[1.0, 1.0, 0.0, 1.0, 1.0])));
         }
     }
 }

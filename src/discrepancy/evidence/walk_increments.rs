@@ -46,20 +46,17 @@ pub(crate) fn are_random(increments: &[f64], driving: &[Vec<f64>]) -> bool {
     }
     let columns = driving.first().map_or(0, Vec::len);
     let explained = DMatrix::from_fn(n, columns, |i, j| driving[i][j]);
-    let Some(left) = residual(&explained, &DVector::from_column_slice(increments)) else { return true };
-    let free = n as f64 - left.1 as f64;
-    free > 1.0 && 1.0 - (left.0 / free) / (all / n as f64) < FOLLOWS
+    let left = residual(explained, &DVector::from_column_slice(increments));
+    let Some((left, used)) = left else { return true };
+    let free = n as f64 - used as f64;
+    free > 1.0 && 1.0 - (left / free) / (all / n as f64) < FOLLOWS
 }
 
 /// The sum of squares that a regression leaves, and how many columns it uses.
-fn residual(x: &DMatrix<f64>, y: &DVector<f64>) -> Option<(f64, usize)> {
-    let scaled = DMatrix::from_fn(x.nrows(), x.ncols(), |i, j| {
-        let size = x.column(j).norm();
-        if size > 0.0 { x[(i, j)] / size } else { 0.0 }
-    });
-    let svd = scaled.svd(true, true);
-    let most = svd.singular_values.iter().copied().fold(0.0, f64::max);
-    let rank = svd.rank(1e-6 * most);
+fn residual(mut x: DMatrix<f64>, y: &DVector<f64>) -> Option<(f64, usize)> {
+    x.column_iter_mut().for_each(|mut column| _ = column.try_normalize_mut(0.0));
+    let svd = x.svd(true, false);
+    let rank = svd.rank(1e-6 * svd.singular_values.max());
     let u = svd.u?;
     let projected: f64 = (0..rank).map(|j| u.column(j).dot(y).powi(2)).sum();
     Some((y.norm_squared() - projected, rank))
@@ -68,15 +65,13 @@ fn residual(x: &DMatrix<f64>, y: &DVector<f64>) -> Option<(f64, usize)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rand::{Rng, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
 
-    /// Numbers that look random, in (−1, 1).
+    /// Random numbers in (−1, 1).
     fn noise(n: usize, seed: u64) -> Vec<f64> {
-        let mut state = seed;
-        let mut next = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-        };
-        (0..n).map(|_| next()).collect()
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        (0..n).map(|_| random.random_range(-1.0..1.0)).collect()
     }
 
     #[test]

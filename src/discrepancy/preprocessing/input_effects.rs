@@ -33,9 +33,7 @@ fn on_input(effect: &Effect, role: &str, model: &Model, runs: &[Run]) -> Option<
     }
     let in_steps = || columns.iter().any(|c| step_of(c).is_some());
     let stands = size > 0.0 && effect.coarse.is_none_or(|coarse| coarse == in_steps());
-    // A speed may be logged in the place of a wheel's rate, whatever the vehicle.
-    let unit = model.vehicle.inputs.get(role).map_or("m/s", |input| &input.unit);
-    stands.then(|| effect.on_input(role, unit, size))
+    stands.then(|| effect.on_input(role, model.vehicle.unit_of(role), size))
 }
 
 fn column<'r>(run: &'r Run, role: &str) -> Option<&'r [f64]> {

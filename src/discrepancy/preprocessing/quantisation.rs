@@ -21,8 +21,7 @@ pub struct CoarseInput {
 pub(crate) fn coarse_inputs(model: &Model, run: &Run) -> Vec<CoarseInput> {
     let of = |(role, column): (&String, &Vec<f64>)| {
         let step = step_of(column)?;
-        // A speed may be logged in the place of a wheel's rate, whatever the vehicle.
-        let unit = model.vehicle.inputs.get(role).map_or("m/s", |input| &input.unit).into();
+        let unit = model.vehicle.unit_of(role).into();
         Some(CoarseInput { run: run.name.clone(), role: role.clone(), step, unit })
     };
     run.roles.iter().zip(&run.inputs).filter_map(of).collect()

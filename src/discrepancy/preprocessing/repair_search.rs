@@ -142,10 +142,10 @@ impl Trial<'_> {
     fn candidates(&self, model: &Model) -> Vec<(Vec<InputRepair>, u32)> {
         let mut found = self.signs_and_places();
         let radius = self.file.parameters.get("wheel_radius").copied();
-        let unit = |role: &str| model.vehicle.inputs.get(role).map_or("m/s", |input| input.unit.as_str());
         let time = self.run.input_time();
         let rate = (time.len() - 1) as f64 / (time[time.len() - 1] - time[0]);
-        let usual = |role: &str| Change::of_either_sign(is_wheel(model, role), unit(role), radius, rate);
+        let usual =
+            |role: &str| Change::of_either_sign(is_wheel(model, role), model.vehicle.unit_of(role), radius, rate);
         for role in &self.run.roles {
             for (change, cost) in usual(role) {
                 found.push((vec![self.repair(role, role, change)], cost));

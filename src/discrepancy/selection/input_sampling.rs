@@ -9,7 +9,6 @@ use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::evidence::wald_test::distance_of;
-use crate::discrepancy::record::local_polynomial::median;
 use crate::discrepancy::record::run_record::Record;
 use crate::effects::Applied;
 use crate::error::Result;
@@ -24,9 +23,6 @@ const GROWTH: f64 = 3.0;
 
 /// A delay below so large a share of the time between rows may be what the interpolation makes up: no row shows it.
 const OF_A_ROW: f64 = 0.025;
-
-/// The definitions by which all inputs are late, and one of them.
-const DELAYS: [&str; 2] = ["delay", "{delay}"];
 
 /// What a fit is worth where its inputs are logged half as often.
 #[derive(Default)]
@@ -48,7 +44,7 @@ pub(crate) fn keep_sampled(
         return Ok(found);
     }
     let Some(coarse) = with_half_the_inputs(selection.problem) else { return Ok(found) };
-    let rows = selection.problem.records.iter().filter_map(|r| median_step(&r.time)).fold(0.0, f64::max);
+    let rows = selection.problem.records.iter().map(Record::step).fold(0.0, f64::max);
     while !grown.fit.p.is_empty() {
         begin(progress, Stage::InputSampling)?;
         let Some(half) = coarse.fit(&grown.fit.model, &grown.fit.window_states, &grown.fit.variances, Effort::FULL)?
@@ -89,14 +85,12 @@ fn with_half_the_inputs(problem: &Problem) -> Option<Problem> {
 
 /// How much of a delay may be made up between rows that are so many seconds apart; nothing of another effect.
 fn share_of_a_row(effect: &Applied, rows: f64) -> f64 {
-    let is_delay = effect.effect.changes.keys().any(|name| DELAYS.contains(&name.as_str()));
     let far = effect.values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    if is_delay && far > 0.0 && effect.effect.scope.is_none() { OF_A_ROW * rows / far } else { 0.0 }
-}
-
-/// The middle one of the times between rows, s.
-fn median_step(time: &[f64]) -> Option<f64> {
-    median(&mut time.windows(2).map(|w| w[1] - w[0]).collect::<Vec<f64>>())
+    if effect.effect.delays_inputs() && far > 0.0 && effect.effect.scope.is_none() {
+        OF_A_ROW * rows / far
+    } else {
+        0.0
+    }
 }
 
 /// How much of the distance of an effect's values from neutral the interpolation may make up.

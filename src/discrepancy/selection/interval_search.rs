@@ -15,25 +15,36 @@ pub(super) fn ways_of_more_intervals(scope: &Scope, blocks: usize) -> f64 {
     (2..edges).map(|k| (places.saturating_sub(k).max(1) as f64 / (k + 1) as f64).ln()).sum::<f64>().max(0.0)
 }
 
-/// Whether an interval touches none of others, or lies in the middle of one of them; `None` where it does neither.
-pub(super) fn is_apart_or_within(intervals: &[Range<usize>], ends: &Range<usize>) -> Option<bool> {
-    let apart = |i: &Range<usize>| ends.end < i.start || i.end < ends.start;
-    let is_within = |i: &Range<usize>| i.start < ends.start && ends.end < i.end;
-    if intervals.iter().all(apart) { Some(true) } else { intervals.iter().any(is_within).then_some(false) }
+/// How an interval changes others.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Change {
+    /// It touches none of them, and is one more.
+    Added,
+    /// It lies in the middle of one of them, the one at that place, and is cut out of it.
+    CutOut(usize),
 }
 
-/// Intervals with one more that touches none of them, or with one cut out of the middle of one of them; in order.
-pub(super) fn joined_or_cut(intervals: &[Range<usize>], ends: Range<usize>) -> Option<Vec<Range<usize>>> {
-    let mut all = intervals.to_vec();
-    if is_apart_or_within(intervals, &ends)? {
-        all.push(ends);
-    } else {
-        let k = intervals.iter().position(|i| i.start < ends.start && ends.end < i.end)?;
-        all.push(ends.end..all[k].end);
-        all[k].end = ends.start;
+impl Change {
+    /// Of intervals by one more; `None` where it touches an edge, which is that edge moved.
+    pub fn of(intervals: &[Range<usize>], ends: &Range<usize>) -> Option<Self> {
+        if intervals.iter().all(|i| ends.end < i.start || i.end < ends.start) {
+            return Some(Self::Added);
+        }
+        intervals.iter().position(|i| i.start < ends.start && ends.end < i.end).map(Self::CutOut)
     }
-    all.sort_by_key(|i| i.start);
-    Some(all)
+
+    /// The intervals after it, in order.
+    pub fn made(self, mut intervals: Vec<Range<usize>>, ends: Range<usize>) -> Vec<Range<usize>> {
+        match self {
+            Self::Added => intervals.push(ends),
+            Self::CutOut(k) => {
+                intervals.push(ends.end..intervals[k].end);
+                intervals[k].end = ends.start;
+            }
+        }
+        intervals.sort_by_key(|i| i.start);
+        intervals
+    }
 }
 
 #[cfg(test)]
@@ -52,7 +63,8 @@ mod tests {
 
     #[test]
     fn an_interval_is_added_beside_others_or_cut_out_of_one() {
-        let with = |ends: Range<usize>| joined_or_cut(&[2..8, 12..20], ends);
+        let all = [2..8, 12..20];
+        let with = |ends: Range<usize>| Some(Change::of(&all, &ends)?.made(all.to_vec(), ends));
         assert_eq!(with(9..11), Some(vec![2..8, 9..11, 12..20]));
         assert_eq!(with(4..6), Some(vec![2..4, 6..8, 12..20]));
         // What touches an interval, or ends within it, is another's edge moved.

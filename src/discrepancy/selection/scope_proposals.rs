@@ -1,6 +1,6 @@
 //! Scopes that an effect may have, proposed by where it would gain: in time, in a regime, above a speed, in a place.
 
-use super::interval_search::{is_apart_or_within, joined_or_cut};
+use super::interval_search::Change;
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::evidence::scope_scan::{BlockScores, Blocks, Cumulated};
 use crate::effects::{DrivingRegime, Scope};
@@ -53,6 +53,14 @@ pub(crate) struct Proposal {
     shares: Vec<f64>,
     /// How many were tried that it is the best of.
     pub of: usize,
+}
+
+impl Proposal {
+    /// What the effect gains by some of the blocks alone.
+    fn gain_within(&self, blocks: &Range<usize>, scores: &BlockScores) -> f64 {
+        let own = |(b, share): (usize, &f64)| if blocks.contains(&b) { *share } else { 0.0 };
+        scores.gain(&self.shares.iter().enumerate().map(own).collect::<Vec<_>>())
+    }
 }
 
 impl BlockRows {
@@ -117,20 +125,12 @@ impl BlockRows {
         let n = p.shares.len();
         let begins = (0..n).filter(|b| p.shares[*b] > 0.0 && (*b == 0 || p.shares[b - 1] == 0.0));
         let each = begins.map(|b| b..(b..n).find(|e| p.shares[*e] == 0.0).unwrap_or(n));
-        let gain = |time: Range<usize>| {
-            let own = (0..n).map(|b| if time.contains(&b) { p.shares[b] } else { 0.0 });
-            scores.gain(&own.collect::<Vec<_>>())
-        };
-        each.filter(|time| gain(time.clone()) > BORNE_OUT).count() >= TIMES
+        each.filter(|entered| p.gain_within(entered, scores) > BORNE_OUT).count() >= TIMES
     }
 
     /// Whether more than one run bears a scope out, where there are several: what one run has alone is that run's.
     fn is_shared(&self, p: &Proposal, scores: &BlockScores) -> bool {
-        let of = |run: &Range<usize>| {
-            let own = |(b, share): (usize, &f64)| if run.contains(&b) { *share } else { 0.0 };
-            scores.gain(&p.shares.iter().enumerate().map(own).collect::<Vec<_>>())
-        };
-        self.runs.len() < 2 || self.runs.iter().filter(|run| of(run) > BORNE_OUT).count() > 1
+        self.runs.len() < 2 || self.runs.iter().filter(|run| p.gain_within(run, scores) > BORNE_OUT).count() > 1
     }
 
     fn shares(&self, intervals: &[Range<usize>]) -> Vec<f64> {
@@ -140,7 +140,8 @@ impl BlockRows {
     /// Until a time, from a time on, and in more and more intervals.
     fn in_time(&self, sums: &Cumulated) -> Vec<Proposal> {
         let n = sums.blocks;
-        let half = |ends: Range<usize>| (ends.clone(), sums.gain(&[ends]));
+        let none = sums.taken(&[]);
+        let half = |ends: Range<usize>| (ends.clone(), sums.gain_with(&none, &ends, true));
         let best = |all: Vec<(Range<usize>, f64)>| all.into_iter().max_by(|a, b| a.1.total_cmp(&b.1));
         let mut found: Vec<Proposal> = vec![];
         let from = best((1..n).map(|k| half(k..n)).collect());
@@ -155,15 +156,15 @@ impl BlockRows {
             let taken = sums.taken(&intervals);
             let pairs = (0..n).flat_map(|a| (a + 1..=n).map(move |b| a..b));
             let gains = pairs.filter_map(|ends| {
-                let gain = sums.gain_with(&taken, &ends, is_apart_or_within(&intervals, &ends)?);
-                Some((ends, gain))
+                let change = Change::of(&intervals, &ends)?;
+                let gain = sums.gain_with(&taken, &ends, change == Change::Added);
+                Some((change, ends, gain))
             });
-            let Some((ends, gain)) = gains.max_by(|a, b| a.1.total_cmp(&b.1)) else { break };
-            let Some(all) = joined_or_cut(&intervals, ends) else { break };
+            let Some((change, ends, gain)) = gains.max_by(|a, b| a.2.total_cmp(&b.2)) else { break };
             if gain <= reached {
                 break;
             }
-            (intervals, reached) = (all, gain);
+            (intervals, reached) = (change.made(intervals, ends), gain);
             let shares = self.shares(&intervals);
             found.push(Proposal { scope: self.times(&intervals), gain, shares, of: n * n / 2 });
         }

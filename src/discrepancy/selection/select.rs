@@ -82,7 +82,9 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &O
     let choice =
         Selected { before, after, chosen, steps, candidates, inconsistent, sampling_sensitive, refused, missed };
     let second = second_choice(&Search::over(problem, &choice.before, &quick), &choice, progress)?;
-    walks::in_its_place(problem, &quick, second.unwrap_or(choice)).map(Some)
+    let choice = second.unwrap_or(choice);
+    let walking = walks::in_its_place(&Search::over(problem, &choice.before, &quick), &choice)?;
+    Ok(Some(walking.unwrap_or(choice)))
 }
 
 impl Search<'_> {

@@ -4,7 +4,6 @@ use super::choice::{Selected, SelectedEffect};
 use super::scopes::is_partial;
 use super::search::{Search, find};
 use crate::discrepancy::estimation::fit::{Effort, Fit};
-use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::estimation::unexplained::remains;
 use crate::discrepancy::evidence::chi_squared::tail;
 use crate::discrepancy::evidence::information_criterion::bic;
@@ -44,26 +43,28 @@ pub(crate) fn let_walk(search: &Search, fit: &mut Fit) -> Result<()> {
         }
     }
     if let Some((effect, walk, _)) = best {
-        let own = fit.model.effects.iter_mut().filter(|e| e.free && e.same_as(&effect));
-        own.for_each(|e| e.effect.walk = Some(walk.clone()));
+        give_walk(fit, &effect, &walk);
     }
     Ok(())
 }
 
-/// The choice with an effect that walks in the place of what leaves a rest, where it explains the data better.
+fn give_walk(fit: &mut Fit, effect: &Applied, walk: &RandomWalk) {
+    let own = fit.model.effects.iter_mut().filter(|e| e.free && e.same_as(effect));
+    own.for_each(|e| e.effect.walk = Some(walk.clone()));
+}
+
+/// The choice with an effect that walks in the place of what leaves a rest; `None` where it does not explain the data better.
 ///
 /// A parameter that walks about zero has no mean to be found by: the effect is asked for with its walk. Its price is that of
 /// two parameters, once more than that of any other way to explain the data.
-pub(crate) fn in_its_place(problem: &Problem, library: &[Effect], choice: Selected) -> Result<Selected> {
-    let before = choice.before.clone();
-    let search = &Search::over(problem, &before, library);
+pub(crate) fn in_its_place(search: &Search, choice: &Selected) -> Result<Option<Selected>> {
+    let base = search.before;
     // Beside a name that always holds a walk may be no more than what that name is not.
     let lasts = |c: &SelectedEffect| !is_term(&c.applied) && !is_partial(&c.applied);
     // Of several runs each may have a value of its own, which looks like a walk from one to the other.
-    if !remains(&choice.after) || before.runs > 1 || choice.chosen.iter().any(lasts) {
-        return Ok(choice);
+    if !remains(&choice.after) || base.runs > 1 || choice.chosen.iter().any(lasts) {
+        return Ok(None);
     }
-    let base = &before;
     let all = base.model.applicable(search.library).into_iter();
     let open: Vec<(&Effect, Option<usize>)> = all.filter(|(e, t)| may_walk(e, &base.model, *t)).collect();
     let beside = |(effect, trailer): (&Effect, Option<usize>)| -> Result<Option<(Applied, Fit, Walk)>> {
@@ -77,15 +78,15 @@ pub(crate) fn in_its_place(problem: &Problem, library: &[Effect], choice: Select
     let found: Vec<Option<(Applied, Fit, Walk)>> = open.into_par_iter().map(beside).collect::<Result<_>>()?;
     let deviance = |fit: &Fit, walk: &Walk| fit.deviance - walk.gain;
     let best = found.into_iter().flatten().min_by(|a, b| deviance(&a.1, &a.2).total_cmp(&deviance(&b.1, &b.2)));
-    let Some((applied, fit, walk)) = best else { return Ok(choice) };
+    let Some((applied, fit, walk)) = best else { return Ok(None) };
     let n = fit.sample_size.max(choice.after.sample_size);
     let with_walk = deviance(&fit, &walk) + (fit.p.len() + 1) as f64 * n.ln();
     let worth = (bic(&choice.after, n) - with_walk) / fit.noise_correlation_time;
     if worth <= 2.0 * search.margin() {
-        return Ok(choice);
+        return Ok(None);
     }
     let gain = base.deviance - deviance(&fit, &walk);
-    Ok(walked(choice, gain, applied, fit, &walk))
+    Ok(Some(walked(choice, gain, &applied, fit, &walk)))
 }
 
 /// Whether an effect is known to walk, and has one value, which may be zero.
@@ -94,17 +95,15 @@ fn may_walk(effect: &Effect, model: &Model, trailer: Option<usize>) -> bool {
 }
 
 /// The choice of an effect that walks.
-fn walked(choice: Selected, gain: f64, applied: Applied, mut fit: Fit, walk: &Walk) -> Selected {
-    let walking = course(&applied, walk);
-    let own = fit.model.effects.iter_mut().filter(|e| e.same_as(&applied));
-    own.for_each(|e| e.effect.walk = Some(walking.clone()));
+fn walked(choice: &Selected, gain: f64, applied: &Applied, mut fit: Fit, walk: &Walk) -> Selected {
+    give_walk(&mut fit, applied, &course(applied, walk));
     let chosen = SelectedEffect {
-        applied: find(&fit.model, &applied).unwrap_or(applied),
+        applied: find(&fit.model, applied).unwrap_or_else(|| applied.clone()),
         std: vec![Some(walk.std_of_mean)],
         delta_bic: gain - 2.0 * fit.sample_size.ln(),
         p_value: tail(gain / fit.noise_correlation_time, 2),
         rivals: vec![],
     };
     let steps = vec![(chosen.applied.label(), fit.model.clone())];
-    Selected { missed: vec![0.0; fit.p.len()], after: fit, chosen: vec![chosen], steps, ..choice }
+    Selected { missed: vec![0.0; fit.p.len()], after: fit, chosen: vec![chosen], steps, ..choice.clone() }
 }

@@ -185,6 +185,15 @@ impl<'a, 'd> Value<'a, 'd> {
 
     /// A finite number.
     pub fn number(&self) -> Result<f64> {
+        self.number_that(f64::is_finite)
+    }
+
+    /// A number, or `inf` or `-inf`: a time without an end.
+    pub fn number_or_infinity(&self) -> Result<f64> {
+        self.number_that(|number| !number.is_nan())
+    }
+
+    fn number_that(&self, is_meant: impl Fn(f64) -> bool) -> Result<f64> {
         let number = match self.value.get_ref() {
             DeValue::Float(float) => float.as_str().parse().ok(),
             // A whole number that is too long for a machine word is a number still.
@@ -192,22 +201,10 @@ impl<'a, 'd> Value<'a, 'd> {
             _ => self.integer().map(|i| i as f64),
         };
         let number: f64 = number.ok_or_else(|| self.wrong("a number", &format!("{} = 0.5", self.name)))?;
-        if number.is_finite() {
+        if is_meant(number) {
             return Ok(number);
         }
         Err(self.error(format!("{} must be a finite number", self.name)).help(format!("write {} = 0.5", self.name)))
-    }
-
-    /// A number, or `inf` or `-inf`: a time without an end.
-    pub fn number_or_infinity(&self) -> Result<f64> {
-        match self.value.get_ref() {
-            DeValue::Float(float) => match float.as_str() {
-                "inf" | "+inf" => Ok(f64::INFINITY),
-                "-inf" => Ok(f64::NEG_INFINITY),
-                _ => self.number(),
-            },
-            _ => self.number(),
-        }
     }
 
     /// A number greater than zero.

@@ -12,7 +12,7 @@ mod vehicle;
 
 use creepage::claims::{self, Domain, Options, Status, ledger, verify};
 use creepage::describe::{self, Description, vehicle_effects_text};
-use creepage::discrepancy::pipeline::discover;
+use creepage::discrepancy::discover::discover;
 use creepage::discrepancy::report::{Report, Verdict};
 use creepage::discrepancy::request::Request;
 use creepage::effects::{self, Applied, Effect};

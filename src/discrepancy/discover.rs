@@ -3,7 +3,8 @@
 use super::clock_alignment::aligned_run::{Aligned, aligned};
 use super::clock_alignment::refinement::refined;
 use super::estimation::problem::Problem;
-use super::pipeline::{discover, discover_by_clocks, unfitted};
+use super::pipeline::unfitted;
+use super::pose_filter::discover_before_filter;
 use super::preprocessing::dataset::{Data, FITTED_SHARE};
 use super::preprocessing::slips;
 use super::selection::select::choose;
@@ -16,6 +17,16 @@ use crate::error::{Error, Result};
 use crate::files::Run;
 use crate::model::Model;
 use crate::progress::{OnProgress, Stage, tell};
+
+/// Finds where a model and measured runs disagree, names the missing effect and shows the gap shrink.
+///
+/// The held-out data are opened after the last choice is made.
+///
+/// # Errors
+/// When runs log different inputs, or the model file's effects do not apply to its vehicle.
+pub fn discover(request: &Request, progress: &OnProgress) -> Result<Discovery> {
+    discover_before_filter(request, Clocks::default(), progress)
+}
 
 /// As [`discover`], the clocks of inputs and poses estimated first where they stand in files of their own.
 ///
@@ -66,7 +77,7 @@ pub fn discover_aligned(request: &Request, near: Option<f64>, progress: &OnProgr
         clocks: fitted.iter().map(|a| a.clock(false)).chain(held_out.iter().map(|a| a.clock(true))).collect(),
         warnings: fitted.iter().chain(&held_out).filter_map(Aligned::doubt).chain(delay).collect(),
     };
-    discover_by_clocks(&request, clocks, progress)
+    discover_before_filter(&request, clocks, progress)
 }
 
 /// The model with the effects that the aligned runs ask for, free; the delay they ask for goes into the clocks.

@@ -28,6 +28,7 @@ pub mod identifiability;
 pub mod initial_state;
 pub mod localisation;
 pub mod pipeline;
+mod pose_filter;
 pub mod preprocessing;
 pub mod record;
 pub mod rendering;

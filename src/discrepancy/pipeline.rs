@@ -40,17 +40,13 @@ use crate::model::Model;
 use crate::model::effect_equation;
 use crate::progress::{OnProgress, Stage, begin};
 
-/// Finds where a model and measured runs disagree, names the missing effect and shows the gap shrink.
+/// Finds where a model and measured runs disagree, names the missing effect and shows the gap shrink; of runs whose clocks
+/// were aligned before, and with their pose as it was logged.
 ///
 /// The held-out data are opened after the last choice is made.
 ///
 /// # Errors
 /// When runs log different inputs, or the model file's effects do not apply to its vehicle.
-pub fn discover(request: &Request, progress: &OnProgress) -> Result<Discovery> {
-    discover_by_clocks(request, Clocks::default(), progress)
-}
-
-/// As [`discover`], of runs whose clocks were aligned before.
 pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &OnProgress) -> Result<Discovery> {
     let roles = common_roles(request.runs, request.held_out)?;
     let model = Model::from_file(request.file, request.library, &roles)?;
@@ -111,11 +107,8 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
     let remains = unexplained::remains(&selected.after);
     // What is explained to its noise needs no other clock.
     let drifts = if remains { problem.drifts(&selected.after)? } else { vec![] };
-    let unseen: Vec<_> = data
-        .held_out
-        .iter()
-        .map(|r| ConstraintResiduals::of(&selected.after.model, r, &noise))
-        .collect::<Result<_>>()?;
+    let jumps = selected.after.variances.process();
+    let unseen = ConstraintResiduals::beside_jumps(&selected.after.model, &data.held_out, &noise, jumps)?;
     let outcome = match other {
         Some(other) => Outcome::new(Verdict::Unexplained, Reason::OtherVehicle(Box::new(other)), None),
         None => verdict::after_fitting(&problem, &selected, &after, &drifts)?,
@@ -163,7 +156,7 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
     let report = report(request, &data, outcome.verdict, found, clocks);
     let added = selected.chosen.iter().filter(|_| usable).map(|c| c.applied.entry()).collect();
     let pictures = figure_data::pictures(&data, &selected, &report, &comparison, [&before, &after]);
-    Ok(Discovery { report, pictures, added })
+    Ok(Discovery { report, pictures, added, pose_filter: None })
 }
 
 /// The chosen effects and the laws without a name, as the report lists them.
@@ -213,5 +206,5 @@ fn early(request: &Request, data: &Data, clocks: Clocks, paths: Vec<PathPicture>
     let next = outcome.next.map(NextStep::Advice);
     let found = Findings { reason: outcome.reason, next, ..Findings::default() };
     let report = report(request, data, outcome.verdict, found, clocks);
-    Discovery { report, pictures: Pictures { paths, ..Pictures::default() }, added: vec![] }
+    Discovery { report, pictures: Pictures { paths, ..Pictures::default() }, added: vec![], pose_filter: None }
 }

@@ -1,8 +1,8 @@
 //! The gap between model and measurement, before and after the missing effect is named.
 
 use super::{Data, Drawing, Figure, Options, page, scientific};
+use crate::discrepancy::discover::discover;
 use crate::discrepancy::discovery::Discovery;
-use crate::discrepancy::pipeline::discover;
 use crate::discrepancy::rendering::html::gap_panel;
 use crate::discrepancy::request::Request;
 use crate::effects;

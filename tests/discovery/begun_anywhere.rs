@@ -1,7 +1,7 @@
 //! States that no sensor sees, at the start of a log: nobody knows how they began, and what the poses show is enough.
 
 use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
-use creepage::discrepancy::pipeline::discover;
+use creepage::discrepancy::discover::discover;
 use creepage::discrepancy::report::{Report, Verdict};
 use creepage::discrepancy::request::Request;
 use creepage::effects;

@@ -4,8 +4,8 @@
 use crate::read_back::read_back;
 use crate::simulator::{Hidden, Noise, Scenario, Tractor};
 use creepage::discrepancy::check::check;
+use creepage::discrepancy::discover::discover;
 use creepage::discrepancy::identifiability::Checked;
-use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::report::{Report, Verdict};
 use creepage::discrepancy::request::Request;
 use creepage::effects;

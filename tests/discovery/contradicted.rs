@@ -1,7 +1,7 @@
 //! Runs in which more is amiss than the library can say: what all of their parts share is named, and nothing else.
 
 use crate::read_back::read_back;
-use creepage::discrepancy::pipeline::discover;
+use creepage::discrepancy::discover::discover;
 use creepage::discrepancy::report::{Report, Verdict};
 use creepage::discrepancy::request::Request;
 use creepage::effects::{self, Effect};

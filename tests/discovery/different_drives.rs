@@ -2,9 +2,9 @@
 //! foretold it; what is asked of all of them is not.
 
 use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
+use creepage::discrepancy::discover::discover;
 use creepage::discrepancy::estimation::fit::Effort;
 use creepage::discrepancy::estimation::problem::Problem;
-use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::record::run_record::Record;
 use creepage::discrepancy::report::{Named, Report, Verdict};
 use creepage::discrepancy::request::Request;

@@ -1,6 +1,6 @@
 //! A car that drifts is outside the model: it is refused before any fit, with a sentence that says where and how much.
 
-use creepage::discrepancy::pipeline::discover;
+use creepage::discrepancy::discover::discover;
 use creepage::discrepancy::report::{Report, Verdict};
 use creepage::discrepancy::request::Request;
 use creepage::effects;

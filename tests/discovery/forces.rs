@@ -2,7 +2,7 @@
 
 use crate::forced::{Body, Forced};
 use crate::read_back::read_back;
-use creepage::discrepancy::pipeline::discover;
+use creepage::discrepancy::discover::discover;
 use creepage::discrepancy::report::{Estimate, Report};
 use creepage::discrepancy::request::Request;
 use creepage::effects;

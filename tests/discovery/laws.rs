@@ -1,8 +1,8 @@
 //! Laws of `discover`: what must not change its answer, and what it must say of data that cannot answer.
 
 use crate::simulator::{Hidden, Log, Noise, Profile, Scenario, Tractor};
+use creepage::discrepancy::discover::discover;
 use creepage::discrepancy::discovery::Discovery;
-use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::report::{Named, Verdict};
 use creepage::discrepancy::request::Request;
 use creepage::files::{ModelFile, Run};

@@ -7,6 +7,7 @@ mod coloured_noise;
 mod contradicted;
 mod different_drives;
 mod drifting;
+mod filtered_poses;
 mod fit_rates;
 mod fit_statistics;
 #[path = "../forced/mod.rs"]

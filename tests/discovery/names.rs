@@ -2,8 +2,8 @@
 
 use crate::read_back::read_back;
 use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
+use creepage::discrepancy::discover::discover;
 use creepage::discrepancy::discovery::Discovery;
-use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::report::{Report, Verdict};
 use creepage::discrepancy::request::Request;
 use creepage::effects;

@@ -2,10 +2,10 @@
 
 use crate::read_back::read_back;
 use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
+use creepage::discrepancy::discover::discover;
 use creepage::discrepancy::experiment::envelope::Envelope;
 use creepage::discrepancy::experiment::manoeuvre::{LENGTH, library};
 use creepage::discrepancy::experiment::next_step::PlannedManoeuvre;
-use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::record::run_record::Record;
 use creepage::discrepancy::rendering::manoeuvre_text::planned;
 use creepage::discrepancy::report::{NextExperiment, Report};

@@ -1,7 +1,7 @@
 //! Runs that are too short to say anything, beside others: their silence is no answer, and changes none.
 
 use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
-use creepage::discrepancy::pipeline::discover;
+use creepage::discrepancy::discover::discover;
 use creepage::discrepancy::report::{Report, Verdict};
 use creepage::discrepancy::request::Request;
 use creepage::effects;

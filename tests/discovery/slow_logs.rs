@@ -2,7 +2,7 @@
 //! of the integration may make up a disagreement.
 
 use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Tractor};
-use creepage::discrepancy::pipeline::discover;
+use creepage::discrepancy::discover::discover;
 use creepage::discrepancy::report::{Report, Verdict};
 use creepage::discrepancy::request::Request;
 use creepage::effects;

@@ -1,8 +1,8 @@
 //! Poses that come more seldom than inputs: what is done to a vehicle between two of them happens all the same.
 
 use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Timing, Tractor};
+use creepage::discrepancy::discover::discover;
 use creepage::discrepancy::discover::discover_aligned;
-use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::report::{Report, Verdict};
 use creepage::discrepancy::request::Request;
 use creepage::effects;

@@ -4,9 +4,9 @@
 use crate::simulator::{Hidden, Log, Noise, Profile, Scenario, Signal, Tractor};
 use creepage::discrepancy::check::check;
 use creepage::discrepancy::check::check_aligned;
+use creepage::discrepancy::discover::discover;
 use creepage::discrepancy::discover::discover_aligned;
 use creepage::discrepancy::identifiability::{Checked, Standing};
-use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::rendering::html::html;
 use creepage::discrepancy::report::{Report, Verdict};
 use creepage::discrepancy::request::Request;

@@ -2,8 +2,8 @@
 
 use crate::read_back::read_back;
 use crate::simulator::{self, Hidden, Log, Noise, Scenario, Tractor};
+use creepage::discrepancy::discover::discover;
 use creepage::discrepancy::discovery::Discovery;
-use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::report::Verdict;
 use creepage::discrepancy::request::Request;
 use creepage::files::ModelFile;

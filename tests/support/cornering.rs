@@ -1,7 +1,7 @@
 //! The example `cornering` through the whole workflow: what `creepage discover` does.
 
+use creepage::discrepancy::discover::discover;
 use creepage::discrepancy::discovery::Discovery;
-use creepage::discrepancy::pipeline::discover;
 use creepage::discrepancy::request::Request;
 use creepage::effects;
 use creepage::files::{ModelFile, Run};

@@ -12,7 +12,7 @@ use creepage::claims::{self, ledger};
 use creepage::describe::{
     Description, effects_json, effects_text, json, latex, text, vehicle_effects_text, vehicles_json, vehicles_text,
 };
-use creepage::discrepancy::pipeline::discover;
+use creepage::discrepancy::discover::discover;
 use creepage::discrepancy::rendering::html::{gap_svg, html};
 use creepage::discrepancy::request::Request;
 use creepage::dynamics::{self, Dynamics, simulate_file};

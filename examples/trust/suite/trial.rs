@@ -1,7 +1,7 @@
 //! A case put before `discover`, by way of real files.
 
 use super::case::Case;
-use creepage::discrepancy::pipeline::discover;
+use creepage::discrepancy::discover::discover;
 use creepage::discrepancy::report::Report;
 use creepage::discrepancy::request::Request;
 use creepage::files::{ModelFile, Run};

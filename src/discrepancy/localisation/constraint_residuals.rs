@@ -121,6 +121,14 @@ impl ConstraintResiduals {
         (0..JUMPS.len()).map(shown).collect()
     }
 
+    /// The violations along several runs, beside jumps that are known.
+    ///
+    /// # Errors
+    /// When the model's formulas are malformed.
+    pub fn beside_jumps(model: &Model, runs: &[Record], noise: &Noise, jumps: &[Component]) -> Result<Vec<Self>> {
+        runs.iter().map(|r| Ok(Self::of(model, r, noise)?.beside(jumps))).collect()
+    }
+
     /// The same beside the jumps that are known to be there, which are noise as well.
     fn beside(mut self, jumps: &[Component]) -> Self {
         let duration = self.rms_of(|w| w.span[1] - w.span[0]).max(f64::MIN_POSITIVE);
@@ -257,8 +265,7 @@ impl Problem {
     /// # Errors
     /// As [`ConstraintResiduals::of`].
     pub fn violations(&self, model: &Model, noise: &Noise) -> Result<Vec<ConstraintResiduals>> {
-        let of = |r: &Record| Ok(ConstraintResiduals::of(model, r, noise)?.beside(self.variances.process()));
-        self.records.iter().map(of).collect()
+        ConstraintResiduals::beside_jumps(model, &self.records, noise, self.variances.process())
     }
 }
 

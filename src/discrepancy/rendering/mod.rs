@@ -11,6 +11,7 @@ pub mod html;
 pub mod manoeuvre_text;
 pub(crate) mod odd_run_text;
 pub(crate) mod other_vehicle_text;
+pub(crate) mod pose_filter_text;
 pub(crate) mod reason_text;
 pub(crate) mod refusal_text;
 pub(crate) mod regime_text;

@@ -5,7 +5,8 @@
 //!
 //! More: simulation and extrapolation (Cook & Stefanski, 1994). Noise of the inputs moves the values of a fit by a bias
 //! that grows with its variance, and scatters them. With noise of the same kind added once more the bias is twice as large;
-//! what a value grows by then is what the noise makes of nothing, and what it moves by is its deviation.
+//! what a value grows by then is what the noise makes of nothing, and what it moves by is its deviation. Times are chosen
+//! where the noise happens to be of one sign: a value in intervals must be worth the choice of their edges as well.
 //!
 //! A lag and a negative delay of nearly its size are together no lag but a mean over the time around: the filter that
 //! noise asks for.
@@ -75,8 +76,8 @@ pub(crate) fn made_up(selection: &Search, fit: &Fit) -> Result<Option<Applied>> 
         let sum = |of: &dyn Fn(usize, f64) -> f64| own.iter().map(|(i, v)| of(*i, *v)).sum::<f64>();
         sum(&|i, v| grown[i] * v) / sum(&|_, v| v * v).max(f64::MIN_POSITIVE)
     };
-    let bar = selection.price(fit);
     let is_moved = |e: &Applied| {
+        let bar = selection.price(fit) + selection.price_of_scope(e, fit);
         let variance = |i: usize| moved[i] + fit.variance(i).unwrap_or(0.0);
         let own = neutral_at_zero(fit, e);
         !own.is_empty() && own.iter().all(|(i, v)| v * v <= bar * variance(*i))

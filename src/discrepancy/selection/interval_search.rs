@@ -1,7 +1,10 @@
 //! Intervals of time that grow in number: one more beside those there are, or one cut out of the middle of one of them, and the
 //! price of so many edges (binary segmentation; Scott and Knott, 1974).
 
-use crate::effects::Scope;
+use super::search::Search;
+use crate::discrepancy::estimation::fit::Fit;
+use crate::discrepancy::evidence::scope_scan::Blocks;
+use crate::effects::{Applied, Scope};
 use std::ops::Range;
 
 /// Places within a block that a refined edge may have.
@@ -13,6 +16,15 @@ pub(super) fn ways_of_more_intervals(scope: &Scope, blocks: usize) -> f64 {
     let edges = intervals.iter().flatten().filter(|t| t.is_finite()).count();
     let places = PLACES * blocks;
     (2..edges).map(|k| (places.saturating_sub(k).max(1) as f64 / (k + 1) as f64).ln()).sum::<f64>().max(0.0)
+}
+
+impl Search<'_> {
+    /// What the scope of an effect costs beside its value: its numbers, and the choice of so many edges.
+    pub(super) fn price_of_scope(&self, applied: &Applied, fit: &Fit) -> f64 {
+        let blocks = Blocks::of_plan(&self.problem.plan).count;
+        let of = |s: &Scope| s.cost() as f64 * fit.sample_size.ln() + 2.0 * ways_of_more_intervals(s, blocks);
+        applied.effect.scope.as_ref().map_or(0.0, of)
+    }
 }
 
 /// How an interval changes others.

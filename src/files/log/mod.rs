@@ -19,6 +19,7 @@ pub(crate) mod own_times;
 #[cfg(feature = "parquet")]
 pub(crate) mod parquet;
 pub(crate) mod place;
+mod pose_filter;
 pub(crate) mod quaternion;
 mod reading;
 pub(crate) mod row_order;

@@ -97,7 +97,7 @@ impl Run {
         if log.has_topics() {
             return Self::read_bag(path, model);
         }
-        Self::of(path, log, &|| Log::open(path), model)
+        Ok(Self::of(path, log, &|| Log::open(path), model)?.before_filter_of(&model.sensor))
     }
 
     /// A log that is at hand as text; `name` stands for its file.
@@ -107,7 +107,7 @@ impl Run {
     pub fn parse(name: &str, text: &str, model: &ModelFile) -> Result<Self> {
         let path = Path::new(name);
         let open = || Ok(Log::Csv(Box::new(Sheet::new(Cursor::new(text.to_string()), path)?)));
-        Self::of(path, open()?, &open, model)
+        Ok(Self::of(path, open()?, &open, model)?.before_filter_of(&model.sensor))
     }
 
     fn of(path: &Path, log: Log, again: &dyn Fn() -> Result<Log>, model: &ModelFile) -> Result<Self> {

@@ -68,7 +68,7 @@ impl Run {
         warnings.extend(more.into_iter().map(|w| format!("{}: {w}", truth.display())));
         let truth_sha256 = measured.sha256.clone();
         let dropped = joined(&driven.dropped, &measured.dropped);
-        let run = Self::build(inputs, pose, measured, warnings);
+        let run = Self::build(inputs, pose, measured, warnings).before_filter_of(&model.sensor);
         let mut columns = driven.columns.into_iter();
         let time = columns.next().unwrap_or_default();
         let apart = Apart { time, truth: truth.to_path_buf(), truth_sha256, one_clock: false };

@@ -23,6 +23,8 @@ pub struct Sensor {
     pub lever_arm: [f64; 2],
     /// Measured heading minus heading of the body, rad.
     pub heading_offset: f64,
+    /// Time constant of a low-pass filter of first order that smooths the measured pose, s.
+    pub pose_filter: Option<f64>,
 }
 
 /// A pose a simulation begins with.
@@ -65,11 +67,20 @@ impl InputTiming {
 impl Sensor {
     pub(super) fn read(top: &Section) -> Result<Self> {
         let Some(section) = top.section("sensor")? else { return Ok(Self::default()) };
-        section.only(&["lever_arm", "heading_offset"])?;
+        section.only(&["lever_arm", "heading_offset", "pose_filter"])?;
         let lever_arm = section.get("lever_arm").map_or(Ok([0.0; 2]), |v| pair(&v))?;
         let heading_offset = section.get("heading_offset").map_or(Ok(0.0), |v| v.number())?;
-        Ok(Self { lever_arm, heading_offset })
+        let pose_filter = section.get("pose_filter").map(|v| time_constant(&v)).transpose()?;
+        Ok(Self { lever_arm, heading_offset, pose_filter })
     }
+}
+
+fn time_constant(value: &Value) -> Result<f64> {
+    let number = value.number()?;
+    if number > 0.0 {
+        return Ok(number);
+    }
+    Err(value.error("pose_filter is a time constant above 0 s").help("remove the line where the pose is not filtered"))
 }
 
 fn pair(value: &Value) -> Result<[f64; 2]> {

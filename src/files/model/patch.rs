@@ -22,6 +22,16 @@ pub(crate) fn patched(text: &str, added: &[EffectEntry]) -> String {
     printed(&document, text)
 }
 
+/// The text with the time constant of a filter of the measured pose, s.
+pub(crate) fn with_pose_filter(text: &str, time_constant: f64) -> String {
+    let Some(mut document) = parse(text) else { return text.to_string() };
+    let sensor = document.entry("sensor").or_insert_with(|| Item::Table(Table::new()));
+    if let Some(table) = sensor.as_table_like_mut() {
+        set(table, "pose_filter", time_constant);
+    }
+    printed(&document, text)
+}
+
 /// What the file of a user's own vehicles is called beside a patched model.
 pub const VEHICLES_FILE: &str = "model.vehicles.toml";
 

@@ -1,7 +1,7 @@
 //! The stages of the crate in their order, and the stage of a file.
 
 /// The stages in their order, folders and files below `src`. Stages of one line are level: none of them imports another.
-const STAGES: [&[&str]; 50] = [
+const STAGES: [&[&str]; 51] = [
     &["error"],
     &["provenance", "wording", "number_format", "progress", "numerics"],
     &["formula"],
@@ -41,6 +41,7 @@ const STAGES: [&[&str]; 50] = [
     &["discrepancy/rendering"],
     &["discrepancy/discovery"],
     &["discrepancy/pipeline"],
+    &["discrepancy/pose_filter"],
     &["discrepancy/check", "discrepancy/discover", "discrepancy/calibration"],
     &["discrepancy/fixtures"],
     &["discrepancy"],

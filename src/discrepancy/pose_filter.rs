@@ -1,0 +1,146 @@
+//! A pose that a low-pass filter has smoothed before it was logged (output dynamics; Ljung, *System Identification*, 1999,
+//! chapter 4.2: an output error model behind a known pole): found where a delay is named and leaves a rest, undone, and
+//! the runs asked again.
+//!
+//! A filter of first order delays a slow motion by its time constant τ, and cuts corners: beside the delay the corners are
+//! then taken for creep. With the filter undone by Tustin's rule there is no delay left, which determines τ: what is left
+//! of the delay is what τ lacks. Undone, noise behind the filter is √2·τ/Δt as large: where it hides what the filter does to
+//! the corners, the runs are left as they were logged.
+
+use super::discovery::{Clocks, Discovery};
+use super::estimation::fit::{Effort, Fit};
+use super::estimation::problem::Problem;
+use super::estimation::unexplained::remains;
+use super::pipeline::discover_by_clocks;
+use super::preprocessing::dataset::Data;
+use super::rendering::pose_filter_text;
+use super::report::{BeforeAfter, Estimate, Gap, Report, Verdict};
+use super::request::{Request, common_roles};
+use crate::effects::{Applied, of_clock};
+use crate::error::Result;
+use crate::files::{EffectEntry, ModelFile, Run};
+use crate::model::Model;
+use crate::progress::OnProgress;
+
+/// Times a filter is undone, at most, before its time constant stands.
+const ROUNDS: usize = 12;
+/// A delay of so small a share of the time constant is none, and so is one of less than its deviation.
+const ARRIVED: f64 = 1e-3;
+/// A filter explains a rest where it leaves less than this share of the gap.
+const EXPLAINS: f64 = 0.7;
+/// A difference of the deviance that is very strong evidence (Kass and Raftery, 1995).
+const EVIDENT: f64 = 10.0;
+
+/// A filter of the pose: its time constant and the deviation of that, s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct PoseFilter {
+    /// s
+    pub time_constant: f64,
+    /// s
+    pub std: Option<f64>,
+}
+
+/// Finds what is missing, of a pose before the filter that smoothed it where there was one.
+///
+/// # Errors
+/// As [`discover_by_clocks`].
+pub(crate) fn discover_before_filter(request: &Request, clocks: Clocks, progress: &OnProgress) -> Result<Discovery> {
+    let found = discover_by_clocks(request, clocks.clone(), progress)?;
+    if request.file.sensor.pose_filter.is_some() || !may_be_filtered(&found.report) {
+        return Ok(found);
+    }
+    let Some(filter) = estimated(request)? else { return Ok(found) };
+    let before = |runs: &[Run]| runs.iter().map(|r| r.before_pose_filter(filter.time_constant)).collect::<Vec<Run>>();
+    let (runs, held_out) = (before(request.runs), before(request.held_out));
+    let again = discover_by_clocks(&Request { runs: &runs, held_out: &held_out, ..*request }, clocks, progress)?;
+    if again.report.verdict != Verdict::NoMissingEffect {
+        return Ok(found);
+    }
+    let explains = match beside_what_is_late(&found) {
+        Some(others) => refutes(request, filter.time_constant, others)?,
+        None => shrinks(&found.report.gap, &again.report.gap),
+    };
+    Ok(if explains { told(again, filter) } else { found })
+}
+
+/// What was found beside what is late; `None` where there is nothing.
+fn beside_what_is_late(found: &Discovery) -> Option<Vec<EffectEntry>> {
+    let late = || found.report.effects.iter().filter(|e| e.parameters.values().any(is_late));
+    let others = found.added.iter().filter(|a| !late().any(|e| e.id == a.id && e.on == a.input));
+    Some(others.cloned().collect()).filter(|others: &Vec<EffectEntry>| !others.is_empty())
+}
+
+/// Whether the runs before the filter refute what was found beside it: with those values they are explained worse.
+fn refutes(request: &Request, time_constant: f64, others: Vec<EffectEntry>) -> Result<bool> {
+    let mut file = request.file.clone();
+    let bare = before_filter(request, &model_of(&file, request)?, time_constant)?;
+    file.effects.extend(others);
+    let with = before_filter(request, &model_of(&file, request)?, time_constant)?;
+    Ok(bare.zip(with).is_some_and(|(bare, with)| with.deviance > bare.deviance + EVIDENT))
+}
+
+fn model_of(file: &ModelFile, request: &Request) -> Result<Model> {
+    Model::from_file(file, request.library, &common_roles(request.runs, request.held_out)?)
+}
+
+/// Whether something is late, and that is not all.
+fn may_be_filtered(report: &Report) -> bool {
+    let is_any_late = report.effects.iter().flat_map(|e| e.parameters.values()).any(is_late);
+    is_any_late && (report.remains.is_some() || report.effects.len() + report.unnamed.len() > 1)
+}
+
+/// A delay or a lag.
+fn is_late(parameter: &Estimate) -> bool {
+    parameter.unit == "s" && parameter.value > 0.0
+}
+
+/// The filter before which the given model explains the runs; `None` where there is none.
+fn estimated(request: &Request) -> Result<Option<PoseFilter>> {
+    let Some(delay) = of_clock() else { return Ok(None) };
+    let model = model_of(request.file, request)?;
+    let late = model.clone().with_effect(Applied::new(delay, None, vec![0.0]).freed());
+    let mut filter = PoseFilter { time_constant: 0.0, std: None };
+    for _ in 0..ROUNDS {
+        let Some(fit) = before_filter(request, &late, filter.time_constant)? else { return Ok(None) };
+        let left = fit.p[0];
+        filter = PoseFilter { time_constant: filter.time_constant + left, std: fit.variance(0).map(f64::sqrt) };
+        if filter.time_constant <= 0.0 {
+            return Ok(None);
+        }
+        if left.abs() < filter.std.unwrap_or(0.0).max(ARRIVED * filter.time_constant) {
+            let explained = before_filter(request, &model, filter.time_constant)?.is_some_and(|fit| !remains(&fit));
+            return Ok(explained.then_some(filter));
+        }
+    }
+    Ok(None)
+}
+
+/// A fit to the runs as they were before a filter.
+fn before_filter(request: &Request, model: &Model, time_constant: f64) -> Result<Option<Fit>> {
+    let before = |run: &Run| if time_constant > 0.0 { run.before_pose_filter(time_constant) } else { run.clone() };
+    let runs: Vec<Run> = request.runs.iter().map(before).collect();
+    let data = Data::of(&Request { runs: &runs, held_out: &[], ..*request }, model)?;
+    let problem = Problem::new(data.fitted, request.file.noise.position, request.file.noise.heading);
+    let problem = problem.knowing_its_inputs(model)?;
+    let starts = problem.starts(model)?;
+    problem.fit(model, &starts, &problem.variances, Effort::FULL)
+}
+
+/// Whether the gap after the longest time that both tell shrinks by far, of the fitted runs or of held-out ones: the noise
+/// of a pose before its filter is larger, and hides the gap of a few windows.
+fn shrinks(from: &[Gap], to: &[Gap]) -> bool {
+    let longest = |of: fn(&Gap) -> Option<BeforeAfter>| {
+        let pairs = from.iter().zip(to).filter_map(|(a, b)| Some([of(a)?, of(b)?].map(|v| v.position_rms_after)));
+        pairs.last().is_some_and(|[before, after]| after < EXPLAINS * before)
+    };
+    longest(|g| g.held_out) || longest(|g| g.fit)
+}
+
+/// What is found before the filter, and the filter.
+fn told(mut found: Discovery, filter: PoseFilter) -> Discovery {
+    let finding = pose_filter_text::finding(filter.time_constant, filter.std);
+    found.report.summary = pose_filter_text::summary(filter.time_constant, filter.std);
+    found.report.data.warnings.insert(0, finding.says.clone());
+    found.report.data.findings.push(finding);
+    Discovery { pose_filter: Some(filter.time_constant), ..found }
+}

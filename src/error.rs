@@ -120,6 +120,16 @@ impl Error {
         self.0.place
     }
 
+    /// The file it speaks of, where it speaks of one.
+    pub fn file(&self) -> Option<&Path> {
+        self.0.file.as_deref()
+    }
+
+    /// What the reader should do, where there is something.
+    pub fn advice(&self) -> Option<&str> {
+        self.0.help.as_deref()
+    }
+
     /// Whose fault it is.
     pub fn kind(&self) -> Kind {
         self.0.kind

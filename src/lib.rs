@@ -61,7 +61,13 @@
 //! without notice, and so does what a visible module hides.
 #![warn(missing_docs)]
 
+// The command calls the library by its name.
+extern crate self as creepage;
+
 pub mod claims;
+#[cfg(feature = "cli")]
+#[doc(hidden)]
+pub mod command;
 pub mod connection;
 pub mod describe;
 #[doc(hidden)]

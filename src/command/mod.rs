@@ -21,8 +21,11 @@ mod sweep;
 mod user_catalogues;
 mod verify;
 
+pub use stage_text::stage_text;
+
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use creepage::{Error, Result};
+use std::io::Write;
 
 /// Creep kinematics of nonholonomic vehicles: constraints derived, models corrected by measured runs.
 #[derive(Parser)]
@@ -64,6 +67,14 @@ enum Command {
     Claims(verify::List),
     Completions(completions::Arguments),
     Man(man::Arguments),
+}
+
+/// The exit code of a command that has ended; what went wrong is told on standard error.
+pub fn ended(done: Result<()>) -> u8 {
+    let Err(error) = done else { return 0 };
+    // Where even this cannot be written, the exit code still tells.
+    let _ = writeln!(std::io::stderr(), "creepage: {error}");
+    error.exit_code()
 }
 
 impl Cli {

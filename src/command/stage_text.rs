@@ -26,6 +26,5 @@ pub fn stage_text(stage: &Stage) -> String {
         Stage::FleetFits => "robots; fitting their runs with what the fleet needs".into(),
         Stage::Claims { id } => format!("pieces of evidence; {id}"),
         Stage::Figures { name } => format!("figures; drawing {name}"),
-        _ => "working".into(),
     }
 }

@@ -130,8 +130,8 @@ fn before_filter(request: &Request, model: &Model, time_constant: f64) -> Result
 /// of a pose before its filter is larger, and hides the gap of a few windows.
 fn shrinks(from: &[Gap], to: &[Gap]) -> bool {
     let longest = |of: fn(&Gap) -> Option<BeforeAfter>| {
-        let pairs = from.iter().zip(to).filter_map(|(a, b)| Some([of(a)?, of(b)?].map(|v| v.position_rms_after)));
-        pairs.last().is_some_and(|[before, after]| after < EXPLAINS * before)
+        let both = |(a, b): (&Gap, &Gap)| Some([of(a)?, of(b)?].map(|v| v.position_rms_after));
+        from.iter().zip(to).rev().find_map(both).is_some_and(|[before, after]| after < EXPLAINS * before)
     };
     longest(|g| g.held_out) || longest(|g| g.fit)
 }

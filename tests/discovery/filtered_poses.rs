@@ -85,7 +85,7 @@ fn a_filter_is_told_with_its_time_constant_and_the_line_that_undoes_it() {
 #[test]
 fn a_delay_is_no_filter() {
     let late = Hidden::InputDelay { delay: 0.2 };
-    for hidden in [vec![late.clone()], vec![late, Hidden::TrackWidth { scale: 0.04 }]] {
+    for hidden in [vec![late], vec![late, Hidden::TrackWidth { scale: 0.04 }]] {
         let named = hidden.len();
         let scenario = Scenario { noise: Noise::MOCAP, ..drive(Tractor::DifferentialDrive, hidden, 4) };
         let (file, run) = read_back(&scenario.model_toml(), &scenario.run().to_csv(9));

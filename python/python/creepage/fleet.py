@@ -1,0 +1,91 @@
+"""A fleet on any engine: `concurrent.futures`, Dask, joblib, Ray.
+
+The engine maps shards of the manifest; each is the command `creepage fleet map` in a process of its own, with one thread. A
+shard that dies with its worker is asked again: the rows it had written are kept, so nothing is done twice, and the result has
+the same bytes for every engine, sharding and number of workers.
+"""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from os import PathLike, cpu_count, fspath
+from pathlib import Path
+from typing import Any
+
+from ._creepage import InputError, RunError
+
+#: Times a shard is asked that dies with its worker.
+ATTEMPTS = 3
+
+
+def _command(*arguments: str) -> None:
+    done = subprocess.run([sys.executable, "-m", "creepage", *arguments], capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise (InputError if done.returncode == 2 else RunError)(done.stderr.strip().removeprefix("creepage: "))
+
+
+def shard(manifest: str, rows: str, part: str) -> str:
+    """Asks `discover` of the robots of a shard, such as "3/64"."""
+    _command("fleet", "map", manifest, "--out", rows, "--shard", part, "--threads", "1", "--quiet")
+    return part
+
+
+def _mapped(executor: Any, manifest: str, rows: str, parts: list[str]) -> None:
+    """Every shard on an engine that has `submit` or `map`, asked again where a worker died."""
+    left = parts
+    for attempt in range(ATTEMPTS):
+        lost, why = [], None
+        if hasattr(executor, "submit"):
+            futures = [(part, executor.submit(shard, manifest, rows, part)) for part in left]
+            for part, future in futures:
+                try:
+                    future.result()
+                except (InputError, RunError):
+                    raise
+                except Exception as error:  # the engine's own: a worker that was killed
+                    lost.append(part)
+                    why = error
+        else:
+            list(executor.map(shard, [manifest] * len(left), [rows] * len(left), left))
+        if not lost:
+            return
+        if attempt + 1 == ATTEMPTS and why is not None:
+            raise why
+        left = lost
+
+
+def fleet(
+    manifest: str | PathLike[str],
+    out: str | PathLike[str],
+    *,
+    rows: str | PathLike[str] | None = None,
+    executor: Any = None,
+    shards: int | None = None,
+) -> dict[str, Any]:
+    """Asks `discover` of every run of a fleet, fits the effects that the fleet needs, and puts them together.
+
+    manifest  CSV with the columns robot, run, date, log, truth, model, and tags of one's own
+    out       a folder for `fleet.json`, `fleet.html`, `fleet.csv` and a model and parameters for each robot
+    rows      a folder for what each shard found, kept for the next call; `rows` in `out` where there is none
+    executor  anything with `.submit` (concurrent.futures, a Dask client) or `.map` (joblib, a pool of Ray); threads of this
+              process where there is none
+    shards    parts of the manifest; four for each core where there is no number
+
+    The answer is the content of `fleet.json`.
+    """
+    found = Path(rows) if rows is not None else Path(out) / "rows"
+    cores = cpu_count() or 1
+    parts = [f"{i}/{shards or 4 * cores}" for i in range(1, (shards or 4 * cores) + 1)]
+    of = (fspath(Path(manifest).resolve()), fspath(found.resolve()), parts)
+    if executor is None:
+        with ThreadPoolExecutor(cores) as pool:
+            _mapped(pool, *of)
+    else:
+        _mapped(executor, *of)
+    _command("fleet", "join", fspath(found), "--out", fspath(out), "--quiet")
+    answer = json.loads((Path(out) / "fleet.json").read_text(encoding="utf-8"))
+    assert isinstance(answer, dict)
+    return answer

@@ -1,0 +1,92 @@
+"""A vehicle with its parameters, the columns of its logs, and the effects that it may miss."""
+
+from __future__ import annotations
+
+import html
+import tempfile
+from os import PathLike, fspath
+from pathlib import Path
+
+from . import _creepage as native
+
+
+class Model:
+    """A model file at hand.
+
+    `Model("differential-drive", wheel_radius=0.1, track_width=0.4)` is a vehicle of the catalogue (SI units), whose logs have
+    columns of the names of their roles; `Model.load` reads a file, `Model.parse` takes its text.
+
+    Raises `InputError` with file, line and column where something is unknown, missing or out of range.
+    """
+
+    def __init__(self, vehicle: str, **parameters: float) -> None:
+        self._of(native.Model.of_vehicle(vehicle, [(name, float(value)) for name, value in parameters.items()]))
+
+    def _of(self, model: native.Model, vehicles: str | None = None, effects: str | None = None) -> None:
+        self._native = model
+        self._own = (vehicles, effects)
+
+    @classmethod
+    def _made(cls, model: native.Model, vehicles: str | None = None, effects: str | None = None) -> Model:
+        made = cls.__new__(cls)
+        made._of(model, vehicles, effects)
+        return made
+
+    @classmethod
+    def load(
+        cls,
+        path: str | PathLike[str],
+        *,
+        vehicles: str | PathLike[str] | None = None,
+        effects: str | PathLike[str] | None = None,
+    ) -> Model:
+        """Reads a model file, with files of one's own vehicles and effects beside the catalogues."""
+        own = [None if given is None else fspath(given) for given in (vehicles, effects)]
+        return cls._made(native.Model.read(path, *own), *own)
+
+    @classmethod
+    def parse(cls, text: str) -> Model:
+        """The model that the text of a model file describes."""
+        return cls._made(native.Model.parse(text))
+
+    def _rewritten(self, text: str) -> Model:
+        """The same catalogues with another text, such as a patched one."""
+        return _rebuilt(text, *self._own)
+
+    @property
+    def vehicle(self) -> str:
+        """Id of the vehicle."""
+        return self._native.vehicle
+
+    @property
+    def text(self) -> str:
+        """The text of the model file."""
+        return self._native.text
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Writes the model file, whole or not at all."""
+        self._native.write(path)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Model) and (self.text, self._own) == (other.text, other._own)
+
+    def __hash__(self) -> int:
+        return hash((self.text, self._own))
+
+    def __repr__(self) -> str:
+        return f"Model({self.vehicle!r})"
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{html.escape(self.text)}</pre>"
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return _rebuilt, (self.text, *self._own)
+
+
+def _rebuilt(text: str, vehicles: str | None, effects: str | None) -> Model:
+    if vehicles is None and effects is None:
+        return Model.parse(text)
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "model.toml"
+        path.write_text(text, encoding="utf-8")
+        return Model.load(path, vehicles=vehicles, effects=effects)

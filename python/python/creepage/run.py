@@ -1,0 +1,125 @@
+"""A measured run: times, poses and inputs, row by row."""
+
+from __future__ import annotations
+
+from os import PathLike, fspath
+from typing import TYPE_CHECKING, Any
+
+from . import _creepage as native
+from .frames import csv_of
+from .model import Model
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+class Run:
+    """A run that was read by the columns of a model: `Run.read` from a file, `Run.from_frame` from a table at hand."""
+
+    def __init__(self) -> None:
+        raise TypeError("a run is read: Run.read(path, model) or Run.from_frame(table, model)")
+
+    @classmethod
+    def _made(cls, run: native.Run, how: tuple[object, ...]) -> Run:
+        made = cls.__new__(cls)
+        made._native = run
+        made._how = how
+        return made
+
+    _native: native.Run
+    _how: tuple[object, ...]
+
+    @classmethod
+    def read(cls, path: str | PathLike[str], model: Model, *, truth: str | PathLike[str] | None = None) -> Run:
+        """Reads a log (CSV, a folder of CSVs, a bag, Parquet); with `truth` the poses are those of a file of their own.
+
+        Raises `InputError` with file, line and column where the log cannot be read.
+        """
+        poses = None if truth is None else fspath(truth)
+        return cls._made(native.Run.read(path, model._native, poses), (fspath(path), None, model, poses))
+
+    @classmethod
+    def from_frame(cls, table: Any, model: Model, *, name: str = "run") -> Run:
+        """A run from a table at hand: pandas, polars, pyarrow, or a mapping of names to arrays of shape (n,).
+
+        Columns are read as those of a CSV: by the model's `[columns]`, units, quaternions and counts included. A value that
+        is not a number is a blank cell; a row without a pose still has its inputs.
+        """
+        text = csv_of(table)
+        return cls._made(native.Run.parse(name, text, model._native), (name, text, model, None))
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return _rebuilt, self._how
+
+    @property
+    def name(self) -> str:
+        """Name of the file, without its folder."""
+        return self._native.name
+
+    @property
+    def time(self) -> NDArray[np.float64]:
+        """Strictly increasing times of the poses, s; shape (n,)."""
+        return self._native.time
+
+    @property
+    def x(self) -> NDArray[np.float64]:
+        """Measured positions along x, m; shape (n,)."""
+        return self._native.x
+
+    @property
+    def y(self) -> NDArray[np.float64]:
+        """Measured positions along y, m; shape (n,)."""
+        return self._native.y
+
+    @property
+    def heading(self) -> NDArray[np.float64] | None:
+        """Measured headings, rad, without jumps, shape (n,); None where no sensor measures one."""
+        return self._native.heading
+
+    @property
+    def trailer_headings(self) -> list[NDArray[np.float64]]:
+        """Measured absolute headings of the trailers, rad, nearest first; each of shape (n,)."""
+        return self._native.trailer_headings
+
+    @property
+    def inputs(self) -> dict[str, NDArray[np.float64]]:
+        """The inputs by their roles, at `input_time`; each of shape (m,)."""
+        return dict(self._native.inputs)
+
+    @property
+    def input_time(self) -> NDArray[np.float64]:
+        """The times of the inputs, s; those of the poses where both were logged together."""
+        return self._native.input_time
+
+    @property
+    def warnings(self) -> list[str]:
+        """What is to know of the file."""
+        return self._native.warnings
+
+    @property
+    def dropped(self) -> dict[str, int]:
+        """How many rows were left out for each reason."""
+        return self._native.why_dropped
+
+    def frame(self) -> Any:
+        """Times and poses as a data frame, of pandas or polars, whichever is there."""
+        from .frames import frame_of
+
+        columns = {"time": self.time, "x": self.x, "y": self.y}
+        if self.heading is not None:
+            columns["heading"] = self.heading
+        columns |= {f"trailer_heading_{i}": h for i, h in enumerate(self.trailer_headings, 1)}
+        return frame_of(columns)
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    def __repr__(self) -> str:
+        return f"<Run {self.name!r}: {len(self)} rows, {self.time[-1] - self.time[0]:.4g} s>"
+
+
+def _rebuilt(name: str, text: str | None, model: Model, truth: str | None) -> Run:
+    if text is None:
+        return Run.read(name, model, truth=truth)
+    return Run._made(native.Run.parse(name, text, model._native), (name, text, model, None))

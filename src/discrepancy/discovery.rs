@@ -14,7 +14,7 @@ use crate::discrepancy::preprocessing::dataset::Data;
 use crate::discrepancy::request::Request;
 use crate::discrepancy::selection::choice::Refused;
 use crate::discrepancy::selection::odd_run::OddRun;
-use crate::files::{EffectEntry, ModelFile, with_pose_filter};
+use crate::files::{EffectEntry, ModelFile, PoseFilter, with_pose_filter};
 use std::collections::BTreeMap;
 
 /// What `discover` finds.
@@ -25,15 +25,15 @@ pub struct Discovery {
     pub pictures: Pictures,
     /// The effects to add to the model file.
     pub added: Vec<EffectEntry>,
-    /// The time constant of a filter of the pose to add to it, s.
-    pub pose_filter: Option<f64>,
+    /// A filter of the pose to add to it.
+    pub pose_filter: Option<PoseFilter>,
 }
 
 impl Discovery {
     /// The model file with the findings added.
     pub fn patched(&self, file: &ModelFile) -> String {
         let text = file.patched(&self.added);
-        self.pose_filter.map_or(text.clone(), |time_constant| with_pose_filter(&text, time_constant))
+        self.pose_filter.map_or(text.clone(), |filter| with_pose_filter(&text, filter))
     }
 }
 

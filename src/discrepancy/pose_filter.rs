@@ -2,9 +2,9 @@
 //! chapter 4.2: an output error model behind a known pole): found where a delay is named and leaves a rest, undone, and
 //! the runs asked again.
 //!
-//! A filter of first order delays a slow motion by its time constant τ, and cuts corners: beside the delay the corners are
-//! then taken for creep. With the filter undone by Tustin's rule there is no delay left, which determines τ: what is left
-//! of the delay is what τ lacks. Undone, noise behind the filter is √2·τ/Δt as large: where it hides what the filter does to
+//! A filter of first order delays a slow motion, by its time constant τ or, where it smooths row by row, by (1 − α)/α rows, and
+//! cuts corners: beside the delay the corners are then taken for creep. With the filter undone there is no delay left, which
+//! determines it: what is left of the delay is what the filter lacks. Both forms are asked. Undone, noise behind the filter is √2·τ/Δt as large: where it hides what the filter does to
 //! the corners, the runs are left as they were logged.
 
 use super::discovery::{Clocks, Discovery};
@@ -18,8 +18,9 @@ use super::report::{BeforeAfter, Estimate, Gap, Report, Verdict};
 use super::request::{Request, common_roles};
 use crate::effects::{Applied, of_clock};
 use crate::error::Result;
-use crate::files::{EffectEntry, ModelFile, Run};
+use crate::files::{EffectEntry, ModelFile, PoseFilter, Run};
 use crate::model::Model;
+use crate::motion::usual_step;
 use crate::progress::OnProgress;
 
 /// Times a filter is undone, at most, before its time constant stands.
@@ -31,14 +32,21 @@ const EXPLAINS: f64 = 0.7;
 /// A difference of the deviance that is very strong evidence (Kass and Raftery, 1995).
 const EVIDENT: f64 = 10.0;
 
-/// A filter of the pose: its time constant and the deviation of that, s.
+/// A filter of the pose, how late it makes a slow motion, and the deviation of that, s.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct PoseFilter {
+pub(crate) struct FoundFilter {
+    pub filter: PoseFilter,
     /// s
-    pub time_constant: f64,
+    pub late: f64,
     /// s
     pub std: Option<f64>,
 }
+
+/// A form of filter, by how late it makes a slow motion, s, in rows so many s apart.
+type Form = fn(f64, f64) -> PoseFilter;
+
+const FORMS: [Form; 2] =
+    [|late, _| PoseFilter::Continuous(late), |late, step| PoseFilter::OfRows(step / (step + late))];
 
 /// Finds what is missing, of a pose before the filter that smoothed it where there was one.
 ///
@@ -49,18 +57,23 @@ pub(crate) fn discover_before_filter(request: &Request, clocks: Clocks, progress
     if request.file.sensor.pose_filter.is_some() || !may_be_filtered(&found.report) {
         return Ok(found);
     }
-    let Some(filter) = estimated(request)? else { return Ok(found) };
-    let before = |runs: &[Run]| runs.iter().map(|r| r.before_pose_filter(filter.time_constant)).collect::<Vec<Run>>();
-    let (runs, held_out) = (before(request.runs), before(request.held_out));
-    let again = discover_by_clocks(&Request { runs: &runs, held_out: &held_out, ..*request }, clocks, progress)?;
-    if again.report.verdict != Verdict::NoMissingEffect {
-        return Ok(found);
+    for of in estimated(request)? {
+        let before = |runs: &[Run]| runs.iter().map(|r| r.before_pose_filter(of.filter)).collect::<Vec<Run>>();
+        let (runs, held_out) = (before(request.runs), before(request.held_out));
+        let again = Request { runs: &runs, held_out: &held_out, ..*request };
+        let again = discover_by_clocks(&again, clocks.clone(), progress)?;
+        if again.report.verdict != Verdict::NoMissingEffect {
+            continue;
+        }
+        let explains = match beside_what_is_late(&found) {
+            Some(others) => refutes(request, of.filter, others)?,
+            None => shrinks(&found.report.gap, &again.report.gap),
+        };
+        if explains {
+            return Ok(told(again, of));
+        }
     }
-    let explains = match beside_what_is_late(&found) {
-        Some(others) => refutes(request, filter.time_constant, others)?,
-        None => shrinks(&found.report.gap, &again.report.gap),
-    };
-    Ok(if explains { told(again, filter) } else { found })
+    Ok(found)
 }
 
 /// What was found beside what is late; `None` where there is nothing.
@@ -71,11 +84,11 @@ fn beside_what_is_late(found: &Discovery) -> Option<Vec<EffectEntry>> {
 }
 
 /// Whether the runs before the filter refute what was found beside it: with those values they are explained worse.
-fn refutes(request: &Request, time_constant: f64, others: Vec<EffectEntry>) -> Result<bool> {
+fn refutes(request: &Request, filter: PoseFilter, others: Vec<EffectEntry>) -> Result<bool> {
     let mut file = request.file.clone();
-    let bare = before_filter(request, &model_of(&file, request)?, time_constant)?;
+    let bare = before_filter(request, &model_of(&file, request)?, Some(filter))?;
     file.effects.extend(others);
-    let with = before_filter(request, &model_of(&file, request)?, time_constant)?;
+    let with = before_filter(request, &model_of(&file, request)?, Some(filter))?;
     Ok(bare.zip(with).is_some_and(|(bare, with)| with.deviance > bare.deviance + EVIDENT))
 }
 
@@ -94,30 +107,51 @@ fn is_late(parameter: &Estimate) -> bool {
     parameter.unit == "s" && parameter.value > 0.0
 }
 
-/// The filter before which the given model explains the runs; `None` where there is none.
-fn estimated(request: &Request) -> Result<Option<PoseFilter>> {
-    let Some(delay) = of_clock() else { return Ok(None) };
+/// The filters before which the given model explains the runs, the likeliest first.
+fn estimated(request: &Request) -> Result<Vec<FoundFilter>> {
+    let mut found: Vec<(f64, FoundFilter)> = vec![];
+    for form in FORMS {
+        found.extend(estimated_of_form(request, form)?);
+    }
+    found.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    Ok(found.into_iter().map(|(_, filter)| filter).collect())
+}
+
+/// The filter of a form that leaves no delay, and its deviance, where the given model explains the runs before it.
+fn estimated_of_form(request: &Request, form: Form) -> Result<Option<(f64, FoundFilter)>> {
+    let (Some(delay), Some(step)) = (of_clock(), usual_step(&request.runs[0].time)) else { return Ok(None) };
     let model = model_of(request.file, request)?;
-    let late = model.clone().with_effect(Applied::new(delay, None, vec![0.0]).freed());
-    let mut filter = PoseFilter { time_constant: 0.0, std: None };
+    let delayed = model.clone().with_effect(Applied::new(delay, None, vec![0.0]).freed());
+    let mut late = 0.0;
     for _ in 0..ROUNDS {
-        let Some(fit) = before_filter(request, &late, filter.time_constant)? else { return Ok(None) };
-        let left = fit.p[0];
-        filter = PoseFilter { time_constant: filter.time_constant + left, std: fit.variance(0).map(f64::sqrt) };
-        if filter.time_constant <= 0.0 {
+        let filter = (late > 0.0).then(|| form(late, step));
+        let Some(fit) = before_filter(request, &delayed, filter)? else { return Ok(None) };
+        let (left, std) = (fit.p[0], fit.variance(0).map(f64::sqrt));
+        late += left;
+        if late <= 0.0 {
             return Ok(None);
         }
-        if left.abs() < filter.std.unwrap_or(0.0).max(ARRIVED * filter.time_constant) {
-            let explained = before_filter(request, &model, filter.time_constant)?.is_some_and(|fit| !remains(&fit));
-            return Ok(explained.then_some(filter));
+        if left.abs() < std.unwrap_or(0.0).max(ARRIVED * late) {
+            let filter = form(late, step);
+            let fit = before_filter(request, &model, Some(filter))?.filter(|fit| !remains(fit));
+            return Ok(fit.map(|fit| (deviance_of_rows(&fit, request, filter), FoundFilter { filter, late, std })));
         }
     }
     Ok(None)
 }
 
-/// A fit to the runs as they were before a filter.
-fn before_filter(request: &Request, model: &Model, time_constant: f64) -> Result<Option<Fit>> {
-    let before = |run: &Run| if time_constant > 0.0 { run.before_pose_filter(time_constant) } else { run.clone() };
+/// The deviance of the rows as they were logged: before a filter each of them has another weight, and the density of what
+/// was logged is that of the pose before the filter times that weight.
+fn deviance_of_rows(fit: &Fit, request: &Request, filter: PoseFilter) -> f64 {
+    let weight = |run: &Run| usual_step(&run.time).map_or(0.0, |step| filter.weight(step).ln());
+    let columns = |run: &Run| 2 + usize::from(run.heading.is_some()) + run.trailer_headings.len();
+    let of_run = |run: &Run| (run.time.len() * columns(run)) as f64 * weight(run);
+    fit.deviance - 2.0 * request.runs.iter().map(of_run).sum::<f64>()
+}
+
+/// A fit to the runs as they were before a filter, or as they are.
+fn before_filter(request: &Request, model: &Model, filter: Option<PoseFilter>) -> Result<Option<Fit>> {
+    let before = |run: &Run| filter.map_or_else(|| run.clone(), |filter| run.before_pose_filter(filter));
     let runs: Vec<Run> = request.runs.iter().map(before).collect();
     let data = Data::of(&Request { runs: &runs, held_out: &[], ..*request }, model)?;
     let problem = Problem::new(data.fitted, request.file.noise.position, request.file.noise.heading);
@@ -137,10 +171,10 @@ fn shrinks(from: &[Gap], to: &[Gap]) -> bool {
 }
 
 /// What is found before the filter, and the filter.
-fn told(mut found: Discovery, filter: PoseFilter) -> Discovery {
-    let finding = pose_filter_text::finding(filter.time_constant, filter.std);
-    found.report.summary = pose_filter_text::summary(filter.time_constant, filter.std);
+fn told(mut found: Discovery, of: FoundFilter) -> Discovery {
+    let finding = pose_filter_text::finding(of.filter, of.late, of.std);
+    found.report.summary = pose_filter_text::summary(of.filter, of.late, of.std);
     found.report.data.warnings.insert(0, finding.says.clone());
     found.report.data.findings.push(finding);
-    Discovery { pose_filter: Some(filter.time_constant), ..found }
+    Discovery { pose_filter: Some(of.filter), ..found }
 }

@@ -31,6 +31,8 @@ const DRAWS: [usize; 2] = [19, 99];
 const DECIDED: f64 = 1e-6;
 /// Rows beyond which the few must do: of more data more draws would take minutes.
 const QUICK_ROWS: usize = 5000;
+/// A model with states of its own is fitted so many times as slowly.
+const OF_STATES: usize = 10;
 
 /// What chance gains look like.
 #[derive(Clone, Debug)]
@@ -90,8 +92,9 @@ impl Problem {
         let [few, many] = DRAWS;
         let gains = self.gains_of_draws(without, effect, 0..few, 0, progress)?;
         let mut chance = NullDistribution { k: effect.values.len(), gains };
-        let rows: usize = self.records.iter().map(|r| r.rows.len()).sum();
-        if chance.p_value(gain) >= DECIDED && rows <= QUICK_ROWS {
+        let has_states = without.model.effects.iter().chain([effect]).any(|e| !e.effect.states.is_empty());
+        let work = self.records.iter().map(|r| r.rows.len()).sum::<usize>() * if has_states { OF_STATES } else { 1 };
+        if chance.p_value(gain) >= DECIDED && work <= QUICK_ROWS {
             chance.gains.extend(self.gains_of_draws(without, effect, few..many, 0, progress)?);
         }
         Ok(chance.p_value(gain))

@@ -123,7 +123,8 @@ impl Search<'_> {
         Ok(found)
     }
 
-    /// The same with the probability and the rivals of each: asked once, of what stands.
+    /// The same with the probability and the rivals of each: asked once, of what stands. Where χ² does not hold the
+    /// probability is that of data drawn without the effect.
     pub(crate) fn examined(
         &self,
         fit: &Fit,
@@ -132,20 +133,16 @@ impl Search<'_> {
     ) -> Result<Vec<SelectedEffect>> {
         let one = |Weighed { effect, without }: Weighed| {
             let gain = (without.deviance - fit.deviance).max(0.0) / fit.inflation_beside(&without);
-            let p_value = self.p_value(&without, &effect.applied, gain, progress)?;
+            // Beside a rest draws would be of a model that is known to be wrong.
+            let is_drawn = !parametric_bootstrap::is_regular(&effect.applied) && gain <= BEYOND_DOUBT && !remains(fit);
+            let p_value = match is_drawn {
+                true => self.problem.chance_p_value(&without, &effect.applied, gain, progress)?,
+                false => tail(gain, effect.applied.values.len()),
+            };
             let rivals = self.rivals(fit, &effect.applied)?;
             Ok(SelectedEffect { p_value, rivals, ..effect })
         };
         weighed.into_iter().map(one).collect()
-    }
-
-    /// Probability of such a gain by chance; where χ² does not hold, from data drawn without the effect.
-    fn p_value(&self, without: &Fit, applied: &Applied, gain: f64, progress: &OnProgress) -> Result<f64> {
-        let k = applied.values.len();
-        if parametric_bootstrap::is_regular(applied) || gain > BEYOND_DOUBT {
-            return Ok(tail(gain, k));
-        }
-        self.problem.chance_p_value(without, applied, gain, progress)
     }
 
     /// Effects that explain the data as well in the place of a chosen one, where and when that holds.

@@ -23,8 +23,35 @@ pub struct Sensor {
     pub lever_arm: [f64; 2],
     /// Measured heading minus heading of the body, rad.
     pub heading_offset: f64,
-    /// Time constant of a low-pass filter of first order that smooths the measured pose, s.
-    pub pose_filter: Option<f64>,
+    /// A low-pass filter of first order that smooths the measured pose.
+    pub pose_filter: Option<PoseFilter>,
+}
+
+/// A low-pass filter of first order that smooths the measured pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PoseFilter {
+    /// In continuous time, τ·ż + z = w: its time constant, s.
+    Continuous(f64),
+    /// Exponential smoothing of the rows, z = α·w + (1 − α)·z₋: the share α of the new pose.
+    OfRows(f64),
+}
+
+impl PoseFilter {
+    /// What the filter is called in a model file, and its number.
+    pub fn entry(self) -> (&'static str, f64) {
+        match self {
+            Self::Continuous(time_constant) => ("pose_filter", time_constant),
+            Self::OfRows(share) => ("pose_smoothing", share),
+        }
+    }
+
+    /// The weight of a row in the pose before the filter, of rows so many s apart; the row before it has what lacks to one.
+    pub fn weight(self, step: f64) -> f64 {
+        match self {
+            Self::Continuous(time_constant) => 0.5 + time_constant / step,
+            Self::OfRows(share) => 1.0 / share,
+        }
+    }
 }
 
 /// A pose a simulation begins with.
@@ -67,20 +94,35 @@ impl InputTiming {
 impl Sensor {
     pub(super) fn read(top: &Section) -> Result<Self> {
         let Some(section) = top.section("sensor")? else { return Ok(Self::default()) };
-        section.only(&["lever_arm", "heading_offset", "pose_filter"])?;
+        section.only(&["lever_arm", "heading_offset", "pose_filter", "pose_smoothing"])?;
         let lever_arm = section.get("lever_arm").map_or(Ok([0.0; 2]), |v| pair(&v))?;
         let heading_offset = section.get("heading_offset").map_or(Ok(0.0), |v| v.number())?;
-        let pose_filter = section.get("pose_filter").map(|v| time_constant(&v)).transpose()?;
+        let pose_filter = pose_filter(&section)?;
         Ok(Self { lever_arm, heading_offset, pose_filter })
     }
 }
 
-fn time_constant(value: &Value) -> Result<f64> {
-    let number = value.number()?;
-    if number > 0.0 {
-        return Ok(number);
+/// The filter of the pose, by either of its keys.
+fn pose_filter(section: &Section) -> Result<Option<PoseFilter>> {
+    let (continuous, of_rows) = (section.get("pose_filter"), section.get("pose_smoothing"));
+    match (continuous, of_rows) {
+        (None, None) => Ok(None),
+        (Some(_), Some(twice)) => Err(twice
+            .error("the filter of the pose is given twice, as pose_filter and as pose_smoothing")
+            .help("remove one of the two")),
+        (Some(value), None) => match value.number()? {
+            number if number > 0.0 => Ok(Some(PoseFilter::Continuous(number))),
+            _ => Err(value
+                .error("pose_filter is a time constant above 0 s")
+                .help("remove the line where the pose is not filtered")),
+        },
+        (None, Some(value)) => match value.number()? {
+            number if number > 0.0 && number < 1.0 => Ok(Some(PoseFilter::OfRows(number))),
+            _ => Err(value
+                .error("pose_smoothing is the share of the new pose in a row, between 0 and 1")
+                .help("remove the line where the pose is not filtered")),
+        },
     }
-    Err(value.error("pose_filter is a time constant above 0 s").help("remove the line where the pose is not filtered"))
 }
 
 fn pair(value: &Value) -> Result<[f64; 2]> {

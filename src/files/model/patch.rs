@@ -3,6 +3,7 @@
 //! What is here besides: Windows line ends, and whole numbers of more than 64 bits, neither of which `toml_edit` keeps.
 
 use super::effect_entry::EffectEntry;
+use super::measurement::PoseFilter;
 use super::scope_entry::{CourseEntry, Motion};
 use crate::effects::Scope;
 use toml_edit::{Array, ArrayOfTables, Decor, DocumentMut, InlineTable, Item, Key, Table, TableLike, Value};
@@ -22,12 +23,13 @@ pub(crate) fn patched(text: &str, added: &[EffectEntry]) -> String {
     printed(&document, text)
 }
 
-/// The text with the time constant of a filter of the measured pose, s.
-pub(crate) fn with_pose_filter(text: &str, time_constant: f64) -> String {
+/// The text with a filter of the measured pose.
+pub(crate) fn with_pose_filter(text: &str, filter: PoseFilter) -> String {
     let Some(mut document) = parse(text) else { return text.to_string() };
     let sensor = document.entry("sensor").or_insert_with(|| Item::Table(Table::new()));
     if let Some(table) = sensor.as_table_like_mut() {
-        set(table, "pose_filter", time_constant);
+        let (name, value) = filter.entry();
+        set(table, name, value);
     }
     printed(&document, text)
 }

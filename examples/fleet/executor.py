@@ -1,35 +1,19 @@
-"""A fleet on any executor: concurrent.futures, dask.distributed, joblib, Ray.
+"""A fleet on any executor, by the package for Python (`pip install ./python`).
 
-    from concurrent.futures import ThreadPoolExecutor
-    with ThreadPoolExecutor(8) as pool:
-        fleet("fleet.csv", "rows", "fleet", pool.map, shards=64)
+    python executor.py fleet.csv fleet
 
-    client = dask.distributed.Client()
-    fleet("fleet.csv", "rows", "fleet", lambda f, *a: client.gather(client.map(f, *a, pure=False)), shards=64)
+Here on threads. On a cluster of Dask:
 
-A shard that dies with its worker is asked again; the rows it had written are kept, so nothing is done twice.
+    with dask.distributed.Client("tcp://scheduler:8786") as client:
+        cp.fleet("fleet.csv", "fleet", executor=client, shards=64)
 """
 
-import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 
-
-def shard(manifest, rows, part, program="creepage"):
-    """Asks `discover` of the robots of a shard, such as "3/64"."""
-    subprocess.run([program, "fleet", "map", manifest, "--out", rows, "--shard", part, "--threads", "1", "--quiet"], check=True)
-    return part
-
-
-def fleet(manifest, rows, out, map=map, shards=16, program="creepage"):
-    """Maps the shards of a fleet with `map`, and joins their rows."""
-    parts = [f"{i}/{shards}" for i in range(1, shards + 1)]
-    done = list(map(shard, [manifest] * shards, [rows] * shards, parts, [program] * shards))
-    assert done == parts
-    subprocess.run([program, "fleet", "join", rows, "--out", out, "--quiet"], check=True)
-
+import creepage as cp
 
 if __name__ == "__main__":
-    from concurrent.futures import ThreadPoolExecutor
-
+    manifest, out = sys.argv[1:3]
     with ThreadPoolExecutor() as pool:
-        fleet(*sys.argv[1:4], pool.map, shards=8)
+        cp.fleet(manifest, out, executor=pool, shards=8)

@@ -17,6 +17,17 @@ pyo3::create_exception!(
     "Work that failed although its input was good: `file`, `line`, `column`, `help`."
 );
 
+/// What both carry; None in what Python itself raises.
+const ATTRIBUTES: [&str; 4] = ["file", "line", "column", "help"];
+
+/// Gives both exceptions their attributes.
+pub fn declare(py: Python) -> PyResult<()> {
+    for class in [py.get_type::<InputError>(), py.get_type::<RunError>()] {
+        ATTRIBUTES.iter().try_for_each(|name| class.setattr(*name, py.None()))?;
+    }
+    Ok(())
+}
+
 /// An error of the library as an exception.
 pub fn raised(py: Python, error: &Error) -> PyErr {
     let text = error.to_string();

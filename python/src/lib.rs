@@ -12,6 +12,13 @@ use pyo3::prelude::*;
 /// The native half of the package.
 #[pymodule(gil_used = false)]
 mod _creepage {
+    use pyo3::prelude::*;
+
+    #[pymodule_init]
+    fn init(module: &Bound<PyModule>) -> PyResult<()> {
+        super::errors::declare(module.py())
+    }
+
     #[pymodule_export]
     use super::errors::{InputError, RunError};
     #[pymodule_export]

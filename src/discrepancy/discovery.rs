@@ -33,7 +33,10 @@ impl Discovery {
     /// The model file with the findings added.
     pub fn patched(&self, file: &ModelFile) -> String {
         let text = file.patched(&self.added);
-        self.pose_filter.map_or(text.clone(), |filter| with_pose_filter(&text, filter))
+        match self.pose_filter {
+            Some(filter) => with_pose_filter(&text, filter),
+            None => text,
+        }
     }
 }
 

@@ -4,8 +4,8 @@
 //!
 //! A filter of first order delays a slow motion, by its time constant τ or, where it smooths row by row, by (1 − α)/α rows, and
 //! cuts corners: beside the delay the corners are then taken for creep. With the filter undone there is no delay left, which
-//! determines it: what is left of the delay is what the filter lacks. Both forms are asked. Undone, noise behind the filter is √2·τ/Δt as large: where it hides what the filter does to
-//! the corners, the runs are left as they were logged.
+//! determines it: what is left of the delay is what the filter lacks. Both forms are asked. Undone, noise behind the filter is
+//! √2·τ/Δt as large: where it hides what the filter does to the corners, the runs are left as they were logged.
 
 use super::discovery::{Clocks, Discovery};
 use super::estimation::fit::{Effort, Fit};
@@ -20,7 +20,7 @@ use crate::effects::{Applied, of_clock};
 use crate::error::Result;
 use crate::files::{EffectEntry, ModelFile, PoseFilter, Run};
 use crate::model::Model;
-use crate::motion::usual_step;
+use crate::numerics::usual_step;
 use crate::progress::OnProgress;
 
 /// Times a filter is undone, at most, before its time constant stands.
@@ -32,14 +32,21 @@ const EXPLAINS: f64 = 0.7;
 /// A difference of the deviance that is very strong evidence (Kass and Raftery, 1995).
 const EVIDENT: f64 = 10.0;
 
-/// A filter of the pose, how late it makes a slow motion, and the deviation of that, s.
+/// How late the pose of runs is, and the deviation of that, s.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct FoundFilter {
-    pub filter: PoseFilter,
-    /// s
-    pub late: f64,
-    /// s
-    pub std: Option<f64>,
+struct Delay {
+    by: f64,
+    std: Option<f64>,
+}
+
+/// A filter of the pose before which the given model explains the runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct FoundFilter {
+    filter: PoseFilter,
+    /// How late it makes a slow motion.
+    late: Delay,
+    /// The deviance of the runs before it.
+    deviance: f64,
 }
 
 /// A form of filter, by how late it makes a slow motion, s, in rows so many s apart.
@@ -66,7 +73,7 @@ pub(crate) fn discover_before_filter(request: &Request, clocks: Clocks, progress
             continue;
         }
         let explains = match beside_what_is_late(&found) {
-            Some(others) => refutes(request, of.filter, others)?,
+            Some(others) => refutes(request, &of, others)?,
             None => shrinks(&found.report.gap, &again.report.gap),
         };
         if explains {
@@ -84,12 +91,11 @@ fn beside_what_is_late(found: &Discovery) -> Option<Vec<EffectEntry>> {
 }
 
 /// Whether the runs before the filter refute what was found beside it: with those values they are explained worse.
-fn refutes(request: &Request, filter: PoseFilter, others: Vec<EffectEntry>) -> Result<bool> {
+fn refutes(request: &Request, of: &FoundFilter, others: Vec<EffectEntry>) -> Result<bool> {
     let mut file = request.file.clone();
-    let bare = before_filter(request, &model_of(&file, request)?, Some(filter))?;
     file.effects.extend(others);
-    let with = before_filter(request, &model_of(&file, request)?, Some(filter))?;
-    Ok(bare.zip(with).is_some_and(|(bare, with)| with.deviance > bare.deviance + EVIDENT))
+    let with = before_filter(request, &model_of(&file, request)?, Some(of.filter))?;
+    Ok(with.is_some_and(|with| with.deviance > of.deviance + EVIDENT))
 }
 
 fn model_of(file: &ModelFile, request: &Request) -> Result<Model> {
@@ -109,44 +115,58 @@ fn is_late(parameter: &Estimate) -> bool {
 
 /// The filters before which the given model explains the runs, the likeliest first.
 fn estimated(request: &Request) -> Result<Vec<FoundFilter>> {
-    let mut found: Vec<(f64, FoundFilter)> = vec![];
-    for form in FORMS {
-        found.extend(estimated_of_form(request, form)?);
-    }
-    found.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-    Ok(found.into_iter().map(|(_, filter)| filter).collect())
-}
-
-/// The filter of a form that leaves no delay, and its deviance, where the given model explains the runs before it.
-fn estimated_of_form(request: &Request, form: Form) -> Result<Option<(f64, FoundFilter)>> {
-    let (Some(delay), Some(step)) = (of_clock(), usual_step(&request.runs[0].time)) else { return Ok(None) };
+    let (Some(delay), Some(step)) = (of_clock(), usual_step(&request.runs[0].time)) else { return Ok(vec![]) };
     let model = model_of(request.file, request)?;
     let delayed = model.clone().with_effect(Applied::new(delay, None, vec![0.0]).freed());
-    let mut late = 0.0;
+    let logged = left(request, &delayed, None)?;
+    let mut found: Vec<FoundFilter> = vec![];
+    for form in FORMS {
+        let Some(late) = settled(request, &delayed, logged, |late| form(late, step))? else { continue };
+        let filter = form(late.by, step);
+        let fit = before_filter(request, &model, Some(filter))?.filter(|fit| !remains(fit));
+        found.extend(fit.map(|fit| FoundFilter { filter, late, deviance: fit.deviance }));
+    }
+    found.sort_by(|a, b| a.deviance_as_logged(request).total_cmp(&b.deviance_as_logged(request)));
+    Ok(found)
+}
+
+/// How late a filter makes the pose that leaves no delay, from the delay of the runs as they were logged.
+fn settled(
+    request: &Request,
+    delayed: &Model,
+    logged: Option<Delay>,
+    filter: impl Fn(f64) -> PoseFilter,
+) -> Result<Option<Delay>> {
+    let (mut late, mut lacking) = (0.0, logged);
     for _ in 0..ROUNDS {
-        let filter = (late > 0.0).then(|| form(late, step));
-        let Some(fit) = before_filter(request, &delayed, filter)? else { return Ok(None) };
-        let (left, std) = (fit.p[0], fit.variance(0).map(f64::sqrt));
-        late += left;
+        let Some(Delay { by, std }) = lacking else { return Ok(None) };
+        late += by;
         if late <= 0.0 {
             return Ok(None);
         }
-        if left.abs() < std.unwrap_or(0.0).max(ARRIVED * late) {
-            let filter = form(late, step);
-            let fit = before_filter(request, &model, Some(filter))?.filter(|fit| !remains(fit));
-            return Ok(fit.map(|fit| (deviance_of_rows(&fit, request, filter), FoundFilter { filter, late, std })));
+        if by.abs() < std.unwrap_or(0.0).max(ARRIVED * late) {
+            return Ok(Some(Delay { by: late, std }));
         }
+        lacking = left(request, delayed, Some(filter(late)))?;
     }
     Ok(None)
 }
 
-/// The deviance of the rows as they were logged: before a filter each of them has another weight, and the density of what
-/// was logged is that of the pose before the filter times that weight.
-fn deviance_of_rows(fit: &Fit, request: &Request, filter: PoseFilter) -> f64 {
-    let weight = |run: &Run| usual_step(&run.time).map_or(0.0, |step| filter.weight(step).ln());
-    let columns = |run: &Run| 2 + usize::from(run.heading.is_some()) + run.trailer_headings.len();
-    let of_run = |run: &Run| (run.time.len() * columns(run)) as f64 * weight(run);
-    fit.deviance - 2.0 * request.runs.iter().map(of_run).sum::<f64>()
+/// The delay of the runs before a filter, or as they were logged; `None` where they cannot be fitted.
+fn left(request: &Request, delayed: &Model, filter: Option<PoseFilter>) -> Result<Option<Delay>> {
+    let fit = before_filter(request, delayed, filter)?;
+    Ok(fit.map(|fit| Delay { by: fit.p[0], std: fit.variance(0).map(f64::sqrt) }))
+}
+
+impl FoundFilter {
+    /// The deviance of the rows as they were logged: before a filter each of them has another weight, and the density of what
+    /// was logged is that of the pose before the filter times that weight.
+    fn deviance_as_logged(&self, request: &Request) -> f64 {
+        let weight = |run: &Run| usual_step(&run.time).map_or(0.0, |step| self.filter.weight(step).ln());
+        let columns = |run: &Run| 2 + usize::from(run.heading.is_some()) + run.trailer_headings.len();
+        let of_run = |run: &Run| (run.time.len() * columns(run)) as f64 * weight(run);
+        self.deviance - 2.0 * request.runs.iter().map(of_run).sum::<f64>()
+    }
 }
 
 /// A fit to the runs as they were before a filter, or as they are.
@@ -172,8 +192,8 @@ fn shrinks(from: &[Gap], to: &[Gap]) -> bool {
 
 /// What is found before the filter, and the filter.
 fn told(mut found: Discovery, of: FoundFilter) -> Discovery {
-    let finding = pose_filter_text::finding(of.filter, of.late, of.std);
-    found.report.summary = pose_filter_text::summary(of.filter, of.late, of.std);
+    let finding = pose_filter_text::finding(of.filter, of.late.by, of.late.std);
+    found.report.summary = pose_filter_text::summary(of.filter, of.late.by, of.late.std);
     found.report.data.warnings.insert(0, finding.says.clone());
     found.report.data.findings.push(finding);
     Discovery { pose_filter: Some(of.filter), ..found }

@@ -22,7 +22,7 @@ pub use inputs::drive::Formulas;
 pub use inputs::signals::Signals;
 #[doc(hidden)]
 pub use inputs::signals::Timing;
-pub(crate) use inputs::signals::{running_integral, timings, usual_step};
+pub(crate) use inputs::signals::{running_integral, timings};
 pub use integrators::integrator::Integrator;
 #[doc(hidden)]
 pub use integrators::integrator::Method;

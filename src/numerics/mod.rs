@@ -1,3 +1,6 @@
 //! Methods of numerical mathematics that know nothing of vehicles.
 
 pub mod levenberg_marquardt;
+mod usual_step;
+
+pub(crate) use usual_step::usual_step;

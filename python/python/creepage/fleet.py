@@ -1,8 +1,8 @@
 """A fleet on any engine: `concurrent.futures`, Dask, joblib, Ray.
 
-The engine maps shards of the manifest; each is the command `creepage fleet map` in a process of its own, with one thread. A
-shard that dies with its worker is asked again: the rows it had written are kept, so nothing is done twice, and the result has
-the same bytes for every engine, sharding and number of workers.
+The engine maps shards of the manifest; each is the command `creepage fleet map` in a process of its own, with one thread. On
+an engine that has `submit` a shard that dies with its worker is asked again; the rows it had written are kept, so nothing is
+done twice. The result has the same bytes for every engine, sharding and number of workers.
 """
 
 from __future__ import annotations
@@ -33,28 +33,31 @@ def shard(manifest: str, rows: str, part: str) -> str:
     return part
 
 
+def _lost(executor: Any, manifest: str, rows: str, parts: list[str]) -> dict[str, Exception]:
+    """The shards whose workers died, and of what."""
+    futures = {part: executor.submit(shard, manifest, rows, part) for part in parts}
+    lost: dict[str, Exception] = {}
+    for part, future in futures.items():
+        try:
+            future.result()
+        except (InputError, RunError):
+            raise
+        except Exception as error:  # the engine's own: a worker that was killed
+            lost[part] = error
+    return lost
+
+
 def _mapped(executor: Any, manifest: str, rows: str, parts: list[str]) -> None:
-    """Every shard on an engine that has `submit` or `map`, asked again where a worker died."""
-    left = parts
-    for attempt in range(ATTEMPTS):
-        lost, why = [], None
-        if hasattr(executor, "submit"):
-            futures = [(part, executor.submit(shard, manifest, rows, part)) for part in left]
-            for part, future in futures:
-                try:
-                    future.result()
-                except (InputError, RunError):
-                    raise
-                except Exception as error:  # the engine's own: a worker that was killed
-                    lost.append(part)
-                    why = error
-        else:
-            list(executor.map(shard, [manifest] * len(left), [rows] * len(left), left))
+    """Every shard on an engine that has `submit`, asked again where a worker died, or `map`."""
+    if not hasattr(executor, "submit"):
+        list(executor.map(shard, [manifest] * len(parts), [rows] * len(parts), parts))
+        return
+    lost: dict[str, Exception] = {}
+    for _ in range(ATTEMPTS):
+        lost = _lost(executor, manifest, rows, list(lost) or parts)
         if not lost:
             return
-        if attempt + 1 == ATTEMPTS and why is not None:
-            raise why
-        left = lost
+    raise next(iter(lost.values()))
 
 
 def fleet(
@@ -68,7 +71,7 @@ def fleet(
     """Asks `discover` of every run of a fleet, fits the effects that the fleet needs, and puts them together.
 
     manifest  CSV with the columns robot, run, date, log, truth, model, and tags of one's own
-    out       a folder for `fleet.json`, `fleet.html`, `fleet.csv` and a model and parameters for each robot
+    out       a folder for `fleet.json`, `fleet.html`, `fleet.csv`, `fleet.parquet`, and a model and parameters for each robot
     rows      a folder for what each shard found, kept for the next call; `rows` in `out` where there is none
     executor  anything with `.submit` (concurrent.futures, a Dask client) or `.map` (joblib, a pool of Ray); threads of this
               process where there is none
@@ -78,13 +81,14 @@ def fleet(
     """
     found = Path(rows) if rows is not None else Path(out) / "rows"
     cores = cpu_count() or 1
-    parts = [f"{i}/{shards or 4 * cores}" for i in range(1, (shards or 4 * cores) + 1)]
-    of = (fspath(Path(manifest).resolve()), fspath(found.resolve()), parts)
+    of = shards or 4 * cores
+    parts = [f"{i}/{of}" for i in range(1, of + 1)]
+    work = (fspath(Path(manifest).resolve()), fspath(found.resolve()), parts)
     if executor is None:
         with ThreadPoolExecutor(cores) as pool:
-            _mapped(pool, *of)
+            _mapped(pool, *work)
     else:
-        _mapped(executor, *of)
+        _mapped(executor, *work)
     _command("fleet", "join", fspath(found), "--out", fspath(out), "--quiet")
     answer = json.loads((Path(out) / "fleet.json").read_text(encoding="utf-8"))
     assert isinstance(answer, dict)

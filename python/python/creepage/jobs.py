@@ -12,7 +12,7 @@ from .frames import frame_of
 from .model import Model
 from .progress import Progress, listener
 from .results import Check, Description, Discovery, Fit, Ledger
-from .run import Run
+from .run import Run, _natives
 
 
 def _all(runs: Run | Iterable[Run]) -> tuple[Run, ...]:
@@ -47,8 +47,8 @@ def discover(
     with listener(progress) as tell:
         found = native.discover(
             model._native,
-            [run._native for run in fitted],
-            [run._native for run in judged],
+            _natives(fitted),
+            _natives(judged),
             [float(h) for h in horizons],
             seed,
             clock_offset,
@@ -73,7 +73,7 @@ def check(
     named = None if effects is None else list(effects)
     with listener(progress) as tell:
         return Check(
-            native.check(model._native, [run._native for run in _all(runs)], clock_offset, named, threads, tell)
+            native.check(model._native, _natives(_all(runs)), clock_offset, named, threads, tell)
         )
 
 
@@ -82,7 +82,7 @@ def fit(model: Model, runs: Run | Iterable[Run], effects: Sequence[str], *, thre
 
     An effect on one of several inputs or trailers is named `ID@INPUT` or `ID@TRAILER`.
     """
-    return Fit(native.fit(model._native, [run._native for run in _all(runs)], list(effects), threads))
+    return Fit(native.fit(model._native, _natives(_all(runs)), list(effects), threads))
 
 
 def simulate(model: Model, run: Run) -> Any:

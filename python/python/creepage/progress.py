@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
-from collections.abc import Iterator
 
 #: None for silence, True for a bar of tqdm, or a function of (stage, done, of), where `of` is 0 if parts cannot be counted.
 Progress = bool | Callable[[str, int, int], Any] | None

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 
 from . import _creepage as native
-from .frames import csv_of
+from .frames import csv_of, frame_of
 from .model import Model
 
 if TYPE_CHECKING:
@@ -46,8 +47,7 @@ class Run:
         Columns are read as those of a CSV: by the model's `[columns]`, units, quaternions and counts included. A value that
         is not a number is a blank cell; a row without a pose still has its inputs.
         """
-        text = csv_of(table)
-        return cls._made(native.Run.parse(name, text, model._native), (name, text, model, None))
+        return _rebuilt(name, csv_of(table), model, None)
 
     def __reduce__(self) -> tuple[object, ...]:
         return _rebuilt, self._how
@@ -104,8 +104,6 @@ class Run:
 
     def frame(self) -> Any:
         """Times and poses as a data frame, of pandas or polars, whichever is there."""
-        from .frames import frame_of
-
         columns = {"time": self.time, "x": self.x, "y": self.y}
         if self.heading is not None:
             columns["heading"] = self.heading
@@ -117,6 +115,11 @@ class Run:
 
     def __repr__(self) -> str:
         return f"<Run {self.name!r}: {len(self)} rows, {self.time[-1] - self.time[0]:.4g} s>"
+
+
+def _natives(runs: Iterable[Run]) -> list[native.Run]:
+    """What the jobs take of runs."""
+    return [run._native for run in runs]
 
 
 def _rebuilt(name: str, text: str | None, model: Model, truth: str | None) -> Run:

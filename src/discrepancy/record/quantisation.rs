@@ -1,7 +1,7 @@
 //! Columns that were rounded: an encoder's ticks in a row, a message with few digits.
 
 use super::local_polynomial::median;
-use crate::motion::usual_step;
+use crate::numerics::usual_step;
 
 /// A step larger than this share of the input, root mean square, is worth a word.
 const COARSE: f64 = 0.02;

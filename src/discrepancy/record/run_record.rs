@@ -6,7 +6,8 @@ use super::local_polynomial;
 use super::row_weights::RowWeights;
 use crate::files::{InputTiming, Run};
 use crate::model::observation::{self, BODY_HEADING, Observation, PLACE};
-use crate::motion::{Signals, Timing, timings, usual_step};
+use crate::motion::{Signals, Timing, timings};
+use crate::numerics::usual_step;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 

@@ -3,7 +3,8 @@
 //! exponential smoothing of the rows, z = α·w + (1 − α)·z₋.
 
 use super::run::{Apart, Deviations, Run};
-use crate::files::PoseFilter;
+use crate::files::{PoseFilter, Sensor};
+use crate::numerics::usual_step;
 
 /// Rows so many times as far apart as usual are the two sides of a gap, between which a filter is not followed.
 const GAP: f64 = 3.0;
@@ -26,9 +27,7 @@ impl Run {
     /// Valid for rows that are closer than τ. Noise of the rows grows by about √2·τ/Δt, or √2/α.
     pub fn before_pose_filter(&self, filter: PoseFilter) -> Self {
         let steps: Vec<f64> = self.time.windows(2).map(|w| w[1] - w[0]).collect();
-        let mut sorted = steps.clone();
-        sorted.sort_by(f64::total_cmp);
-        let usual = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
+        let usual = usual_step(&self.time).unwrap_or(0.0);
         let rows: Vec<usize> = (0..steps.len()).filter(|i| steps[*i] <= GAP * usual).collect();
         // Weights of a row and of the row before it.
         let weights = |i: usize| {
@@ -72,7 +71,7 @@ impl Run {
     }
 
     /// The pose before the filter of a model's sensor, where it has one.
-    pub(super) fn before_filter_of(self, sensor: &crate::files::Sensor) -> Self {
+    pub(super) fn before_filter_of(self, sensor: &Sensor) -> Self {
         match sensor.pose_filter {
             Some(filter) => self.before_pose_filter(filter),
             None => self,
@@ -90,7 +89,7 @@ mod tests {
         ModelFile::parse(&text, "model.toml", &crate::model::known(crate::effects::all()))
     }
 
-    /// Of a ramp a filter is late by its time constant, and smoothing by (1 − α)/α rows; noise of a row is 1 and grows.
+    /// Of a ramp a filter is late by its time constant, and smoothing by (1 − α)/α rows; the noise of a row grows.
     #[test]
     fn what_is_late_by_a_filter_is_on_time_before_it() {
         let mut log = String::from("time,x,y,heading,wheel_rate,yaw_rate,sx\n");

@@ -10,6 +10,7 @@ use super::time_stamp::Origin;
 use super::trajectories;
 use crate::error::{Error, Result};
 use crate::files::model::model_file::ModelFile;
+use crate::numerics::usual_step;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -180,9 +181,7 @@ fn joined(a: &BTreeMap<String, usize>, b: &BTreeMap<String, usize>) -> BTreeMap<
 
 /// The times around which inputs were logged: not before the first, not behind the last, not within a gap.
 fn covered(inputs: &[f64], times: &[f64]) -> Vec<usize> {
-    let mut steps: Vec<f64> = inputs.windows(2).map(|w| w[1] - w[0]).collect();
-    steps.sort_by(f64::total_cmp);
-    let gap = steps.get(steps.len() / 2).map_or(0.0, |s| (5.0 * s).max(0.5));
+    let gap = usual_step(inputs).map_or(0.0, |s| (5.0 * s).max(0.5));
     let inside = |t: f64| {
         let after = inputs.partition_point(|i| *i <= t);
         match after {

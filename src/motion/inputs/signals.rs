@@ -2,6 +2,7 @@
 
 use super::cubic_spline::curvatures;
 use crate::files::{InputTiming, Inputs, Run};
+use crate::numerics::usual_step;
 use std::sync::Arc;
 
 /// What a row of the log says about its inputs.
@@ -229,13 +230,6 @@ fn holes(time: &[f64]) -> Vec<usize> {
     let Some(usual) = usual_step(time) else { return vec![] };
     let least = (HOLE.0 * usual).max(HOLE.1);
     (0..time.len() - 1).filter(|i| time[i + 1] - time[*i] > least).collect()
-}
-
-/// The median of the steps.
-pub(crate) fn usual_step(time: &[f64]) -> Option<f64> {
-    let mut steps: Vec<f64> = time.windows(2).map(|w| w[1] - w[0]).collect();
-    let middle = steps.len() / 2;
-    (!steps.is_empty()).then(|| *steps.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
 /// Splines of their own between holes, and straight lines across them.

@@ -126,6 +126,34 @@ pub fn prefixed(largest: f64, unit: &str) -> (f64, String) {
     if largest >= 10.0 || !largest.is_finite() { (1.0, unit.into()) } else { (1000.0, format!("m{unit}")) }
 }
 
+/// A value to two digits in the unit in which people say such a value.
+///
+/// ```
+/// use creepage::number_format::in_everyday_unit;
+/// assert_eq!([in_everyday_unit(0.066, "m/s"), in_everyday_unit(0.03, "%")], ["6.6 cm/s", "3.0 %"]);
+/// assert_eq!([in_everyday_unit(0.2, "rad/s"), in_everyday_unit(0.3, "deg")], ["0.20 rad/s", "17°"]);
+/// ```
+pub fn in_everyday_unit(value: f64, unit: &str) -> String {
+    let size = value.abs();
+    let metric = |per: &str| match size {
+        s if s >= 1.0 => (1.0, format!(" m{per}")),
+        s if s >= 0.01 => (100.0, format!(" cm{per}")),
+        _ => (1000.0, format!(" mm{per}")),
+    };
+    let (factor, unit) = match unit {
+        "%" => (100.0, " %".into()),
+        "m" => metric(""),
+        "m/s" if size >= 0.1 => (1.0, " m/s".into()),
+        "m/s" => metric("/s"),
+        "s" if size < 1.0 => (1000.0, " ms".into()),
+        "deg" => (1f64.to_degrees(), "°".into()),
+        "deg/s" => (1f64.to_degrees(), "°/s".into()),
+        "1" => (1.0, String::new()),
+        unit => (1.0, format!(" {unit}")),
+    };
+    format!("{}{unit}", significant(value * factor, 2))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -21,7 +21,8 @@ def command(*arguments: str) -> subprocess.CompletedProcess[str]:
 
 
 def test_the_missing_effect_is_named_with_its_value(found: cp.Discovery) -> None:
-    assert found.summary == "The model misses cornering-creep."
+    assert found.summary.startswith("In turns the robot slides outwards: 8.")
+    assert found.summary.endswith("(cornering-creep).")
     (effect,) = found.effects
     slide = effect.parameters["mass_over_bT"]
     assert effect.id == "cornering-creep" and slide.unit == "s" and slide.std is not None

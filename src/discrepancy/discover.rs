@@ -7,6 +7,7 @@ use super::pipeline::unfitted;
 use super::pose_filter::discover_before_filter;
 use super::preprocessing::dataset::{Data, FITTED_SHARE};
 use super::preprocessing::slips;
+use super::rendering::changes::changes;
 use super::selection::select::choose;
 use crate::discrepancy::clock_alignment::aligned_run::{is_aligned, without_delay};
 use crate::discrepancy::diagnosis::verdict;
@@ -25,7 +26,14 @@ use crate::progress::{OnProgress, Stage, tell};
 /// # Errors
 /// When runs log different inputs, or the model file's effects do not apply to its vehicle.
 pub fn discover(request: &Request, progress: &OnProgress) -> Result<Discovery> {
-    discover_before_filter(request, Clocks::default(), progress)
+    Ok(with_changes(discover_before_filter(request, Clocks::default(), progress)?, request))
+}
+
+/// A discovery with what it asks to be changed.
+fn with_changes(mut found: Discovery, request: &Request) -> Discovery {
+    found.pictures.vehicle = request.file.title();
+    found.pictures.changes = changes(&found.report, request.file, &found.added);
+    found
 }
 
 /// As [`discover`], the clocks of inputs and poses estimated first where they stand in files of their own.
@@ -52,7 +60,7 @@ pub fn discover_aligned(request: &Request, near: Option<f64>, progress: &OnProgr
     let share = if request.held_out.is_empty() { FITTED_SHARE } else { 1.0 };
     let first = match aligned(request.runs, share, request, &model, near, progress)? {
         Ok(first) => first,
-        Err(outcome) => return Ok(unfitted(request, Clocks::default(), outcome)),
+        Err(outcome) => return Ok(with_changes(unfitted(request, Clocks::default(), outcome), request)),
     };
     let chosen = with_effects(request, &model, &first, progress)?;
     let all = first.len();
@@ -67,7 +75,7 @@ pub fn discover_aligned(request: &Request, near: Option<f64>, progress: &OnProgr
     // The held-out runs are looked at with the effects as they are: nothing but their clocks is fitted.
     let held_out = match aligned(request.held_out, 1.0, request, &chosen.fixed(), near, progress)? {
         Ok(held_out) => held_out,
-        Err(outcome) => return Ok(unfitted(request, Clocks::default(), outcome)),
+        Err(outcome) => return Ok(with_changes(unfitted(request, Clocks::default(), outcome), request)),
     };
     let library: Vec<Effect> = request.library.iter().filter(|e| !e.is_of_clock()).cloned().collect();
     let runs = |all: &[Aligned]| all.iter().map(|a| a.run.clone()).collect::<Vec<Run>>();
@@ -77,7 +85,7 @@ pub fn discover_aligned(request: &Request, near: Option<f64>, progress: &OnProgr
         clocks: fitted.iter().map(|a| a.clock(false)).chain(held_out.iter().map(|a| a.clock(true))).collect(),
         warnings: fitted.iter().chain(&held_out).filter_map(Aligned::doubt).chain(delay).collect(),
     };
-    discover_before_filter(&request, clocks, progress)
+    Ok(with_changes(discover_before_filter(&request, clocks, progress)?, &request))
 }
 
 /// The model with the effects that the aligned runs ask for, free; the delay they ask for goes into the clocks.

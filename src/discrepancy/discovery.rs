@@ -14,6 +14,7 @@ use crate::discrepancy::preprocessing::dataset::Data;
 use crate::discrepancy::request::Request;
 use crate::discrepancy::selection::choice::Refused;
 use crate::discrepancy::selection::odd_run::OddRun;
+use crate::effects::TypicalMotion;
 use crate::files::{EffectEntry, ModelFile, PoseFilter, with_pose_filter};
 use std::collections::BTreeMap;
 
@@ -57,6 +58,7 @@ pub(crate) struct Findings {
     pub disagreement: Vec<Stretch>,
     pub refused: Vec<Refused>,
     pub odd: Vec<OddRun>,
+    pub motion: TypicalMotion,
     pub rest: Option<Rest>,
     pub covariance: Option<Covariance>,
     pub remaining: Option<Remaining>,
@@ -81,7 +83,7 @@ pub(crate) fn report(request: &Request, data: &Data, verdict: Verdict, found: Fi
         refuted: found.refused.iter().map(|r| refusal_text::refuted(r, roles)).collect(),
         remains: found.rest.as_ref().map(rest_text::remains),
         covariance: found.covariance,
-        odd_runs: found.odd.iter().map(odd_run_text::odd_run).collect(),
+        odd_runs: found.odd.iter().map(|o| odd_run_text::odd_run(o, found.motion)).collect(),
         remaining: found.remaining,
         gap: found.gap,
         next_experiment: found.next.as_ref().map(experiment_text::next_experiment),

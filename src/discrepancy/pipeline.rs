@@ -4,6 +4,7 @@ use super::diagnosis::advice::Advice;
 use super::diagnosis::before_after::{ModelComparison, grown, too_long};
 use super::diagnosis::equivalents::{EquivalentEffect, measured, relatives};
 use super::diagnosis::findings::{covariance, named, per_run, without_name};
+use super::diagnosis::forecasts::forecasts;
 use super::diagnosis::held_out::{Judge, refuted};
 use super::diagnosis::reason::Reason;
 use super::diagnosis::rest::rest;
@@ -20,13 +21,14 @@ use super::localisation::constraint_residuals::ConstraintResiduals;
 use super::localisation::driving_regimes;
 use super::localisation::unexplained_motion::remaining;
 use super::preprocessing::dataset::{Data, FITTED_SHARE};
+use super::preprocessing::driving::{driving, typical};
 use super::preprocessing::input_effects::on_inputs;
 use super::preprocessing::prepared_run::PreparedRun;
 use super::preprocessing::quantisation::{CoarseInput, coarse_inputs};
 use super::preprocessing::{slips, unit_errors};
 use super::record::run_record::Record;
-use super::rendering::figure_data;
-use super::report::{Named, PathPicture, Pictures, Unnamed, Verdict};
+use super::rendering::{figure_data, plain_text};
+use super::report::{Named, PathPicture, Pictures, Unnamed, Verdict, middle};
 use super::request::{Request, common_roles, horizons};
 use super::selection::choice::{Selected, SelectedEffect};
 use super::selection::odd_run::{is_sought, odd_runs};
@@ -115,8 +117,10 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
     };
     let relatives = relatives(&selected, request.library, measured(&data.fitted[0]));
     let usable = outcome.verdict != Verdict::UnusableData;
+    let driving = driving(&model, &data.fitted)?;
+    let told = |e: &Applied| plain_text::plain(e, typical(&driving));
     let (effects, unnamed) =
-        if usable { chosen(&selected, &relatives, &data, &problem.records, &model)? } else { (vec![], vec![]) };
+        if usable { chosen(&selected, &relatives, &data, &problem.records, &model, told)? } else { (vec![], vec![]) };
     let comparison = ModelComparison::of(&data, &model, &selected, request.seed)?;
     let gap = comparison.gaps(&horizons);
     let mut warnings = vec![];
@@ -147,6 +151,7 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
         rest: rest(&selected.after, &after, &unseen, &gap).filter(|_| usable && !is_noise),
         covariance: covariance(&selected.after).filter(|_| usable),
         odd,
+        motion: typical(&driving),
         refused: selected.refused.iter().filter(|_| usable).cloned().collect(),
         remaining: Some(remaining(&selected.after, data.fitted[0].measures_heading(), &after)),
         steps: comparison.steps(&selected, &gap)?,
@@ -155,7 +160,11 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
     };
     let report = report(request, &data, outcome.verdict, found, clocks);
     let added = selected.chosen.iter().filter(|_| usable).map(|c| c.applied.entry()).collect();
-    let pictures = figure_data::pictures(&data, &selected, &report, &comparison, [&before, &after]);
+    let pictures = Pictures {
+        driving: Some(driving),
+        forecasts: forecasts(&comparison, middle(&report.gap)),
+        ..figure_data::pictures(&data, &selected, &report, &comparison, [&before, &after])
+    };
     Ok(Discovery { report, pictures, added, pose_filter: None })
 }
 
@@ -166,6 +175,7 @@ fn chosen(
     data: &Data,
     records: &[Record],
     model: &Model,
+    told: impl Fn(&Applied) -> String,
 ) -> Result<(Vec<Named>, Vec<Unnamed>)> {
     let each = selected.chosen.iter().zip(relatives);
     let (terms, effects): (Vec<_>, Vec<_>) = each.partition(|(c, _)| effect_equation::is_term(&c.applied));
@@ -173,6 +183,7 @@ fn chosen(
     let run_by_run = |a: &Applied| per_run(a, &spreads, first_of(&selected.after, a), records);
     let with_runs = |(c, relatives): (&SelectedEffect, &Vec<EquivalentEffect>)| Named {
         per_run: run_by_run(&c.applied),
+        plain: told(&c.applied),
         ..named(c, relatives, model)
     };
     let effects = effects.into_iter().map(with_runs).collect();

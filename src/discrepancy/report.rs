@@ -128,6 +128,9 @@ pub struct Named {
     /// What the vehicle or its log really does, in words.
     #[serde(default)]
     pub says: String,
+    /// The same for anyone, with its numbers: a sentence without its end.
+    #[serde(default)]
+    pub plain: String,
     /// Where it acts.
     #[serde(rename = "where")]
     pub place: String,
@@ -205,6 +208,9 @@ pub struct OddRun {
     pub parameters: BTreeMap<String, Estimate>,
     /// Its values in the others.
     pub others: BTreeMap<String, Estimate>,
+    /// The effect for anyone, with its numbers there: a sentence without its end.
+    #[serde(default)]
+    pub plain: String,
     /// All this in words.
     pub says: String,
 }
@@ -690,6 +696,65 @@ pub struct Pictures {
     pub candidates: Vec<CandidatePicture>,
     /// The patched constraints: name, text equation.
     pub equations: Vec<(String, String)>,
+    /// The vehicle, as its model file calls it.
+    pub vehicle: String,
+    /// How the runs were driven; none where nothing was fitted.
+    pub driving: Option<Driving>,
+    /// Where both models would be some seconds ahead, from many places of each run.
+    pub forecasts: Vec<Forecast>,
+    /// What to change, in the words of each thing that can be changed.
+    pub changes: Vec<Change>,
+}
+
+/// How runs were driven.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Driving {
+    /// Number of runs, or of parts of them.
+    pub runs: usize,
+    /// From the first row to the last, in all, s.
+    pub seconds: f64,
+    /// Way by the model, in all, m.
+    pub metres: f64,
+    /// Turns to the left.
+    pub left_turns: usize,
+    /// Turns to the right.
+    pub right_turns: usize,
+    /// When the last of them ends, s.
+    pub until: f64,
+    /// Usual speed, m/s.
+    pub speed: f64,
+    /// Usual yaw rate in turns, rad/s.
+    pub turning: f64,
+}
+
+/// Predictions from many places of a run, all as far ahead.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Forecast {
+    /// File name of the run.
+    pub run: String,
+    /// From when on it was held out, s; infinite where it was fitted.
+    pub held_out_from: f64,
+    /// How far ahead, s.
+    pub ahead: f64,
+    /// What noise alone makes of such an error, m.
+    pub floor: f64,
+    /// Times of the places, s.
+    pub time: Vec<f64>,
+    /// Measured x, y and heading there.
+    pub pose: Vec<[f64; 3]>,
+    /// Where the model as given would be from there on, and the patched one; nowhere too near to the end of the run.
+    pub paths: Vec<[Vec<[f64; 2]>; 2]>,
+    /// How far from the measured position each ends, m; not a number too near to the end of the run.
+    pub error: Vec<[f64; 2]>,
+}
+
+/// A text to put somewhere.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Change {
+    /// What it changes, such as "model" or "ROS 2".
+    pub of: String,
+    /// The text.
+    pub text: String,
 }
 
 /// One run seen from above.

@@ -2,7 +2,8 @@
 
 use super::course::SINCE;
 use super::effect::{INPUT, INPUT_RATE};
-use super::{Effect, Scope};
+use super::plain::Subject;
+use super::{Effect, Scope, TypicalMotion};
 use crate::formula::{Expr, Symbol};
 use std::collections::BTreeMap;
 
@@ -26,6 +27,25 @@ pub struct Applied {
 }
 
 impl Applied {
+    /// The effect in a sentence for anyone, as it is at a usual motion; `None` where it has no such sentence, or a number of
+    /// it is undefined.
+    ///
+    /// ```
+    /// use creepage::effects::{self, Applied, TypicalMotion};
+    /// let wide = Applied::new(effects::named("track-width").unwrap(), None, vec![0.03]);
+    /// let said = wide.in_plain_words(TypicalMotion::default()).unwrap();
+    /// assert_eq!(said, "The wheels stand 3.0 % further apart than the model says.");
+    /// ```
+    pub fn in_plain_words(&self, motion: TypicalMotion) -> Option<String> {
+        let effect = &self.effect;
+        effect.plain.as_ref()?.of(&Subject {
+            values: effect.parameters.keys().map(String::as_str).zip(self.values.iter().copied()).collect(),
+            input: effect.on.as_deref().map(|role| (role, effect.input_unit())),
+            trailer: self.trailer,
+            motion,
+        })
+    }
+
     /// An effect with given, fixed values.
     pub fn new(effect: &Effect, trailer: Option<usize>, values: Vec<f64>) -> Self {
         debug_assert_eq!(values.len(), effect.parameters.len());

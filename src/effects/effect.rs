@@ -1,6 +1,6 @@
 //! An effect: the definitions it changes, its parameters, its states.
 
-use super::{Course, RandomWalk, Scope};
+use super::{Course, PlainSentence, RandomWalk, Scope};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Definitions, Sample};
 use crate::provenance::Origin;
@@ -26,6 +26,9 @@ pub struct Effect {
     pub place: String,
     /// What it says, in words.
     pub says: String,
+    /// The same for anyone, with the numbers of a finding; what it says where there is none.
+    #[serde(default)]
+    pub plain: Option<PlainSentence>,
     /// Where it comes from.
     pub source: String,
     /// Whether it belongs to one trailer.
@@ -53,6 +56,9 @@ pub struct Effect {
     /// The role of the input it acts on, for an effect that acts on one.
     #[serde(skip)]
     pub on: Option<String>,
+    /// The unit of that input.
+    #[serde(skip)]
+    pub on_unit: String,
     /// When, where or in which regime it holds; always and everywhere where there is none.
     #[serde(skip)]
     pub scope: Option<Scope>,
@@ -210,6 +216,7 @@ impl Effect {
             return effect;
         }
         effect.on = Some(role.to_string());
+        effect.on_unit = unit.to_string();
         if let Some(formula) = effect.changes.remove(DELAY).filter(|_| self.input_optional) {
             effect.place = INPUT.into();
             effect.changes.insert(DELAY_PATTERN.into(), formula);
@@ -221,6 +228,15 @@ impl Effect {
         }
         effect.states.values_mut().filter(|s| s.unit == INPUT).for_each(|s| s.unit = unit.to_string());
         effect
+    }
+
+    /// The unit of the input it acts on, as people say it: angles in degrees.
+    pub(super) fn input_unit(&self) -> &str {
+        match self.on_unit.as_str() {
+            "rad" => "deg",
+            "rad/s" => "deg/s",
+            unit => unit,
+        }
     }
 
     /// The effect within a scope.

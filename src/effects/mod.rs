@@ -5,6 +5,7 @@ mod applied;
 mod course;
 mod drifting;
 mod effect;
+mod plain;
 mod random_walk;
 mod scope;
 
@@ -12,6 +13,7 @@ pub use applied::Applied;
 pub use course::Course;
 pub use effect::{Effect, Parameter, State};
 pub(crate) use effect::{acting, delaying};
+pub use plain::{PlainSentence, TypicalMotion};
 pub use random_walk::RandomWalk;
 pub use scope::{DrivingRegime, Scope};
 

@@ -14,12 +14,14 @@
 
 mod code;
 mod corrections;
+mod description_lines;
 mod exported;
 mod language;
 mod parameters;
 mod robot_description;
 
 pub use code::Code;
+pub use description_lines::description_lines;
 pub use exported::Exported;
 pub use language::Language;
 pub use parameters::{Gains, Target};

@@ -20,10 +20,11 @@ pub struct Element {
 enum Child {
     Element(Element),
     Text(String),
+    Verbatim(String),
 }
 
 /// Elements that are written without an end tag when they are empty.
-const LEAVES: [&str; 8] = ["br", "circle", "col", "hr", "line", "meta", "path", "rect"];
+const LEAVES: [&str; 9] = ["br", "circle", "col", "hr", "input", "line", "meta", "path", "rect"];
 
 impl Element {
     /// An empty element.
@@ -45,6 +46,12 @@ impl Element {
     /// With text after what it already holds.
     pub fn text(mut self, text: impl Into<String>) -> Self {
         self.children.push(Child::Text(text.into()));
+        self
+    }
+
+    /// With a text that is not escaped, for a script, which no markup is read in; what would end it is taken apart.
+    pub fn verbatim(mut self, text: impl Into<String>) -> Self {
+        self.children.push(Child::Verbatim(text.into().replace("</", "<\\/")));
         self
     }
 
@@ -81,6 +88,7 @@ impl fmt::Display for Child {
         match self {
             Child::Element(element) => element.fmt(f),
             Child::Text(text) => f.write_str(&escape(text)),
+            Child::Verbatim(text) => f.write_str(text),
         }
     }
 }
@@ -193,6 +201,12 @@ mod tests {
     fn what_markup_forbids_is_replaced() {
         assert_eq!(escape("a\u{1}b\n\t\u{fffe}\u{ffff}\u{7f}"), "a\u{fffd}b\n\t\u{fffd}\u{fffd}\u{fffd}");
         assert_eq!(escape("<&\">'"), "&lt;&amp;&quot;&gt;'");
+    }
+
+    #[test]
+    fn a_script_ends_where_it_ends() {
+        let script = Element::new("script").verbatim("a < b && '</script>'").to_string();
+        assert_eq!(script, "<script>a < b && '<\\/script>'</script>");
     }
 
     #[test]

@@ -6,11 +6,11 @@
 
 /// Colours of paper and ink, and of the things drawn, on a light ground.
 const LIGHT: &str = "--paper:#ffffff;--panel:#f6f8fa;--ink:#1b1f24;--soft:#57606a;--rule:#d0d7de;--grid:#e8ecf0;\
---measured:#bcc4cd;--before:#d55e00;--after:#0072b2;--floor:#59636e;--band:#d3dae1;--good:#00694d;--warn:#a34700;";
+--measured:#7d8894;--before:#d55e00;--after:#0072b2;--floor:#59636e;--band:#d3dae1;--good:#00694d;--warn:#a34700;--bad:#b3261e;";
 
 /// The same on a dark ground.
 const DARK: &str = "--paper:#0d1117;--panel:#161b22;--ink:#e6edf3;--soft:#a3adb8;--rule:#3d444d;--grid:#252c35;\
---measured:#5b6570;--before:#e69f00;--after:#56b4e9;--floor:#a3adb8;--band:#30373f;--good:#3fd0a4;--warn:#f0b040;";
+--measured:#8b96a2;--before:#e69f00;--after:#56b4e9;--floor:#a3adb8;--band:#30373f;--good:#3fd0a4;--warn:#f0b040;--bad:#ff8a80;";
 
 const SHAPES: &str = "\
 text{font:13px system-ui,-apple-system,Segoe UI,Roboto,Helvetica Neue,Arial,sans-serif;fill:var(--ink);paint-order:stroke;stroke:var(--paper);stroke-width:3px;stroke-linejoin:round}
@@ -43,6 +43,9 @@ text.soft,.remark{fill:var(--soft)}
 .bar.other{stroke:var(--soft)}
 .hatch{stroke:var(--after);stroke-width:1.6;fill:none}
 ";
+
+/// Colours of errors from none to the largest, after the diverging scale RdYlBu of Brewer (2002); width tells the same.
+pub const ERRORS: [&str; 6] = ["#4575b4", "#91bfdb", "#e0f3f8", "#fee090", "#fc8d59", "#d73027"];
 
 /// The style sheet of a drawing: variables for light and dark, and the look of every class.
 pub fn drawing() -> String {

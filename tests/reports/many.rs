@@ -421,6 +421,9 @@ fn page(name: &str, found: &Discovery) {
     let text = html(&found.report, &found.pictures);
     let (head, rest) = text.split_once("<style>").unwrap();
     let (_, body) = rest.split_once("</style>").unwrap();
+    // The script is a file, and the numbers for it are those that are drawn.
+    let scripts = body.split("<script").map(|part| part.split_once("</script>").map_or(part, |(_, after)| after));
+    let body = scripts.collect::<Vec<_>>().join("<script/>");
     let thinned = |line: &str| match line.split_once(" d=\"") {
         Some((before, after)) if after.matches('L').count() > 20 => {
             let (path, after) = after.split_once('"').unwrap();

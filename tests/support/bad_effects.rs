@@ -62,7 +62,17 @@ pub const BAD_FILES: &[Case] = &[
     case(
         "unknown key",
         &[("says = \"it", "say = \"it")],
-        "4:1: unknown key \"say\" in [[effect]]; did you mean \"says\"? known keys: id, where, says, source, per_trailer, basic, walks, needs, limit, parameters, states, changes",
+        "4:1: unknown key \"say\" in [[effect]]; did you mean \"says\"? known keys: id, where, says, plain, source, per_trailer, basic, walks, needs, limit, parameters, states, changes",
+    ),
+    case(
+        "sentence with an unknown name",
+        &[("says = \"it", "plain = \"It slides {abs(z) | m/s}.\"\nsays = \"it")],
+        "4:9: the sentence has a z, which is no parameter of the effect; it knows q, tau, speed and turning",
+    ),
+    case(
+        "sentence without a unit",
+        &[("says = \"it", "plain = \"It slides {q}.\"\nsays = \"it")],
+        "4:9: the sentence cannot be read: {q} has no unit; write {formula | unit} for a number, {formula ? words : words} for words that follow its sign",
     ),
     case(
         "unknown limit",

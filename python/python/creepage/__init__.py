@@ -4,7 +4,7 @@
     model = cp.Model.load("model.toml")
     runs = [cp.Run.read(path, model) for path in ("eights.csv", "rosette.csv")]
     found = cp.discover(model, runs, held_out=[cp.Run.read("bay_held_out.csv", model)])
-    print(found.summary)                     # The model misses cornering-creep.
+    print(found.summary)                     # In turns the robot slides outwards: …
     found.model.save("model.patched.toml")
 
 Units are SI: m, rad, s, kg. Signs: x forward, y to the left, angles counter-clockwise.

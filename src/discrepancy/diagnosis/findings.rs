@@ -79,6 +79,7 @@ pub(crate) fn named(chosen: &SelectedEffect, relatives: &[EquivalentEffect], mod
     Named {
         id: a.effect.id.clone(),
         says: a.effect.says.clone(),
+        plain: String::new(),
         place: a.effect.place.clone(),
         on: a.effect.on.clone(),
         scope: a.effect.scope.as_ref().map(scope),

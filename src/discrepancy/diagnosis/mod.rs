@@ -5,6 +5,7 @@ pub(crate) mod before_after;
 pub(crate) mod contradictions;
 pub mod equivalents;
 pub(crate) mod findings;
+pub(crate) mod forecasts;
 pub(crate) mod held_out;
 pub(crate) mod plausibility;
 pub mod reason;

@@ -22,7 +22,7 @@ pub(crate) fn warnings(choice: &Selected, records: &[Record]) -> Result<Vec<Warn
     let warning = |applied: &Applied| {
         let (parameter, value, usual) = far_beyond(applied)?;
         Some(Warning::Implausible {
-            applied: applied.clone(),
+            applied: Box::new(applied.clone()),
             parameter: parameter.into(),
             value,
             usual,

@@ -189,7 +189,7 @@ fn trace(after: &Fit) -> Option<Reason> {
 pub(crate) fn restated(choice: &Selected) -> Vec<Warning> {
     let asked = choice.chosen.iter().map(|c| &c.applied);
     let old = |new| find(&choice.before.model, new);
-    asked.filter_map(|new| Some(Warning::Restated { old: old(new)?, new: new.clone() })).collect()
+    asked.filter_map(|new| Some(Warning::Restated { old: Box::new(old(new)?), new: Box::new(new.clone()) })).collect()
 }
 
 /// A model that misses most of the motion or of the turning, whatever is added to it, and the share that it misses.

@@ -28,14 +28,14 @@ pub enum Warning {
     /// An effect of the model file that the runs ask for with other values.
     Restated {
         /// As the file has it.
-        old: Applied,
+        old: Box<Applied>,
         /// As it was fitted.
-        new: Applied,
+        new: Box<Applied>,
     },
     /// A parameter far beyond its usual size.
     Implausible {
         /// The effect.
-        applied: Applied,
+        applied: Box<Applied>,
         /// The parameter.
         parameter: String,
         /// Its value.

@@ -6,6 +6,7 @@ mod clipped_inputs;
 pub(crate) mod clock_jumps;
 pub(crate) mod dataset;
 pub(crate) mod dead_reckoning;
+pub(crate) mod driving;
 mod generated_run;
 mod held_poses;
 pub(crate) mod input_effects;

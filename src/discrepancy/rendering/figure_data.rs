@@ -43,6 +43,7 @@ pub(crate) fn pictures(
         residuals: before.iter().zip(after).flat_map(|(b, a)| b.pictures(a)).collect(),
         candidates: candidates.collect(),
         equations: named.chain(without_name).collect(),
+        ..Pictures::default()
     }
 }
 

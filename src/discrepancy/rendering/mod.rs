@@ -1,6 +1,7 @@
 //! Report, page and pictures for people: every sentence of an answer is made here.
 
 pub mod calibration_text;
+pub(crate) mod changes;
 pub mod check_text;
 pub(crate) mod defect_text;
 pub(crate) mod effect_names;
@@ -11,6 +12,7 @@ pub mod html;
 pub mod manoeuvre_text;
 pub(crate) mod odd_run_text;
 pub(crate) mod other_vehicle_text;
+pub(crate) mod plain_text;
 pub(crate) mod pose_filter_text;
 pub(crate) mod reason_text;
 pub(crate) mod refusal_text;

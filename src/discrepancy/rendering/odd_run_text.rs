@@ -1,20 +1,22 @@
 //! A run that differs from the others, in words.
 
+use super::plain_text;
 use crate::discrepancy::diagnosis::findings::estimates;
 use crate::discrepancy::report::{OddRun, Verdict};
 use crate::discrepancy::selection::odd_run;
-use crate::effects::Applied;
+use crate::effects::{Applied, TypicalMotion};
 use crate::number_format::with_error;
 use crate::wording::listed;
 
 /// An odd run as the report lists it.
-pub(crate) fn odd_run(of: &odd_run::OddRun) -> OddRun {
+pub(crate) fn odd_run(of: &odd_run::OddRun, motion: TypicalMotion) -> OddRun {
     let (values, std): (Vec<f64>, Vec<Option<f64>>) = of.others.iter().copied().unzip();
     OddRun {
         run: of.run.clone(),
         id: of.applied.effect.id.clone(),
         parameters: estimates(&of.applied, &of.std),
         others: estimates(&Applied { values, ..of.applied.clone() }, &std),
+        plain: plain_text::plain(&of.applied, motion),
         says: says(of),
     }
 }
@@ -70,7 +72,8 @@ mod tests {
              0.00100 ± 0.00050. Without it, the model explains these runs."
         );
         assert_eq!(before(&[], "Fine."), "Fine.");
-        let listed = odd_run(&odd);
+        let motion = TypicalMotion { speed: 1.0, turning: 0.5, until: 60.0 };
+        let listed = odd_run(&odd, motion);
         assert_eq!((listed.parameters["e_tc"].value, listed.others["e_tc"].value), (0.04, 0.001));
         let all = [Verdict::NoMissingEffect, Verdict::Unexplained, Verdict::UnusableData];
         let told = all.map(|v| verdict(v, std::slice::from_ref(&odd)));

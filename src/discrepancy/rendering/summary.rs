@@ -1,13 +1,12 @@
 //! The report on one screen of a terminal, and the sentences every form of the report shares.
 
-use super::title_text::title;
+use super::plain_text;
 use crate::discrepancy::report::{
     BeforeAfter, CourseFound, Estimate, Gap, Named, Report, Rival, RunClock, Unnamed, Verdict,
 };
 use crate::discrepancy::report::{judged, judged_alike};
 use crate::number_format::{decimals, plain, prefixed, significant, with_error};
 use crate::picture::svg::cut;
-use crate::wording::listed;
 use std::collections::BTreeMap;
 
 /// Columns of the terminal.
@@ -49,7 +48,8 @@ pub(crate) fn composed_sentence(verdict: Verdict, effects: &[Named], unnamed: &[
             "Model and measurement disagree in a repeatable way at the {}, and no known effect explains it.",
             unnamed.first().map_or("constraints", |u| u.place.as_str())
         ),
-        Verdict::MissingEffect => format!("The model misses {}.", listed(effects.iter().map(title))),
+        Verdict::MissingEffect if effects.is_empty() => "The model misses an effect.".into(),
+        Verdict::MissingEffect => plain_text::sentences_with_ids(effects),
         Verdict::NoMissingEffect => "The model explains these runs to their noise; no effect is missing.".into(),
     }
 }

@@ -140,6 +140,51 @@ impl<'a> Rollout<'a> {
         first.into_iter().enumerate().map(|(l, first)| [first, measured(y, l)]).collect()
     }
 
+    /// Outputs along some windows, each restarted at its first row and looked at at so many times on its way.
+    pub fn paths(&self, windows: &[(usize, usize)], times: usize) -> Vec<Vec<Vec<f64>>> {
+        windows.chunks(LANES).flat_map(|some| self.paths_side_by_side(some, times)).collect()
+    }
+
+    fn paths_side_by_side(&self, windows: &[(usize, usize)], times: usize) -> Vec<Vec<Vec<f64>>> {
+        let rows: [(usize, usize); LANES] = std::array::from_fn(|l| windows[l.min(windows.len() - 1)]);
+        let starts = rows.map(|(from, to)| self.start(from, to));
+        let mut arcs = LaneStates::of(starts.each_ref().map(|z| &z[..]));
+        let mut stepper = LaneStepper::new(&self.equations, &self.record.signals, [&[]; LANES]);
+        let visible = self.equations.visible;
+        let mut found = vec![vec![]; windows.len()];
+        for k in 0..=times {
+            let at = |(from, to): (usize, usize), k: usize| from + (to - from) * k / times;
+            if k > 0 {
+                stepper.through(&mut arcs, &self.record.time, &rows.map(|r| at(r, k - 1)..at(r, k)));
+            }
+            let y = stepper.outputs_here(&arcs.z);
+            found.iter_mut().enumerate().for_each(|(l, path)| path.push(y[..visible].iter().map(|y| y[l]).collect()));
+        }
+        found
+    }
+
+    /// The windows of a horizon that begin at some rows, those that end within the log.
+    pub fn windows_from(&self, rows: impl Iterator<Item = usize>, horizon: f64) -> Vec<(usize, usize)> {
+        let time = &self.record.time;
+        let segments = self.record.segments(MARGIN);
+        let window = |i: usize| {
+            let segment = segments.iter().find(|s| s.contains(&i))?;
+            let end = i + time[i..segment.end].partition_point(|t| *t < time[i] + horizon - 0.5 * self.record.step());
+            (end < segment.end).then_some((i, end))
+        };
+        rows.filter_map(window).collect()
+    }
+
+    /// The rows between which the run is followed, and their times.
+    pub fn rows(&self) -> (Range<usize>, &[f64]) {
+        (self.record.rows.clone(), &self.record.time)
+    }
+
+    /// The name of the run.
+    pub fn name(&self) -> &str {
+        &self.record.name
+    }
+
     /// The rows at which the non-overlapping windows of a horizon begin and end.
     pub fn windows(&self, horizon: f64) -> Vec<(usize, usize)> {
         let time = &self.record.time;
@@ -291,6 +336,17 @@ mod tests {
                 let alone = predictor.outputs(*from, *to);
                 assert_eq!((&alone[0], &alone[to - from]), (&first, &last));
             }
+            for ((from, to), path) in windows.iter().zip(predictor.paths(&windows, 4)) {
+                let alone = predictor.outputs(*from, *to);
+                let at = |k: usize| &alone[(to - from) * k / 4];
+                assert!(path.len() == 5 && (0..5).all(|k| &path[k] == at(k)));
+            }
+        }
+        // Windows that begin anywhere end where the horizon does, and none of them beyond the log.
+        let anywhere = predictor.windows_from(0..record.time.len(), 2.0);
+        assert!(anywhere.len() > 300 && anywhere.last().unwrap().1 < record.time.len());
+        for (from, to) in anywhere {
+            assert!((record.time[to] - record.time[from] - 2.0).abs() < 0.11, "{from} {to}");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Files of a user's own effects (TOML): definitions of a model, rewritten by formulas.
 
 use super::effect_parameter::{read_parameter, read_unit};
-use crate::effects::{Effect, State};
+use crate::effects::{Effect, PlainSentence, State};
 use crate::error::Result;
 use crate::files::toml::formula_text::FormulaText;
 use crate::files::toml::location::Spot;
@@ -92,6 +92,7 @@ fn read_effect(section: &Section, origin: &Arc<Origin>) -> Result<UserEffect> {
         "id",
         "where",
         "says",
+        "plain",
         "source",
         "per_trailer",
         "basic",
@@ -129,6 +130,7 @@ fn read_effect(section: &Section, origin: &Arc<Origin>) -> Result<UserEffect> {
     own.read_parameters(section)?;
     own.read_states(section)?;
     own.read_changes(section)?;
+    own.read_plain(section)?;
     own.check_use()?;
     Ok(own)
 }
@@ -223,6 +225,23 @@ impl UserEffect {
                 .error("the effect is per_trailer, but changes the same on every trailer")
                 .help("write {trailer} in a name, such as \"e_tc_{trailer}\", or remove per_trailer")),
         }
+    }
+
+    /// The sentence for anyone: of known names, and of an input or a trailer only where the effect has one.
+    fn read_plain(&mut self, section: &Section) -> Result<()> {
+        let Some(value) = section.get("plain") else { return Ok(()) };
+        let plain = PlainSentence::parse(value.text()?).map_err(|e| {
+            let error = value.error(format!("the sentence cannot be read: {}", e.message()));
+            error.help("write {formula | unit} for a number, {formula ? words : words} for words that follow its sign")
+        })?;
+        let names: Vec<&str> = self.effect.parameters.keys().map(String::as_str).collect();
+        if let Some(name) = plain.unknown(&names).first() {
+            return Err(value
+                .error(format!("the sentence has a {name}, which is no parameter of the effect"))
+                .help(format!("it knows {}, speed and turning", names.join(", "))));
+        }
+        self.effect.plain = Some(plain);
+        Ok(())
     }
 
     fn check_key(&self, entry: &Value) -> Result<()> {

@@ -141,6 +141,32 @@ impl ModelFile {
         if self.vehicle_origin().is_some() { patch::with_vehicles(&text) } else { text }
     }
 
+    /// The vehicle in words: "car with 2 trailers".
+    pub fn title(&self) -> String {
+        let tractor = self.tractor.as_ref().unwrap_or(&self.vehicle);
+        match self.trailers() {
+            0 => tractor.clone(),
+            n => format!("{tractor} with {}", crate::wording::counted(n, "trailer")),
+        }
+    }
+
+    /// The lines that effects are in a model file.
+    pub fn lines_of(&self, added: &[EffectEntry]) -> String {
+        patch::patched("", added).trim_start().to_string()
+    }
+
+    /// The model with effects added, or in the place of those for the same target; its text stays as it is.
+    pub fn with_effects(&self, added: &[EffectEntry]) -> Self {
+        let mut file = self.clone();
+        for entry in added {
+            match file.effects.iter_mut().find(|e| e.same_target(entry)) {
+                Some(old) => *old = entry.clone(),
+                None => file.effects.push(entry.clone()),
+            }
+        }
+        file
+    }
+
     /// How many trailers it has: those that are a part of the vehicle, then those it pulls.
     pub fn trailers(&self) -> usize {
         self.sections + self.trailer_lengths.len()

@@ -16,7 +16,7 @@ pub fn fleet_html(report: &FleetReport) -> String {
         .children(section("The fleet", [effects(report), tags(report)].into_iter().flatten().collect()))
         .children(section("Robot by robot", robots(report).into_iter().collect()))
         .children(section("What was left out", rest(report)));
-    page(policy_head(&format!("creepage fleet: {}", report.summary), &report.version), main)
+    page(policy_head(&format!("creepage fleet: {}", report.summary), &report.version, false), main)
 }
 
 fn header(report: &FleetReport) -> Element {

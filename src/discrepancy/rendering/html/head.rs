@@ -1,22 +1,49 @@
-//! The top of the page: verdict, headline numbers, what was found, what to drive next.
+//! The top of the page: the state, what was driven, the sentence, and what was found in one line each.
 
 use super::part::holding;
-use crate::discrepancy::rendering::summary::{verdict_name, verdict_sentence, why};
-use crate::discrepancy::rendering::title_text;
-use crate::discrepancy::report::{Estimate, Named, Report, Verdict};
+use super::state::{self, State};
+use crate::discrepancy::rendering::summary::{verdict_sentence, why};
+use crate::discrepancy::rendering::{plain_text, title_text};
+use crate::discrepancy::report::{Driving, Estimate, Named, OddRun, Pictures, Report, Verdict};
 use crate::discrepancy::report::{judged, middle};
 use crate::number_format::{plain, prefixed, significant, with_error};
 use crate::picture::svg::Element;
 use crate::wording::counted;
 
-/// The verdict as one sentence, the gap before and after, and the effects in one line each.
-pub fn header(report: &Report) -> Element {
+/// State, vehicle and data; the sentence; what it amounts to.
+pub fn header(report: &Report, pictures: &Pictures) -> Element {
     Element::new("header")
-        .child(eyebrow(report))
-        .child(unbroken("h1", &verdict_sentence(report)))
-        .children(headline(report))
-        .children(found(report))
+        .child(eyebrow(report, pictures))
+        .child(unbroken("h1", &sentence(report)))
+        .children(lead(report))
         .children(reasons(report))
+}
+
+/// What was found, for anyone: the effects' own sentences where they are all there is to say.
+pub fn sentence(report: &Report) -> String {
+    let plain = report.verdict == Verdict::MissingEffect
+        && report.odd_runs.is_empty()
+        && !report.effects.is_empty()
+        && report.effects.iter().all(|e| !e.plain.is_empty());
+    if plain { plain_text::sentences(&report.effects) } else { odd_or_whole(report) }
+}
+
+/// The sentence of runs that differ, or else the report's own without the lines to paste, which stand below it.
+fn odd_or_whole(report: &Report) -> String {
+    let is_told = report.odd_runs.iter().all(|o| !o.plain.is_empty());
+    if report.odd_runs.is_empty() || !is_told || report.verdict != Verdict::MissingEffect {
+        let whole = verdict_sentence(report);
+        let is_mended = report.data.findings.iter().any(|f| f.mend.is_some());
+        let cut =
+            whole.split_once(" Paste into the model file").filter(|_| is_mended).map(|(says, _)| says.to_string());
+        return cut.unwrap_or(whole);
+    }
+    let odd = |o: &OddRun| format!("In {} {}, and in no other run.", o.run, plain_text::within(&o.plain));
+    let others = match &report.effects[..] {
+        [] => "The model explains the others.".into(),
+        effects => format!("In the others {}", plain_text::within(&plain_text::sentences(effects))),
+    };
+    report.odd_runs.iter().map(odd).chain([others]).collect::<Vec<_>>().join(" ")
 }
 
 /// The warnings at the top, where they are the reason that nothing can be said.
@@ -35,40 +62,70 @@ fn unbroken(name: &'static str, text: &str) -> Element {
     })
 }
 
-fn eyebrow(report: &Report) -> Element {
-    let good = matches!(report.verdict, Verdict::MissingEffect | Verdict::NoMissingEffect);
-    let class = if good { "verdict good" } else { "verdict" };
+fn eyebrow(report: &Report, pictures: &Pictures) -> Element {
+    let state = State::of(report);
+    let pill = holding("span", format!("{} {}", state.mark(), state::name(report)))
+        .with("class", format!("verdict {}", state.class()));
+    let vehicle = Some(pictures.vehicle.clone()).filter(|v| !v.is_empty());
     let data = &report.data;
-    let what = format!("creepage, {} and {} rows", counted(data.runs, "run"), data.rows);
-    Element::new("p")
-        .with("class", "eyebrow")
-        .child(holding("span", verdict_name(report.verdict)).with("class", class))
-        .text(what)
-}
-
-/// Before → after at the middle horizon, how much smaller, and the noise floor.
-fn headline(report: &Report) -> Option<Element> {
-    let gap = middle(&report.gap)?;
-    let (name, values) = judged(gap)?;
-    let (before, after) = (values.position_rms_before, values.position_rms_after);
-    let (factor, unit) = prefixed(before.max(after), "m");
-    let show = |v: f64| significant(v * factor, 2);
-    let horizon = plain(gap.horizon_s);
-    let arrow = if show(before) == show(after) {
-        format!("{} {unit}", show(after))
-    } else {
-        format!("{} → {} {unit}", show(before), show(after))
+    let driven = match &pictures.driving {
+        Some(driving) => driven(driving),
+        None => vec![counted(data.runs, "run"), counted(data.rows, "row")],
     };
-    let mut row = Element::new("div").with("class", "headline");
-    row = row.child(number(&arrow, &format!("{name} position error after {horizon} s"), ""));
-    if let Some(times) = shrinkage(before, after) {
-        row = row.child(number(&times, "with the patched model", "minor"));
-    }
-    Some(row.child(number(&format!("{} {unit}", show(gap.noise_floor.position_rms)), "noise floor", "minor")))
+    let words: Vec<String> = vehicle.into_iter().chain(driven).collect();
+    Element::new("p").with("class", "eyebrow").child(pill).text(words.join(" · "))
 }
 
-fn number(value: &str, meaning: &str, class: &str) -> Element {
-    Element::new("dl").with("class", class).child(holding("dt", meaning)).child(holding("dd", value))
+/// Runs, time, way and turns.
+fn driven(of: &Driving) -> Vec<String> {
+    let time = match of.seconds {
+        s if s < 120.0 => format!("{s:.0} s"),
+        s => format!("{:.0} min", s / 60.0),
+    };
+    let turns = match (of.left_turns, of.right_turns) {
+        (0, 0) => "hardly a turn".into(),
+        (left, right) => format!("{left} left and {right} right turns"),
+    };
+    vec![format!("{} fitted", counted(of.runs, "run")), time, format!("{:.0} m", of.metres), turns]
+}
+
+/// What it amounts to: before → after at the middle horizon, the noise, and what is left.
+fn lead(report: &Report) -> Option<Element> {
+    let rest = report.remains.as_ref().map(|r| format!("Something remains: {}.", r.says));
+    let Some((gap, (name, v))) = middle(&report.gap).and_then(|g| Some((g, judged(g)?))) else {
+        return rest.map(|r| holding("p", r).with("class", "lead"));
+    };
+    let (before, after, floor) = (v.position_rms_before, v.position_rms_after, gap.noise_floor.position_rms);
+    let (factor, unit) = prefixed(before.max(after), "m");
+    let show = |v: f64| format!("{} {unit}", significant(v * factor, 2));
+    let (horizon, runs) = (plain(gap.horizon_s), if name == "held-out" { "runs held out" } else { "the fitted runs" });
+    let noise = format!("Noise alone makes {}.", show(floor));
+    let is_as_given = report.effects.is_empty() && report.unnamed.is_empty();
+    let amounts = match is_as_given || show(before) == show(after) {
+        true if !is_as_given => {
+            format!(
+                "On {runs} it changes nothing: {horizon} s of dead reckoning miss by {} with it and without.",
+                show(before)
+            )
+        }
+        true => format!("{horizon} s of dead reckoning miss by {} on {runs}.", show(before)),
+        false => format!(
+            "With this in the model {horizon} s of dead reckoning miss by {} in place of {} on {runs}.",
+            show(after),
+            show(before)
+        ),
+    };
+    let left = match State::of(report) {
+        State::AtFloor if !report.effects.is_empty() => Some("Nothing else is left to find in these runs.".to_string()),
+        State::NotUsable if !report.effects.is_empty() => {
+            Some("The patched model predicts no better: do not use it.".into())
+        }
+        // What remains is a part of the sentence unless that is made of effects alone.
+        _ if sentence(report) == verdict_sentence(report) => None,
+        _ => rest,
+    };
+    let words: Vec<String> = [amounts, noise].into_iter().chain(left).collect();
+    Some(holding("p", words.join(" ")).with("class", "lead"))
 }
 
 /// "20× smaller", where it is so.
@@ -77,7 +134,8 @@ pub fn shrinkage(before: f64, after: f64) -> Option<String> {
     (ratio.is_finite() && ratio >= 1.05).then(|| format!("{}× smaller", significant(ratio, 2)))
 }
 
-fn found(report: &Report) -> Option<Element> {
+/// What was found by its id, with its values.
+pub fn found(report: &Report) -> Option<Element> {
     let unnamed = report.unnamed.iter().map(|u| {
         Element::new("li")
             .child(holding("strong", "No name"))
@@ -117,7 +175,9 @@ fn one_line(effect: &Named) -> Element {
 pub fn next_experiment(report: &Report) -> Option<Element> {
     let next = report.next_experiment.as_ref()?;
     let body = Element::new("aside").with("class", "next").child(holding("strong", "What to drive next"));
-    Some(body.child(holding("p", &next.manoeuvre)).child(holding("p", &next.why)))
+    let [drive, why] =
+        [&next.manoeuvre, &next.why].map(|text| format!("{}.", plain_text::capitalised(text.trim_end_matches('.'))));
+    Some(body.child(holding("p", drive)).child(holding("p", why)))
 }
 
 #[cfg(test)]

@@ -13,6 +13,13 @@ pub fn section(heading: &str, content: Vec<Element>) -> Option<Element> {
     (!content.is_empty()).then(|| body.children(content))
 }
 
+/// A part that unfolds.
+pub fn fold(id: &str, heading: &str, open: bool, content: Vec<Element>) -> Element {
+    let details = Element::new("details").with("id", id);
+    let details = if open { details.with("open", "") } else { details };
+    details.child(Element::new("summary").child(holding("h2", heading))).children(content)
+}
+
 /// A figure: drawings in a grid, and a caption that starts with what to see.
 pub fn figure(drawings: Vec<Element>, key: Option<Element>, see: &str, how: &str) -> Element {
     let caption = Element::new("figcaption").child(holding("strong", see)).text(format!(" {how}"));
@@ -33,8 +40,10 @@ pub enum Cell {
     Text(String),
     /// A number, set to the right.
     Number(String),
-    /// A formula or a hash.
+    /// A formula.
     Code(String),
+    /// A hash: its beginning, and all of it to who asks.
+    Hash(String),
     /// Words on several lines.
     Lines(Vec<String>),
 }
@@ -45,12 +54,18 @@ impl Cell {
         Cell::Text(text.into())
     }
 
-    fn element(self) -> Element {
-        let cell = Element::new("td");
+    /// The cell under a heading, which a narrow screen shows before it.
+    fn element(self, heading: &str) -> Element {
+        let heading = heading.strip_prefix('#').unwrap_or(heading);
+        let cell = Element::new("td").with("data-of", heading);
         match self {
             Cell::Text(text) => cell.text(text),
             Cell::Number(text) => cell.with("class", "number").text(text),
             Cell::Code(text) => cell.child(holding("code", text)),
+            Cell::Hash(text) => {
+                let short: String = text.chars().take(12).collect();
+                cell.child(holding("code", short).with("title", text))
+            }
             Cell::Lines(lines) => cell.children(lines.into_iter().map(|l| holding("div", l))),
         }
     }
@@ -69,8 +84,11 @@ pub fn table(caption: &str, headings: &[&str], rows: Vec<Vec<Cell>>) -> Option<E
         }
     };
     let head = Element::new("thead").child(Element::new("tr").children(headings.iter().map(heading)));
-    let row = |cells: Vec<Cell>| Element::new("tr").children(cells.into_iter().map(Cell::element));
+    let row = |cells: Vec<Cell>| {
+        Element::new("tr").children(cells.into_iter().zip(headings).map(|(cell, heading)| cell.element(heading)))
+    };
     let body = Element::new("tbody").children(rows.into_iter().map(row));
-    let table = Element::new("table").child(holding("caption", caption)).child(head).child(body);
-    Some(Element::new("div").with("class", "wide").child(table))
+    let table = Element::new("table").child(head).child(body);
+    let caption = holding("figcaption", caption).with("class", "over");
+    Some(Element::new("figure").with("class", "wide").child(caption).child(table))
 }

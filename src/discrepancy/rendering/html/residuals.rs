@@ -10,7 +10,7 @@ use crate::wording::counted;
 use std::collections::BTreeSet;
 
 /// Residuals that get a panel.
-const MOST_PANELS: usize = 6;
+const MOST_PANELS: usize = 24;
 /// Width of a panel, pixels.
 const WIDTH: f64 = 520.0;
 /// Height of a strip, pixels.

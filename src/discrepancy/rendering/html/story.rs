@@ -19,7 +19,10 @@ const MARGIN: f64 = 20.0;
 pub fn figure(report: &Report, pictures: &Pictures) -> Option<Element> {
     let panels = panels(report, pictures, "story");
     let key = shown(pictures).map(|run| paths::key(&[run]));
-    let see = headline(report);
+    let see = match middle(&report.gap) {
+        Some(_) => headline(report),
+        None => "The measured path from above.".into(),
+    };
     let how = match shown(pictures) {
         Some(run) if run.before.is_empty() => "Grey is what was measured.",
         Some(run) if run.after.is_empty() => {

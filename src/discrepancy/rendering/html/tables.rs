@@ -1,8 +1,7 @@
 //! The tables under the pictures.
 
 use super::head::{parameter, shrinkage};
-use super::part::{Cell, holding, section, table};
-use super::runs;
+use super::part::{Cell, holding, table};
 use crate::discrepancy::rendering::summary::{seconds, why};
 use crate::discrepancy::rendering::title_text;
 use crate::discrepancy::report;
@@ -11,29 +10,18 @@ use crate::number_format::{decimals, plain, prefixed, probability, significant, 
 use crate::picture::svg::Element;
 use crate::wording::counted;
 
-/// Every table that has a row, in sections.
-pub fn all(report: &Report, pictures: &Pictures) -> Vec<Element> {
-    let sections = [
-        section(
-            "Effects",
-            [effects(report), unnamed(report), refuted(report), steps(report), equations(pictures)]
-                .into_iter()
-                .flatten()
-                .collect(),
-        ),
-        section("Run by run", runs::tables(report)),
-        section("Gap", gaps(report)),
-        section(
-            "Where model and measurement disagree",
-            [disagreement(report), remaining(report)].into_iter().flatten().collect(),
-        ),
-        section("Data", data(report)),
-        section("Provenance", provenance(report)),
-    ];
-    sections.into_iter().flatten().collect()
+/// The tables of what was found, and of what was not named.
+pub fn effects(report: &Report, pictures: &Pictures) -> Vec<Element> {
+    let tables = [named(report), unnamed(report), refuted(report), steps(report), equations(pictures)];
+    tables.into_iter().flatten().collect()
 }
 
-fn effects(report: &Report) -> Option<Element> {
+/// The violated constraints: the figure of them over time, then where and how far they are.
+pub fn residuals(report: &Report, figure: Option<Element>) -> Vec<Element> {
+    [figure, disagreement(report), remaining(report)].into_iter().flatten().collect()
+}
+
+fn named(report: &Report) -> Option<Element> {
     let row = |e: &report::Named| {
         let shown = |(name, p): (&String, &report::Estimate)| parameter(name, p).replace(' ', "\u{a0}");
         let rivals = e.indistinguishable_from.iter().map(|r| format!("{}: {}", r.id, why(r))).collect();
@@ -82,7 +70,8 @@ fn equations(pictures: &Pictures) -> Option<Element> {
     table("Constraints of the patched model", &["constraint", "equation"], pictures.equations.iter().map(row).collect())
 }
 
-fn gaps(report: &Report) -> Vec<Element> {
+/// The gap at every horizon of the request.
+pub fn gaps(report: &Report) -> Vec<Element> {
     let position = |v: &BeforeAfter| [Some(v.position_rms_before), Some(v.position_rms_after)];
     let heading = |v: &BeforeAfter| [v.heading_rms_before, v.heading_rms_after];
     let position = gap_table(report, "Position, RMS", "m", position, |g| Some(g.noise_floor.position_rms));
@@ -147,7 +136,8 @@ fn remaining(report: &Report) -> Option<Element> {
     table(&caption, &headings, left.constraints.iter().map(row).collect())
 }
 
-fn data(report: &Report) -> Vec<Element> {
+/// What was read and what was left out of it.
+pub fn data(report: &Report) -> Vec<Element> {
     let data = &report.data;
     let sum = format!("{}, {} rows used, {} dropped.", counted(data.runs, "run"), data.rows, data.rows_dropped);
     let row = |(why, count): (&String, &usize)| vec![Cell::text(why), Cell::Number(count.to_string())];
@@ -174,10 +164,11 @@ fn clocks(report: &Report) -> Option<Element> {
     table(caption, &headings, report.data.clocks.iter().map(row).collect())
 }
 
-fn provenance(report: &Report) -> Vec<Element> {
+/// Version, seed and files.
+pub fn provenance(report: &Report) -> Vec<Element> {
     let p = &report.provenance;
     let line = format!("creepage {}, seed {}, report layout {}.", p.version, p.seed, report.schema);
-    let row = |(file, hash): (&String, &String)| vec![Cell::text(file), Cell::Code(hash.clone())];
+    let row = |(file, hash): (&String, &String)| vec![Cell::text(file), Cell::Hash(hash.clone())];
     let inputs = table("Inputs", &["file", "SHA-256"], p.inputs_sha256.iter().map(row).collect());
     std::iter::once(holding("p", line).with("class", "plain")).chain(inputs).collect()
 }

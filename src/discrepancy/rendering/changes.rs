@@ -1,0 +1,32 @@
+//! The changes that a finding asks for: lines of the model file, of the robot's controller, of its description.
+
+use crate::discrepancy::report::{Change, Report, Verdict};
+use crate::export::{Exported, Gains, Target, description_lines};
+use crate::files::{EffectEntry, ModelFile};
+
+/// What to change, each thing in its own words; none where nothing was found.
+pub(crate) fn changes(report: &Report, file: &ModelFile, added: &[EffectEntry]) -> Vec<Change> {
+    let change = |of: &str, text: String| Change { of: of.into(), text };
+    let mended: Vec<String> = report.data.findings.iter().filter_map(|f| f.mend.clone()).collect();
+    let mut found = vec![];
+    if !mended.is_empty() {
+        found.push(change("model.toml, for the data", mended.join("\n\n")));
+    }
+    if report.verdict == Verdict::UnusableData || added.is_empty() {
+        return found;
+    }
+    found.push(change("model.toml", file.lines_of(added)));
+    let patched = file.with_effects(added);
+    // A controller is shown where a number of it changes.
+    let says_something = |e: &Exported| e.unsaid.len() < patched.effects.len();
+    for (of, target) in [("ROS 2", Target::Ros2DiffDrive), ("ROS 2", Target::Ros2Steering)] {
+        let text = target.export(&patched, Gains::default()).ok().filter(says_something);
+        found.extend(text.map(|e| change(of, e.text)));
+    }
+    found.extend(description_lines(&patched).map(|e| change("URDF", e.text)));
+    let code = "creepage export model.patched.toml --as c      > step.c\n\
+                creepage export model.patched.toml --as python > step.py\n\
+                # a step of the patched model with its Jacobian; also cpp and rust\n";
+    found.push(change("code", code.into()));
+    found
+}

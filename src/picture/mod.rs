@@ -15,7 +15,6 @@
 //! ```
 
 pub mod axis;
-pub mod bars;
 pub mod decimate;
 pub mod maths;
 pub mod plot;

@@ -38,10 +38,6 @@ text.soft,.remark{fill:var(--soft)}
 .mark.arrow{fill:var(--ink);stroke:none}
 .mark.start{fill:var(--paper);stroke:var(--ink);stroke-width:1.3}
 .band{fill:var(--band);stroke:none}
-.bar{fill:var(--after);stroke:var(--after);stroke-width:1.2}
-.bar.rival,.bar.other{fill:var(--paper)}
-.bar.other{stroke:var(--soft)}
-.hatch{stroke:var(--after);stroke-width:1.6;fill:none}
 ";
 
 /// Colours of errors from none to the largest, after the diverging scale RdYlBu of Brewer (2002); width tells the same.

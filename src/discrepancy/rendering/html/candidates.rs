@@ -1,11 +1,10 @@
 //! The candidates by their evidence.
 
-use super::part;
+use super::part::{self, holding};
 use crate::discrepancy::report::{CandidatePicture, Pictures};
 use crate::number_format::plain;
 use crate::picture::axis::{Axis, extent};
-use crate::picture::bars::{Bar, Look, chart};
-use crate::picture::svg::Element;
+use crate::picture::svg::{Element, fixed};
 use crate::wording::counted;
 
 /// Candidates that get a bar, besides those chosen and their rivals.
@@ -27,26 +26,36 @@ pub fn figure(pictures: &Pictures) -> Option<Element> {
         return None;
     }
     let [low, high] = extent(shown.iter().map(|c| c.delta_bic).chain([0.0, LINEAR])).unwrap_or([0.0, LINEAR]);
-    let axis = Axis::symlog("ΔBIC", "", [low.min(-LINEAR / 2.0) * 1.1, high * 1.1], LINEAR);
-    let bars: Vec<Bar> = shown.iter().map(|c| bar(c)).collect();
-    let description =
-        "Horizontal bars, best first. Filled: chosen. Hatched: not told from a chosen one. Hollow: the rest.";
-    let drawing = chart(&bars, axis, "candidates", "Candidates by ΔBIC", description);
+    let range = [low.min(-LINEAR / 2.0) * 1.1, high * 1.05];
+    let axis = Axis::symlog("ΔBIC", "", range, LINEAR).along([0.0, 100.0]);
+    let rows = shown.iter().flat_map(|c| row(c, &axis));
+    let chart = Element::new("div").with("class", "weighed").children(rows);
     let more = all.len() - shown.len();
     let rest = if more > 0 { format!(" Not drawn: {}.", counted(more, "weaker candidate")) } else { String::new() };
     let how = format!(
-        "ΔBIC is the BIC without an effect minus the BIC with it: above 10 the evidence is very strong, below 0 it speaks \
-         against the effect. The axis is linear up to ±10 and logarithmic beyond.{rest}"
+        "ΔBIC is the BIC without an effect minus the BIC with it, beside nothing else: above 10 the evidence is very strong, \
+         below 0 it speaks against the effect. Bars are linear up to ±10 and logarithmic beyond, from the line at 0.{rest}"
     );
-    Some(part::figure(vec![drawing], None, "The candidates by their evidence.", &how))
+    Some(part::figure(vec![chart], None, "The candidates by their evidence, the best first.", &how))
 }
 
-fn bar(candidate: &CandidatePicture) -> Bar {
+/// The name, the value with what became of the candidate, and the bar from zero.
+fn row(candidate: &CandidatePicture, axis: &Axis) -> [Element; 3] {
     let (look, remark) = match (candidate.chosen, candidate.rival) {
-        (true, _) => (Look::Solid, ", chosen"),
-        (_, true) => (Look::Hatched, ", not told apart"),
-        _ => (Look::Hollow, ""),
+        (true, _) => ("solid", ", chosen"),
+        (_, true) => ("hatched", ", not told apart"),
+        _ => ("hollow", ""),
     };
     let value = candidate.delta_bic;
-    Bar { name: candidate.id.clone(), value, remark: format!("{}{remark}", plain(value)), look }
+    let zero = axis.at(0.0);
+    let to = if value.is_finite() { axis.at(value).clamp(0.0, 100.0) } else { zero };
+    let (left, width) = (zero.min(to), (to - zero).abs());
+    let place = format!("left:{}%;width:{}%", fixed(left), fixed(width));
+    let line = Element::new("b").with("class", "zero").with("style", format!("left:{}%", fixed(zero)));
+    let fill = Element::new("i").with("class", look).with("style", place);
+    [
+        holding("span", &candidate.id).with("class", format!("name {look}")),
+        holding("span", format!("{}{remark}", plain(value))).with("class", "value"),
+        Element::new("span").with("class", "length").with("aria-hidden", "true").child(fill).child(line),
+    ]
 }

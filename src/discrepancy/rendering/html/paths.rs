@@ -3,7 +3,7 @@
 use super::part;
 use crate::discrepancy::report::{PathPicture, Pictures};
 use crate::picture::axis::{Axis, equal_aspect, extent, widened};
-use crate::picture::plot::{Key, Marker, Panel, Size, legend};
+use crate::picture::plot::{Key, Marker, Panel, Size};
 use crate::picture::svg::{Element, cut};
 use crate::wording::counted;
 
@@ -51,15 +51,13 @@ pub fn figure(pictures: &Pictures) -> Option<Element> {
     ))
 }
 
-/// The legend as a drawing of its own.
+/// The legend, as text that does not shrink with the drawings.
 pub fn key(runs: &[&PathPicture]) -> Element {
-    let (row, width) = legend(&keys(runs), [4.0, 12.0]);
-    Element::new("svg")
-        .with("viewBox", format!("0 0 {} 24", width.ceil()))
-        .with("class", "key")
-        .with("style", format!("max-width:{}px", width.ceil()))
-        .with("aria-hidden", "true")
-        .child(row)
+    let entry = |key: &Key| {
+        let swatch = Element::new("i").with("class", format!("swatch {}", key.class));
+        Element::new("span").child(swatch).text(key.label)
+    };
+    Element::new("p").with("class", "legend").children(keys(runs).iter().map(entry))
 }
 
 /// One run; a close-up shows the piece in which the two models part most, where the whole run would not show it.

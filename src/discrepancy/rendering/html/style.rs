@@ -62,6 +62,8 @@ ERRORS.robot{fill:var(--ink);stroke:var(--paper);stroke-width:1.5}
 .swatch{display:inline-block;width:24px;margin-right:7px;vertical-align:middle;border-top:3px solid var(--after)}
 .swatch.before{border-top:3px dashed var(--before)}
 .swatch.ahead{border-top:3px dotted var(--ink)}
+.swatch.measured{border-top:7px solid var(--measured)}
+.swatch.start{width:11px;height:11px;border:1.5px solid var(--ink);border-radius:99px}
 .swatch.noise{border-top:3px dotted var(--floor)}
 .swatch.kept{height:12px;border:0;background:var(--band)}
 .held{fill:var(--band);fill-opacity:.55}
@@ -80,7 +82,7 @@ details{margin:0;padding:12px 0;border-top:1px solid var(--rule)}
 nav+details{margin-top:14px}
 summary{cursor:pointer}
 summary h2{display:inline;font-size:18px}
-details>:nth-child(2){margin-top:14px}
+details>:nth-child(2){margin-top:20px}
 .found{margin:14px 0 0;padding:0;list-style:none}
 .found li{margin:5px 0;overflow-wrap:anywhere}
 .found .rivals{color:var(--soft)}
@@ -95,9 +97,20 @@ figcaption strong{color:var(--ink);font-weight:600}
 figcaption.over{margin:0;padding:6px 0;font-weight:600;color:var(--ink)}
 .panels{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,430px),1fr));gap:14px 24px}
 .panels.single{grid-template-columns:minmax(0,820px)}
+.weighed{display:grid;grid-auto-flow:row dense;grid-template-columns:auto minmax(60px,1fr) auto;gap:5px 12px;align-items:center;max-width:820px;font-size:15px}
+.weighed span{overflow-wrap:anywhere}
+.weighed .solid{font-weight:650}
+.weighed .name{grid-column:1}
+.weighed .length{grid-column:2}
+.weighed .value{grid-column:3;font-variant-numeric:tabular-nums}
+.length{position:relative;height:15px}
+.length i,.length b{position:absolute;top:0;height:15px;border:1.5px solid var(--after);border-radius:2px}
+.length i.hollow{border-color:var(--soft)}
+.length i.solid{background:var(--after)}
+.length i.hatched{background:repeating-linear-gradient(135deg,var(--after) 0 2px,transparent 2px 6px)}
+.length b.zero{top:-3px;height:21px;width:0;border:0;border-left:1.5px solid var(--soft)}
 svg{display:block;width:100%;height:auto;overflow:visible}
 .map svg,svg svg{overflow:hidden}
-.key{max-width:var(--key);margin-bottom:8px}
 .wide{overflow-x:auto}
 table{border-collapse:collapse;min-width:min(100%,520px);font-size:15px;line-height:1.42}
 th{font-weight:500;font-size:13.5px;color:var(--soft);text-align:left;vertical-align:bottom;border-bottom:1.5px solid var(--rule)}
@@ -126,25 +139,42 @@ td>div{flex:1 0 100%}
 .wide .number{text-align:right;white-space:normal}
 .panels text{font-size:17px}
 .panels text.heading{font-size:19px}
+.panels text.strong{font-size:15px}
+.weighed{grid-template-columns:minmax(0,1fr) auto;gap:1px 12px;font-size:14px}
+.weighed .value{grid-column:2}
+.weighed .length{grid-column:1/-1;margin-bottom:8px}
 .panels text.tick,.panels text.caption{font-size:16px}
 }
 @media print{
-@page{margin:13mm}
-body{font-size:10.5pt}
+@page{margin:12mm}
+body{font-size:9.5pt}
 main{max-width:none;padding:0}
-main section,nav{margin-top:16px}
+h1{font-size:17pt}
+h2,summary h2{font-size:12.5pt}
+main section,nav{margin-top:14px}
 nav,.tools,input[type=range],.tabs,.copy,details:not([open]){display:none!important}
+.texts{display:grid;grid-template-columns:1fr 1fr;gap:4px 12px}
 .text{display:block!important;break-inside:avoid}
-.text h3{display:block!important}
-h2,h3,.over,.number{break-after:avoid}
-.card,.numbered,tr,.next,figure,.map{break-inside:avoid}
+.text h3{display:block!important;margin:4px 0}
+pre,code,.wide code{font-size:8pt}
+h2,h3,.over,.number,summary{break-after:avoid}
+.card,.numbered,tr,.next,.map,.panels,.weighed{break-inside:avoid}
 .cards{grid-template-columns:1.5fr 1fr 1fr}
-.map svg{max-height:95mm}
+.card h2,.small,.bar,.legend,.read,figcaption,.ends{font-size:8.5pt}
+.big{font-size:15pt}
+.read{min-height:0}
+.map svg{max-height:82mm}
+#strip{height:70px}
 .panels{grid-template-columns:1fr 1fr}
 .panels.single{grid-template-columns:130mm}
+details{padding:6px 0}
+details>:nth-child(2){margin-top:8px}
+figure{margin-bottom:10px}
 .wide{overflow:visible}
-table{font-size:9.5pt}
-th,td{padding-right:9px}
+#gap .wide{display:inline-block;vertical-align:top;margin-right:8mm}
+table{font-size:8.5pt;min-width:0}
+th{font-size:8pt}
+th,td{padding:3px 8px 3px 0}
 *{-webkit-print-color-adjust:exact;print-color-adjust:exact}
 }
 ";

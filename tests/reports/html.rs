@@ -276,12 +276,16 @@ fn values_that_are_no_numbers_break_lines_and_never_reach_the_page() {
         pictures.gap.after[2] = bad;
         pictures.gap.floor[0] = bad;
         pictures.candidates[3].delta_bic = bad;
+        pictures.forecasts[0].pose[3] = [bad; 3];
+        pictures.forecasts[0].paths[4][1] = vec![[bad, 0.0]; 5];
+        pictures.forecasts[0].error[5] = [bad; 2];
+        pictures.forecasts[0].floor = bad;
         report.gap[1].held_out.as_mut().unwrap().position_rms_after = bad;
         report.effects[0].evidence.delta_bic = bad;
         report.effects[0].parameters.get_mut("mass_over_bT").unwrap().value = bad;
         let [page, _] = check(&report, &pictures);
         assert!(!page.contains("cy=\"0\""), "a marker for no value");
-        let path = page.split("line measured\" d=\"").nth(2).unwrap().split('"').next().unwrap();
+        let path = page.split("line measured\" d=\"").nth(1).unwrap().split('"').next().unwrap();
         assert_eq!(path.matches('M').count(), 2, "the line breaks once");
         assert!(!summary_text(&report).contains("NaN") && !summary_text(&report).contains("inf"));
     }

@@ -66,7 +66,7 @@ fn draw(options: &Options) -> Result<Drawing> {
     elements.extend(words(&mut map, here));
     let description = "Left the coefficients, right the velocities they give. The line e_rc = 1 on the left becomes one \
                        point on the right; the line v_l = 0 on the right is reached only in that point.";
-    let svg = page::page(FIGURE.name, FIGURE.title, description, 304.0, elements);
+    let svg = page::page(FIGURE.name, FIGURE.title, description, 290.0, elements);
     Ok(Drawing { svg, tables: vec![data], text: String::new() })
 }
 
@@ -114,19 +114,11 @@ fn captions(panel: &mut Panel, title: &str, [x, y]: [&str; 2]) {
 }
 
 fn words(map: &mut Map, [e_rc, e_tc]: [f64; 2]) -> Vec<Element> {
-    let [v_l, v_t, det] = map.at(e_rc, e_tc);
-    let here = format!(
-        "the point in the ring: ({}, {}) → ({}, {}), determinant {}",
-        decimals(e_rc, 2),
-        decimals(e_tc, 2),
-        decimals(v_l, 2),
-        decimals(v_t, 2),
-        decimals(det, 2)
-    );
+    let [v_l, v_t, _] = map.at(e_rc, e_tc);
+    let [from, to] = [[e_rc, e_tc], [v_l, v_t]].map(|p| format!("({}, {})", decimals(p[0], 2), decimals(p[1], 2)));
     let lines = [
-        "One-to-one but for $e_{rc}$ = 1: the dashed line becomes the point 0.".to_string(),
-        "Side slide, $v_{l}$ = 0 on the right, has no coefficients.".into(),
-        here,
+        "The dashed line $e_{rc}$ = 1 becomes the square at 0.".to_string(),
+        format!("Ring: one wheel on both sides, {from} and {to}."),
     ];
-    lines.iter().zip([260.0, 277.0, 294.0]).map(|(text, y)| maths("", [10.0, y], "start", text)).collect()
+    lines.iter().zip([262.0, 279.0]).map(|(text, y)| maths("soft", [10.0, y], "start", text)).collect()
 }

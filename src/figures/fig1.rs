@@ -84,7 +84,8 @@ fn tyre(creep: f64, x_c: f64) -> Vec<crate::picture::svg::Element> {
         .map(|p| [a[0] + CONTACT[1] * p[0], CONTACT[0] * p[1]])
         .collect();
     s.shape("patch", &ellipse);
-    s.line("help", &[[0.0, -0.44], [0.0, 0.5]]);
+    s.arrow("measure", [0.0, -0.44], [0.0, 0.52]);
+    s.text("", [0.0, 0.52], [7.0, 6.0], "start", "$y$");
     s.line("help", &[[a[0], -0.44], [a[0], 0.0]]);
     s.arrow("velocity", [0.0, 0.0], polar([0.0, 0.0], 0.46, FRAC_PI_2 + creep));
     s.text(

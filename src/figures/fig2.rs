@@ -4,6 +4,7 @@ use super::{Data, Drawing, Figure, Options, page};
 use crate::error::Result;
 use crate::motion::{assembled, driven};
 use crate::number_format::decimals;
+use crate::picture::maths::maths;
 use crate::picture::sketch::{Sketch, polar};
 use crate::picture::svg::Element;
 use std::f64::consts::FRAC_PI_2;
@@ -30,35 +31,46 @@ struct Rolled {
     e: f64,
 }
 
+/// Height of one of both pictures, pixels.
+const HEIGHT: f64 = 264.0;
+
+/// The disk with a coefficient and with the opposite one: it turns more than it travels, or less.
 fn draw(options: &Options) -> Result<Drawing> {
     let e = options.rotation(0.25);
-    let disk = assembled("disk", &[("wheel_radius", RADIUS)], &[], &[("rotation-creep", None, vec![e])])?;
-    let path = driven(&disk, &[("wheel_rate", "c_0")], &[TURNED], &[0.0; 3], &[0.0, 1.0])?;
-    let d = path[1][0];
-    let rolled = Rolled { d, theta: TURNED, theta_1: d / RADIUS, e };
-    let description = "A disk at two instants. The contact A has turned to A_2 while the centre moved by d; an ideal \
-                       disk would have turned it to A_1 only. The angle between is theta_rc.";
-    let quantities = [
-        ("e_rc", e, "1"),
-        ("r", RADIUS, "m"),
-        ("theta", rolled.theta, "rad"),
-        ("d", d, "m"),
-        ("theta_1 = d/r", rolled.theta_1, "rad"),
-        ("theta_rc = theta - theta_1", rolled.theta - rolled.theta_1, "rad"),
-        ("mean v_A", d - RADIUS * TURNED, "m/s"),
-    ];
+    let both = [rolled(e)?, rolled(-e)?];
+    let pictures = both.iter().enumerate().flat_map(|(i, rolled)| picture(rolled, HEIGHT * i as f64));
+    let description = "A disk at two instants, with backward-creep and with forward-creep. The contact A has turned to A_2 \
+                       while the centre moved by d; an ideal disk would have turned it to A_1. The angle between is theta_rc.";
+    let quantities = |of: &Rolled| {
+        Data::quantities(&[
+            ("e_rc", of.e, "1"),
+            ("r", RADIUS, "m"),
+            ("theta", of.theta, "rad"),
+            ("d", of.d, "m"),
+            ("theta_1 = d/r", of.theta_1, "rad"),
+            ("theta_rc = theta - theta_1", of.theta - of.theta_1, "rad"),
+            ("mean v_A", of.d - RADIUS * TURNED, "m/s"),
+        ])
+    };
     Ok(Drawing {
-        svg: page::page(FIGURE.name, FIGURE.title, description, 276.0, picture(&rolled)),
-        tables: vec![Data::quantities(&quantities)],
+        svg: page::page(FIGURE.name, FIGURE.title, description, 2.0 * HEIGHT, pictures.collect()),
+        tables: vec![quantities(&both[0])],
         text: String::new(),
     })
 }
 
-fn picture(rolled: &Rolled) -> Vec<Element> {
+fn rolled(e: f64) -> Result<Rolled> {
+    let disk = assembled("disk", &[("wheel_radius", RADIUS)], &[], &[("rotation-creep", None, vec![e])])?;
+    let path = driven(&disk, &[("wheel_rate", "c_0")], &[TURNED], &[0.0; 3], &[0.0, 1.0])?;
+    let d = path[1][0];
+    Ok(Rolled { d, theta: TURNED, theta_1: d / RADIUS, e })
+}
+
+fn picture(rolled: &Rolled, top: f64) -> Vec<Element> {
     let (r, d) = (RADIUS, rolled.d);
     // Both disks and the arrow of the speed fit between the margins whatever the creep.
-    let scale = (372.0 / (d + 2.0 * r + 0.1)).min(296.0);
-    let mut s = Sketch::new([200.0 - 0.5 * scale * (d + 0.06), 216.0], scale);
+    let scale = (372.0 / (d + 2.0 * r + 0.1)).min(270.0);
+    let mut s = Sketch::new([200.0 - 0.5 * scale * (d + 0.06), top + 206.0], scale);
     let (c, c2) = ([0.0, r], [d, r]);
     s.ground([-r, d + r + 0.1], 0.0);
     s.circle("ghost", c, r);
@@ -82,7 +94,10 @@ fn picture(rolled: &Rolled) -> Vec<Element> {
     let (below, shown) = (-34.0 / scale, format!("$d = rθ(1 − e_{{rc}})$,  $e_{{rc}}$ = {}", decimals(rolled.e, 2)));
     s.length([0.0, 0.0], [d, 0.0], below * scale, "");
     s.text("", [0.5 * d, below], [0.0, 15.0], "middle", &shown);
-    s.finish()
+    let mut out = s.finish();
+    let name = if rolled.e < 0.0 { "forward-creep" } else { "backward-creep" };
+    out.push(maths("heading", [392.0, top + 18.0], "end", name));
+    out
 }
 
 /// v_A at the contact: backward for e_rc > 0.

@@ -94,11 +94,11 @@ fn torsion(angle: f64) -> Vec<Element> {
     }
     // A bar over the letter, drawn: few fonts have it.
     let foot = s.at(polar(o, -0.3, FRAC_PI_2 + angle));
-    let [x, y] = [foot[0] + 50.0 * sign, foot[1] + 18.0];
+    let [x, y] = [foot[0] + if sign > 0.0 { 36.0 } else { -46.0 }, foot[1] + 6.0];
     s.add(maths("force", [x, y], "start", "$f_{T}$"));
     s.add(crate::picture::svg::line("line force bar", [x + 1.0, y - 12.0], [x + 7.0, y - 12.0]));
     s.dot(o);
     s.text("", o, [-14.0 * sign, 4.0], "middle", "$A$");
-    s.text("", [0.0, 0.78], [0.0, -5.0], "middle", "$ξ$");
+    s.text("", [0.0, 0.78], [7.0, 6.0], "start", "$ξ$");
     s.finish()
 }

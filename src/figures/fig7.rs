@@ -6,8 +6,9 @@ use super::{Data, Drawing, Figure, Options, fixed, key, page, plane};
 use crate::energy_rule::{EndPoint, FIG7_DURATION, Reading, fig7_case, fig7_path};
 use crate::error::Result;
 use crate::number_format::plain;
-use crate::picture::plot::{Marker, Size};
-use crate::picture::svg::Element;
+use crate::picture::maths::maths;
+use crate::picture::plot::{Marker, Panel, Size};
+use crate::picture::svg::{Element, path};
 
 /// The figure.
 pub const FIGURE: Figure = Figure {
@@ -18,7 +19,7 @@ pub const FIGURE: Figure = Figure {
 };
 
 /// A panel, and where the four are.
-const PANEL: Size = Size { width: 198.0, height: 214.0, margins: [34.0, 22.0, 30.0, 40.0] };
+const PANEL: Size = Size { width: 198.0, height: 228.0, margins: [34.0, 22.0, 44.0, 40.0] };
 const TOP: f64 = 26.0;
 /// Steps of a curve.
 const STEPS: usize = 180;
@@ -105,10 +106,22 @@ fn panel(case: &Case, ranges: [[f64; 2]; 2]) -> Element {
     ] {
         panel.markers(class, marker, &xy(&path[path.len() - 1..]));
     }
+    panel.markers("start", Marker::Ring, &[[case.ideal[0].x, case.ideal[0].y]]);
+    sense(&mut panel, &case.ideal);
     let [e_rc, e_tc] = case.e.map(plain);
-    plane::name(&mut panel, PANEL, &format!("({}) $e_{{rc}}$ = {e_rc}, $e_{{tc}}$ = {e_tc}", case.name));
+    let name = format!("({}) $e_{{rc}}$ = {e_rc}, $e_{{tc}}$ = {e_tc}", case.name);
+    panel.note(maths("", [4.0, 14.0], "start", &name));
     let title = format!("Case ({})", case.name);
     panel.finish(&format!("case-{}", case.name), &title, "The three paths of this case.")
+}
+
+/// An arrow at an eighth of the ideal path: the sense of motion of all three.
+fn sense(panel: &mut Panel, ideal: &[EndPoint]) {
+    let at = |i: usize| panel.place([ideal[i].x, ideal[i].y]);
+    let ([x, y], before) = (at(STEPS / 8), at(STEPS / 8 - 2));
+    let along = (y - before[1]).atan2(x - before[0]);
+    let corner = |length: f64, turn: f64| [x + length * (along + turn).cos(), y + length * (along + turn).sin()];
+    panel.note(path("head", &[corner(6.0, 0.0), corner(5.5, 2.5), corner(5.5, -2.5)]));
 }
 
 fn paths(cases: &[Case], times: &[f64], reading: Reading) -> Data {

@@ -103,12 +103,14 @@ fn draw(options: &Options) -> Result<Drawing> {
         }
     }
     let shown = [e_rc, e_tc].map(|e| decimals(e, 2));
-    let words = format!("Arrows: velocities of contacts, with $e_{{rc}}$ = {}, $e_{{tc}}$ = {}.", shown[0], shown[1]);
-    elements.push(maths("soft", [200.0, 358.0], "middle", &words));
+    let values = format!("$e_{{rc}}$ = {}, $e_{{tc}}$ = {}", shown[0], shown[1]);
+    for (y, words) in [(356.0, "Arrows: velocities of contacts, and of the middles of axles."), (373.0, &values)] {
+        elements.push(maths("soft", [200.0, y], "middle", words));
+    }
     let description = "Four vehicles from above, wheels where their descriptions have them. An arrow is the velocity of a \
                        wheel's contact, off its heading by the creep.";
     Ok(Drawing {
-        svg: page::page(FIGURE.name, FIGURE.title, description, 368.0, elements),
+        svg: page::page(FIGURE.name, FIGURE.title, description, 384.0, elements),
         tables: vec![data],
         text: String::new(),
     })
@@ -158,9 +160,13 @@ impl Entry {
                 s.wheel(if w.steered { "steered" } else { "wheel" }, w.at, w.heading, side);
             }
         }
-        for w in &rig.wheels {
-            let seconds = 26.0 / self.scale / rig.wheels[0].speed().max(1e-9);
-            s.arrow("velocity", w.at, [0, 1].map(|k| w.at[k] + seconds * w.velocity[k]));
+        let seconds = 26.0 / self.scale / rig.wheels[0].speed().max(1e-9);
+        for wheel in &rig.wheels {
+            // A steered axle touches the ground at its two wheels, which have velocities of their own.
+            let pair = if wheel.steered { self.pair(rig, wheel)? } else { vec![] };
+            for w in if pair.is_empty() { std::slice::from_ref(wheel) } else { &pair[..] } {
+                s.arrow("velocity", w.at, [0, 1].map(|k| w.at[k] + seconds * w.velocity[k]));
+            }
         }
         s.dot(place);
         Ok(s.finish())

@@ -22,7 +22,7 @@ pub const FIGURE: Figure = Figure {
     draw,
 };
 
-const PANEL: Size = Size { width: 396.0, height: 286.0, margins: [52.0, 108.0, 50.0, 42.0] };
+const PANEL: Size = Size { width: 396.0, height: 286.0, margins: [52.0, 118.0, 50.0, 42.0] };
 
 /// The files of the example `cornering`.
 const MODEL: &str = include_str!("../../examples/runs/cornering/model.toml");

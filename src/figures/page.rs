@@ -24,7 +24,7 @@ pub fn page(name: &str, title: &str, description: &str, height: f64, elements: V
         .child(Element::new("style").text(theme::figure()))
         .child(rect("paper", [0.0, 0.0], WIDTH, height))
         .children(elements);
-    format!("{drawing}\n")
+    format!("{}\n", drawing.haloed())
 }
 
 /// A panel put at a place.

@@ -100,8 +100,13 @@ fn curvature(curves: &[Vec<[f64; 2]>]) -> Element {
     let range = plane::ranges(curves.iter().flatten(), 0.03);
     let x = Axis::linear("", "", [0.0, MAX_STEERING]);
     let mut panel = plane::graph(CURVES, x, Axis::linear("", "", range[1]));
-    for ((class, ..), curve) in CASES.iter().zip(curves) {
+    // The dash-dotted line lies on the solid one where they nearly agree.
+    for ((class, ..), curve) in CASES.iter().zip(curves).rev() {
         panel.series(class, curve);
+    }
+    for ((class, marker, ..), curve) in CASES.iter().zip(curves).rev() {
+        let end = &curve[curve.len() - 1..];
+        panel.markers(class, *marker, end);
     }
     let ([_, right], [bottom, top]) = (CURVES.columns(), CURVES.rows());
     panel.note(maths("caption", [right, bottom + 35.0], "end", "steering angle $δ$, rad"));

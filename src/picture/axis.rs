@@ -82,6 +82,8 @@ impl Axis {
 
     /// Ticks at least `spacing` pixels apart.
     pub fn ticks(&self, spacing: f64) -> Vec<Tick> {
+        // Labels of powers of ten are short.
+        let spacing = if self.scale == Scale::Log { 0.6 * spacing } else { spacing };
         let count = ((self.pixels[1] - self.pixels[0]).abs() / spacing).floor().max(1.0) as usize;
         let [from, to] = self.range;
         let tick = |value: f64, label: String| Tick { at: self.at(value), label };

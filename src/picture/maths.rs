@@ -50,7 +50,8 @@ impl Level {
 /// assert!(e.contains("<tspan dy=\"-3.4\"> = 0.2</tspan>"), "{e}");
 /// ```
 pub fn maths(class: &str, at: [f64; 2], anchor: &str, text: &str) -> Element {
-    let mut out = label(class, at, anchor, "");
+    // Some programs drop the spaces at the ends of a span, unless they are told not to.
+    let mut out = label(class, at, anchor, "").with("xml:space", "preserve");
     let mut level = Level::Line;
     for run in runs(text) {
         out = out.child(span(&run, level));

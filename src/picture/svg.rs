@@ -55,6 +55,29 @@ impl Element {
         self
     }
 
+    /// With an outline of the paper's colour behind every text in it, as an element of its own: programs that do not know
+    /// `paint-order` would draw it over the letters.
+    pub fn haloed(mut self) -> Self {
+        let with_halo = |child: Child| match child {
+            Child::Element(text) if text.name == "text" => {
+                vec![Child::Element(text.clone().as_halo()), Child::Element(text)]
+            }
+            Child::Element(other) => vec![Child::Element(other.haloed())],
+            other => vec![other],
+        };
+        self.children = self.children.into_iter().flat_map(with_halo).collect();
+        self
+    }
+
+    /// The halo of a text, which nobody reads twice.
+    fn as_halo(mut self) -> Self {
+        match self.attributes.iter_mut().find(|(name, _)| *name == "class") {
+            Some((_, class)) => *class = format!("{class} halo").trim_start().to_string(),
+            None => self.attributes.push(("class", "halo".into())),
+        }
+        self.with("aria-hidden", "true")
+    }
+
     /// With an element after what it already holds.
     pub fn child(mut self, element: Element) -> Self {
         self.children.push(Child::Element(element));
@@ -207,6 +230,14 @@ mod tests {
     fn a_script_ends_where_it_ends() {
         let script = Element::new("script").verbatim("a < b && '</script>'").to_string();
         assert_eq!(script, "<script>a < b && '<\\/script>'</script>");
+    }
+
+    #[test]
+    fn every_text_gets_a_halo_behind_it() {
+        let drawn = Element::new("svg").child(Element::new("g").child(label("tick", [1.0, 2.0], "end", "x"))).haloed();
+        let text = "x=\"1\" y=\"2\" text-anchor=\"end\"";
+        let halo = format!("<text class=\"tick halo\" {text} aria-hidden=\"true\">x</text>");
+        assert_eq!(drawn.to_string(), format!("<svg><g>{halo}<text class=\"tick\" {text}>x</text></g></svg>"));
     }
 
     #[test]

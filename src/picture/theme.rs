@@ -13,7 +13,7 @@ const DARK: &str = "--paper:#0d1117;--panel:#161b22;--ink:#e6edf3;--soft:#a3adb8
 --measured:#8b96a2;--before:#e69f00;--after:#56b4e9;--floor:#a3adb8;--band:#30373f;--good:#3fd0a4;--warn:#f0b040;--bad:#ff8a80;";
 
 const SHAPES: &str = "\
-text{font:13px system-ui,-apple-system,Segoe UI,Roboto,Helvetica Neue,Arial,sans-serif;fill:var(--ink);paint-order:stroke;stroke:var(--paper);stroke-width:3px;stroke-linejoin:round}
+text{font:13px system-ui,-apple-system,Segoe UI,Roboto,Helvetica Neue,Arial,sans-serif;fill:var(--ink)}
 text.tick,text.caption{font-size:12px;fill:var(--soft);font-variant-numeric:tabular-nums}
 text.heading{font-weight:600;font-size:14px}
 text.title{font-weight:650;font-size:19px}
@@ -43,17 +43,23 @@ text.soft,.remark{fill:var(--soft)}
 /// Colours of errors from none to the largest, after the diverging scale RdYlBu of Brewer (2002); width tells the same.
 pub const ERRORS: [&str; 6] = ["#4575b4", "#91bfdb", "#e0f3f8", "#fee090", "#fc8d59", "#d73027"];
 
-/// The style sheet of a drawing: variables for light and dark, and the look of every class.
+/// The halo of letters on a page, which browsers show.
+const HALO_ON_PAGE: &str = "text{paint-order:stroke;stroke:var(--paper);stroke-width:3px;stroke-linejoin:round}\n";
+/// The halo of letters in a file of its own, an element behind each: see [`Element::haloed`](super::svg::Element::haloed).
+const HALO: &str = "text.halo{stroke:var(--paper);stroke-width:3px;stroke-linejoin:round}\n";
+
+/// The style sheet of drawings on a page: variables for light and dark, and the look of every class.
 pub fn drawing() -> String {
-    format!("{}{SHAPES}", variables())
+    format!("{}{SHAPES}{HALO_ON_PAGE}", variables())
+}
+
+/// The style sheet of a drawing of a report in a file of its own.
+pub fn stand_alone() -> String {
+    written_out(&format!("{SHAPES}{HALO}"))
 }
 
 /// The letters of a stand-alone figure, sized for a column of 85 mm, where 12 pixels are 7.2 points.
 const LETTERS: &str = "font-family:Helvetica Neue,Arial,Liberation Sans,DejaVu Sans,sans-serif;font-size:12px;";
-/// Shape and colour of what keeps letters apart from lines behind them.
-const HALO: [&str; 2] = ["paint-order:stroke;stroke-width:3px;stroke-linejoin:round", ";stroke:var(--paper)"];
-const NO_HALO: [&str; 2] = ["stroke:none", ""];
-
 /// The shapes of a stand-alone figure, without colours.
 const FIGURE: &str = "\
 text.heading{font-size:12.5px;font-weight:600}
@@ -111,22 +117,22 @@ text.force,text.crept{fill:var(--before)}
 /// Colours are written out and not named by variables, so that programs which know no variables (those that turn SVG
 /// into PDF) show the figure in its light colours; they skip the media query.
 pub fn figure() -> String {
-    sheet(HALO)
+    let coloured = written_out(&format!(".paper{{fill:var(--paper)}}\ntext{{fill:var(--ink)}}\n{HALO}{COLOURS}"));
+    format!("text{{{LETTERS}}}\n{FIGURE}{coloured}")
 }
 
-/// A figure's file for a program that draws the halo of a letter over the letter before, as Typst does: without halo.
+/// A figure's file for a program whose halos would cover thin letters at a low resolution, as those of Typst's pictures do.
 pub fn without_halo(svg: &str) -> String {
-    svg.replacen(&figure(), &sheet(NO_HALO), 1)
+    svg.replace("text.halo{stroke:", "text.halo{display:none;stroke:")
 }
 
-fn sheet([shape, colour]: [&str; 2]) -> String {
-    let grounds = format!(".paper{{fill:var(--paper)}}\ntext{{fill:var(--ink){colour}}}\n{COLOURS}");
+/// A sheet with its colours in the place of their names, light ones first and dark ones for screens that ask for them.
+fn written_out(css: &str) -> String {
     let coloured = |colours: &str| {
         let named = colours.split(';').filter_map(|c| c.split_once(':'));
-        named.fold(grounds.clone(), |css, (name, value)| css.replace(&format!("var({name})"), value))
+        named.fold(css.to_string(), |css, (name, value)| css.replace(&format!("var({name})"), value))
     };
-    let (light, dark) = (coloured(LIGHT), coloured(DARK));
-    format!("text{{{LETTERS}{shape}}}\n{FIGURE}{light}@media screen and (prefers-color-scheme:dark){{\n{dark}}}\n")
+    format!("{}@media screen and (prefers-color-scheme:dark){{\n{}}}\n", coloured(LIGHT), coloured(DARK))
 }
 
 /// The variables alone; dark only on screens that ask for it, so that paper stays white.
@@ -141,16 +147,16 @@ pub fn variables() -> String {
 #[cfg(test)]
 mod tests {
     #[test]
-    fn every_colour_of_a_figure_is_written_out() {
-        let css = super::figure();
-        assert!(!css.contains("var("), "{css}");
-        assert_eq!(css.matches('{').count(), css.matches('}').count());
+    fn every_colour_of_a_file_is_written_out() {
+        for css in [super::figure(), super::stand_alone()] {
+            assert!(!css.contains("var(") && !css.contains("paint-order"), "{css}");
+            assert_eq!(css.matches('{').count(), css.matches('}').count());
+        }
     }
 
     #[test]
-    fn letters_without_halo_have_no_outline_at_all() {
-        let plain = super::without_halo(&format!("<style>{}</style>", super::figure()));
-        assert!(plain.contains("font-size:12px;stroke:none}") && !plain.contains("paint-order"), "{plain}");
-        assert_eq!(plain.matches("text{fill:#").count(), 2, "{plain}");
+    fn letters_without_halo_have_none() {
+        let plain = super::without_halo(&super::figure());
+        assert_eq!(plain.matches("text.halo{display:none;").count(), 2, "{plain}");
     }
 }

@@ -12,6 +12,8 @@ use crate::picture::svg::{Element, label, line, path};
 
 /// A panel with room for names at the ends of the lines.
 pub const SIZE: Size = Size { margins: [58.0, 138.0, 50.0, 46.0], ..Size::PANEL };
+/// Pixels between ticks along the horizon: its labels are short.
+const TICKS: f64 = 44.0;
 /// Horizons up to which every one gets a marker.
 const MOST_MARKERS: usize = 14;
 
@@ -108,7 +110,7 @@ fn drawn(curve: &GapCurve, (name, base): (&str, &str), axes: Axes, size: Size) -
         }
     };
     let bottom = y.range[0];
-    let mut panel = Panel::new(size, x.along(size.columns()), y.along(size.rows()));
+    let mut panel = Panel::new(size, x.along(size.columns()), y.along(size.rows())).with_ticks(TICKS);
     let points = |values: &[f64]| curve.horizon.iter().zip(values).map(|(h, v)| [*h, v * factor]).collect::<Vec<_>>();
     let [before, after, floor] = [&curve.before, &curve.after, &curve.floor].map(|v| points(v));
     panel.band(&floor.iter().map(|p| (p[0], [bottom, p[1]])).collect::<Vec<_>>());

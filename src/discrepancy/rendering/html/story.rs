@@ -68,12 +68,12 @@ pub fn gap_svg(report: &Report, pictures: &Pictures) -> String {
         .with("xmlns", "http://www.w3.org/2000/svg")
         .number("width", size.width)
         .number("height", size.height)
-        .child(Element::new("style").text(theme::drawing()))
+        .child(Element::new("style").text(theme::stand_alone()))
         .child(rect("paper", [0.0, 0.0], size.width, size.height))
         .child(label("title", [MARGIN, 40.0], "start", cut(&headline(report), (width / 10.5) as usize)))
         .children(shown(pictures).map(|run| legend(&paths::keys(&[run]), [MARGIN + 4.0, 68.0]).0))
         .children(placed);
-    format!("{drawing}\n")
+    format!("{}\n", drawing.haloed())
 }
 
 /// The gap over the horizon alone, on logarithmic axes; none with nothing to draw.

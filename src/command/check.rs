@@ -1,6 +1,6 @@
 //! `creepage check`
 
-use super::output::{Format, print_answer};
+use super::output::{Format, json, print_answer};
 use super::progress::ProgressLine;
 use super::runs;
 use super::user_catalogues::UserCatalogues;
@@ -9,6 +9,8 @@ use creepage::Result;
 use creepage::discrepancy::check::check_aligned;
 use creepage::discrepancy::identifiability::Checked;
 use creepage::discrepancy::rendering::check_text::check_text;
+use creepage::discrepancy::rendering::html::check_page::check_html;
+use creepage::files::write_all_or_nothing;
 use creepage::model::Model;
 use std::path::PathBuf;
 
@@ -17,6 +19,7 @@ use std::path::PathBuf;
 #[command(after_help = "\
 Examples:
   creepage check examples/runs/cornering/eights.csv --model examples/runs/cornering/model.toml
+  creepage check RUN.csv --model MODEL.toml --out checked
   creepage check RUN.csv --model MODEL.toml --format json | jq '.effects[] | select(.seen == \"no\") | .id'
 
 For every effect of the library that applies: the standard deviation these runs would give its parameters, the smallest
@@ -34,6 +37,9 @@ pub struct Arguments {
     /// How to print it
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    /// Folder for a page and the answer as JSON: check.html and check.json
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
     #[command(flatten)]
     own: UserCatalogues,
 }
@@ -50,5 +56,9 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let of = Checked { file, runs: &runs, library };
     let answer = check_aligned(&of, arguments.apart.clock_offset, &|p| progress.hear(p))?;
     drop(progress);
+    if let Some(out) = &arguments.out {
+        let page = check_html(&answer, &file.title(), env!("CARGO_PKG_VERSION"));
+        write_all_or_nothing(out, &[("check.html", page.as_bytes()), ("check.json", json(&answer)?.as_bytes())])?;
+    }
     print_answer(&answer, arguments.format, quiet, check_text)
 }

@@ -17,6 +17,12 @@ pub fn pretty(value: &serde_json::Value) -> String {
     format!("{value:#}\n")
 }
 
+/// An answer as JSON.
+pub fn json<T: Serialize>(answer: &T) -> Result<String> {
+    let json = serde_json::to_string_pretty(answer).map_err(|e| Error::run(format!("no JSON: {e}")))?;
+    Ok(format!("{json}\n"))
+}
+
 /// An answer: as JSON, or as text unless nothing but errors is to be printed.
 pub fn print_answer<T: Serialize>(
     answer: &T,
@@ -25,10 +31,7 @@ pub fn print_answer<T: Serialize>(
     text: impl FnOnce(&T) -> String,
 ) -> Result<()> {
     match format {
-        Format::Json => {
-            let json = serde_json::to_string_pretty(answer).map_err(|e| Error::run(format!("no JSON: {e}")))?;
-            print(&format!("{json}\n"))
-        }
+        Format::Json => print(&json(answer)?),
         Format::Text if !quiet => print(&text(answer)),
         Format::Text => Ok(()),
     }

@@ -30,14 +30,24 @@ def discovered(folder: str, out: pathlib.Path, model: str | None = None) -> path
 
 @pytest.fixture(scope="session")
 def reports(tmp_path_factory: pytest.TempPathFactory) -> dict[str, pathlib.Path]:
-    """A page with one cause found, one with nothing missing, and one of data that cannot be used."""
+    """Pages: causes found, nothing missing, data that cannot be used, a check, a fleet."""
     text = (RUNS / "cornering/model.toml").read_text()
     # Wheels a thousand times as large, as if their radius were in millimetres.
     unusable = text.replace("wheel_radius = 0.1", "wheel_radius = 100.0")
     assert unusable != text
     made = {"found": ("cornering", None), "nothing": ("nothing", None), "unusable": ("cornering", unusable)}
     made["track"] = ("track", None)
-    return {name: discovered(folder, tmp_path_factory.mktemp(name), model) for name, (folder, model) in made.items()}
+    pages = {name: discovered(folder, tmp_path_factory.mktemp(name), model) for name, (folder, model) in made.items()}
+    out = tmp_path_factory.mktemp("check")
+    subprocess.run(
+        [CREEPAGE, "-q", "check", RUNS / "cornering/eights.csv", "--model", RUNS / "cornering/model.toml", "--out", out], check=True
+    )
+    pages["check"] = out / "check.html"
+    out = tmp_path_factory.mktemp("fleet")
+    subprocess.run([CREEPAGE, "-q", "fleet", "map", ROOT / "examples/fleet/fleet.csv", "--out", out / "rows"], check=True)
+    subprocess.run([CREEPAGE, "-q", "fleet", "join", out / "rows", "--out", out / "fleet"], check=True)
+    pages["fleet"] = out / "fleet/fleet.html"
+    return pages
 
 
 @pytest.fixture(scope="session")

@@ -4,6 +4,7 @@ use crate::reviewed::reviewed;
 use crate::synthetic::{bare, path_picture, pictures, report, residual};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use creepage::discrepancy::rendering::html::check_page::check_html;
 use creepage::discrepancy::rendering::html::{gap_svg, html};
 use creepage::discrepancy::rendering::summary::summary_text;
 use creepage::discrepancy::report::*;
@@ -101,6 +102,33 @@ fn check_harmless(text: &str) {
     }
     let mut words = text.split(|c: char| !c.is_alphanumeric());
     assert!(!words.any(|w| w == "nan" || w == "inf"), "a number that is none is written out");
+}
+
+#[test]
+fn the_page_of_a_check_says_what_the_runs_can_tell() {
+    let home = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/runs/cornering/");
+    let model = creepage::Model::read(format!("{home}model.toml")).unwrap();
+    let eights = creepage::Run::read(format!("{home}eights.csv"), &model).unwrap();
+    let mut told = creepage::check(&model, &[eights]).unwrap();
+    let page = |told: &creepage::Check| {
+        let page = check_html(told, "unicycle", "0.0.0");
+        check_scripts(&page);
+        let (markup, _) = without_scripts(&page);
+        check_well_formed(&markup);
+        check_harmless(&markup);
+        page
+    };
+    let whole = page(&told);
+    for effect in &told.effects {
+        assert!(whole.contains(&format!(">{}<", effect.id)), "{}", effect.id);
+    }
+    assert!(whole.contains(&told.summary) && whole.contains("What to drive next") && !whole.contains("<script"));
+    // Lines to paste come with a button, hostile words stay words, and what is not known is not drawn.
+    told.data.findings[0].mend = Some("[columns]\nx = \"</pre><script>\"".into());
+    told.effects.iter_mut().flat_map(|e| e.parameters.values_mut()).for_each(|p| p.smallest_seen = None);
+    assert!(page(&told).contains("x = &quot;&lt;/pre&gt;&lt;script&gt;&quot;"));
+    (told.effects, told.next_experiment) = (vec![], None);
+    page(&told);
 }
 
 fn check(report: &Report, pictures: &Pictures) -> [String; 2] {

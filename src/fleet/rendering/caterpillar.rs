@@ -11,7 +11,7 @@ const NORMAL_95: f64 = 1.96;
 /// Robots up to which every one has its name beside it.
 const NAMED: usize = 60;
 /// Pixels left of the values, above the first robot, and below the last.
-const MARGINS: [f64; 4] = [124.0, 20.0, 34.0, 48.0];
+const MARGINS: [f64; 4] = [124.0, 20.0, 54.0, 48.0];
 const WIDTH: f64 = 520.0;
 
 /// The plot of a parameter; none where no robot tells it.
@@ -29,7 +29,8 @@ pub fn caterpillar(report: &FleetReport, effect: &str, name: &str, p: &FleetPara
     let axis = Axis::linear(name, &unit, [low * factor, high * factor]).along(size.columns());
     let at = |v: f64| axis.at(v * factor);
     let (top, bottom) = (MARGINS[2], MARGINS[2] + pitch * robots.len() as f64);
-    let mut drawn = band(p, &at, [top, bottom], size.columns());
+    let mut drawn = vec![label("heading", [2.0, 16.0], "start", format!("{effect}, {name}"))];
+    drawn.extend(band(p, &at, [top, bottom], size.columns()));
     drawn.extend(grid(&axis, [top, bottom], size));
     for (i, (robot, v)) in robots.iter().enumerate() {
         let y = top + pitch * (i as f64 + 0.5);

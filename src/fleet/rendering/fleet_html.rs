@@ -2,49 +2,108 @@
 
 use super::caterpillar::caterpillar;
 use super::fleet_text;
-use crate::discrepancy::rendering::html::part::{Cell, figure, holding, numbered, section, table};
+use crate::discrepancy::rendering::html::cards::{card, small};
+use crate::discrepancy::rendering::html::part::{Cell, figure, fold, holding, section, table};
 use crate::discrepancy::rendering::html::{page, policy_head};
-use crate::fleet::report::{FleetParameter, FleetReport, RobotReport};
+use crate::discrepancy::rendering::plain_text::within;
+use crate::effects::{self, Applied, TypicalMotion};
+use crate::fleet::report::{FleetEffect, FleetParameter, FleetReport, RobotReport};
 use crate::number_format::{probability, significant, with_error};
 use crate::picture::svg::Element;
+use crate::wording::{counted, listed_to};
+
+/// Names in a card.
+const NAMED: usize = 6;
 
 /// The report as a self-contained page: no script, no font, no request.
 pub fn fleet_html(report: &FleetReport) -> String {
+    let tables = [
+        (
+            "fleet",
+            "What the fleet needs, in numbers",
+            true,
+            [effects(report), tags(report)].into_iter().flatten().collect(),
+        ),
+        ("robots", "Robot by robot", true, robots(report).into_iter().collect::<Vec<_>>()),
+        ("rest", "What was left out", false, rest(report)),
+    ];
+    let full = tables.into_iter().filter(|(_, _, _, content)| !content.is_empty());
     let main = Element::new("main")
         .child(header(report))
-        .children(section("Robots", figures(report)))
-        .children(section("The fleet", [effects(report), tags(report)].into_iter().flatten().collect()))
-        .children(section("Robot by robot", robots(report).into_iter().collect()))
-        .children(section("What was left out", rest(report)));
-    page(policy_head(&format!("creepage fleet: {}", report.summary), &report.version, false), main)
+        .child(fleet_cards(report))
+        .children(section("Robots, each beside all others", figures(report).into_iter().collect()))
+        .children(full.map(|(id, heading, open, content)| fold(id, heading, open, content)));
+    page(
+        policy_head(&format!("{} — creepage fleet", report.summary.trim_end_matches('.')), &report.version, false),
+        main,
+    )
 }
 
 fn header(report: &FleetReport) -> Element {
     let differ = !(report.odd_robots.is_empty() && report.own_effects.is_empty() && report.odd_runs.is_empty());
-    let (class, word) = if differ { ("verdict", "some differ") } else { ("verdict good", "all alike") };
+    let (class, word) = if differ { ("verdict above", "▲ Some differ") } else { ("verdict good", "✓ All alike") };
     let eyebrow = Element::new("p")
         .with("class", "eyebrow")
         .child(holding("span", word).with("class", class))
-        .text(format!("creepage fleet, {} robots and {} runs", report.robots, report.runs));
+        .text(format!("fleet · {} · {}", counted(report.robots, "robot"), counted(report.runs, "run")));
+    let plain: Vec<String> = report.effects.iter().filter_map(in_the_mean).collect();
+    let lead = (!plain.is_empty()).then(|| format!("In the mean {}", within(&plain.join(" "))));
+    let lead = lead.map(|says| holding("p", says).with("class", "lead"));
     let says = report.odd_robots.iter().map(|o| &o.says).chain(report.own_effects.iter().map(|o| &o.says));
     let says: Vec<Element> = says.chain(report.odd_runs.iter().map(|o| &o.says)).map(|s| holding("li", s)).collect();
     let list = (!says.is_empty()).then(|| Element::new("ul").with("class", "found").children(says));
-    Element::new("header").child(eyebrow).child(holding("h1", &report.summary)).children(list)
+    Element::new("header").child(eyebrow).child(holding("h1", &report.summary)).children(lead).children(list)
+}
+
+/// What the fleet has in the mean, for anyone; nothing of an effect whose sentence needs more than its parameters.
+fn in_the_mean(of: &FleetEffect) -> Option<String> {
+    let (id, on) = of.effect.split_once('@').unwrap_or((&of.effect, ""));
+    let effect = effects::named(id)?;
+    let values =
+        effect.parameters.keys().map(|name| Some(of.parameters.get(name)?.mean?.value)).collect::<Option<_>>()?;
+    let unknown = TypicalMotion { speed: f64::NAN, turning: f64::NAN, until: f64::NAN };
+    let trailer = on.parse().ok();
+    if effect.per_input || (!on.is_empty() && trailer.is_none()) {
+        return None;
+    }
+    Applied::new(effect, trailer, values).in_plain_words(unknown)
+}
+
+fn fleet_cards(report: &FleetReport) -> Element {
+    let odd: Vec<String> = report
+        .odd_robots
+        .iter()
+        .map(|o| o.robot.clone())
+        .chain(report.own_effects.iter().map(|o| o.robot.clone()))
+        .collect();
+    let differ = if odd.is_empty() {
+        "no robot".into()
+    } else {
+        format!("{} of {}", odd.len(), counted(report.robots, "robot"))
+    };
+    let named =
+        if odd.is_empty() { "beyond what chance makes of so many robots".into() } else { listed_to(&odd, NAMED) };
+    let needs: Vec<String> = report.effects.iter().map(|e| e.effect.clone()).collect();
+    let needed = if needs.is_empty() { "no robot's runs ask for one".into() } else { listed_to(&needs, NAMED) };
+    let verdicts: Vec<String> = report.verdicts.iter().map(|(verdict, n)| format!("{n} {verdict}")).collect();
+    Element::new("div").with("class", "cards").children([
+        card("Differ from the others", Some(differ), vec![small(named)]),
+        card("The fleet needs", Some(counted(needs.len(), "effect")), vec![small(needed)]),
+        card("Robots by verdict", Some(counted(report.robots, "robot")), vec![small(verdicts.join(", "))]),
+    ])
 }
 
 fn parameters(report: &FleetReport) -> impl Iterator<Item = (&str, &str, &FleetParameter)> {
     report.effects.iter().flat_map(|e| e.parameters.iter().map(|(name, p)| (e.effect.as_str(), name.as_str(), p)))
 }
 
-fn figures(report: &FleetReport) -> Vec<Element> {
-    let drawn = parameters(report).filter_map(|(effect, name, p)| {
-        let drawing = caterpillar(report, effect, name, p)?;
-        let says = report.effects.iter().find(|e| e.effect == effect).map_or("", |e| e.says.as_str());
-        let how = "Each robot with its 95 % interval beside all others, sorted; the band holds 95 % of robots, a square is a \
-                   robot that differs.";
-        Some(figure(vec![drawing], None, &format!("{effect}, {name}: {says}."), how))
-    });
-    drawn.enumerate().map(|(i, f)| numbered(i + 1, f)).collect()
+/// A plot of every parameter, side by side.
+fn figures(report: &FleetReport) -> Option<Element> {
+    let drawings: Vec<Element> =
+        parameters(report).filter_map(|(effect, name, p)| caterpillar(report, effect, name, p)).collect();
+    let how =
+        "Each robot with its 95 % interval, sorted; the band holds 95 % of robots, a square is a robot that differs.";
+    (!drawings.is_empty()).then(|| figure(drawings, None, "Every value that the fleet needs.", how))
 }
 
 fn effects(report: &FleetReport) -> Option<Element> {

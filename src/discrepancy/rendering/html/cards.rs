@@ -13,17 +13,19 @@ const BEYOND_DOUBT: f64 = 10.0;
 const OUT_OF_NOISE: f64 = 1.5;
 
 /// The cards that have something to say; none where nothing was fitted.
+/// A card: its heading, what stands out, and the rest.
 pub(super) fn cards(report: &Report, pictures: &Pictures) -> Option<Element> {
     let all: Vec<Element> = [error(report), sure(report, pictures), rest(report)].into_iter().flatten().collect();
     (!all.is_empty()).then(|| Element::new("div").with("class", "cards").children(all))
 }
 
-fn card(heading: &str, big: Option<String>, body: Vec<Element>) -> Element {
+pub(crate) fn card(heading: &str, big: Option<String>, body: Vec<Element>) -> Element {
     let big = big.map(|b| holding("p", b).with("class", "big"));
     Element::new("section").with("class", "card").child(holding("h2", heading)).children(big).children(body)
 }
 
-fn small(text: String) -> Element {
+/// Small print.
+pub(crate) fn small(text: String) -> Element {
     holding("p", text).with("class", "small")
 }
 

@@ -171,15 +171,6 @@ fn one_line(effect: &Named) -> Element {
     line.child(holding("span", format!("; not told from {}", rivals.join(", "))).with("class", "rivals"))
 }
 
-/// What to drive next, where the data cannot tell.
-pub fn next_experiment(report: &Report) -> Option<Element> {
-    let next = report.next_experiment.as_ref()?;
-    let body = Element::new("aside").with("class", "next").child(holding("strong", "What to drive next"));
-    let [drive, why] =
-        [&next.manoeuvre, &next.why].map(|text| format!("{}.", plain_text::capitalised(text.trim_end_matches('.'))));
-    Some(body.child(holding("p", drive)).child(holding("p", why)))
-}
-
 #[cfg(test)]
 mod tests {
     use super::{Estimate, parameter, shrinkage};

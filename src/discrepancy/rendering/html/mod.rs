@@ -4,8 +4,9 @@
 //! phone, on a dark screen, on paper and aloud.
 
 mod candidates;
-mod cards;
+pub(crate) mod cards;
 mod change;
+pub mod check_page;
 mod forecast_data;
 mod gap;
 mod head;
@@ -69,7 +70,7 @@ fn page_body(report: &Report, pictures: &Pictures) -> Element {
     Element::new("main")
         .child(head::header(report, pictures))
         .children(cards::cards(report, pictures))
-        .children(change::section(report, pictures))
+        .children(change::section(&pictures.changes, report.next_experiment.as_ref()))
         .children(map)
         .children(story)
         .children(contents(&evidence))

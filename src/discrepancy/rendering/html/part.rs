@@ -28,12 +28,6 @@ pub fn figure(drawings: Vec<Element>, key: Option<Element>, see: &str, how: &str
     Element::new("figure").children(key).child(panels).child(caption)
 }
 
-/// A figure with its number before it.
-pub fn numbered(number: usize, figure: Element) -> Element {
-    let label = holding("p", format!("Figure {number}")).with("class", "number");
-    Element::new("div").with("class", "numbered").child(label).child(figure)
-}
-
 /// A cell of a table.
 pub enum Cell {
     /// Words.

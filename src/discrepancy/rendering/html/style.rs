@@ -89,8 +89,6 @@ details>:nth-child(2){margin-top:20px}
 .words{margin:14px 0 0;max-width:62em}
 .words dt{font-weight:650}
 .words dd{margin:0 0 10px;color:var(--soft)}
-.numbered{margin:34px 0 0}
-.numbered .number{margin:0 0 6px;font-size:13px;font-weight:650;color:var(--soft)}
 figure{margin:0 0 22px}
 figcaption{max-width:62em;margin-top:8px;font-size:15px;color:var(--soft)}
 figcaption strong{color:var(--ink);font-weight:600}
@@ -157,8 +155,8 @@ nav,.tools,input[type=range],.tabs,.copy,details:not([open]){display:none!import
 .text{display:block!important;break-inside:avoid}
 .text h3{display:block!important;margin:4px 0}
 pre,code,.wide code{font-size:8pt}
-h2,h3,.over,.number,summary{break-after:avoid}
-.card,.numbered,tr,.next,.map,.panels,.weighed{break-inside:avoid}
+h2,h3,.over,summary{break-after:avoid}
+.card,tr,.next,.map,.panels,.weighed{break-inside:avoid}
 .cards{grid-template-columns:1.5fr 1fr 1fr}
 .card h2,.small,.bar,.legend,.read,figcaption,.ends{font-size:8.5pt}
 .big{font-size:15pt}

@@ -42,7 +42,19 @@ pub(super) fn list(report: &Report) -> Element {
     let ids: BTreeSet<&str> = named.chain(report.refuted.iter().map(|r| r.id.as_str())).collect();
     let known = ids.into_iter().filter_map(effects::named);
     let of_effects = known.map(|e| (e.id.clone(), format!("{}; {}", e.says, e.source)));
-    let of_method = METHOD.iter().map(|(word, says)| ((*word).to_string(), (*says).to_string()));
+    entries(method().chain(of_effects))
+}
+
+/// The words of the method alone.
+pub(super) fn of_method() -> Element {
+    entries(method())
+}
+
+fn method() -> impl Iterator<Item = (String, String)> {
+    METHOD.iter().map(|(word, says)| ((*word).to_string(), (*says).to_string()))
+}
+
+fn entries(all: impl Iterator<Item = (String, String)>) -> Element {
     let entry = |(word, says): (String, String)| [holding("dt", word), holding("dd", says)];
-    Element::new("dl").with("class", "words").children(of_method.chain(of_effects).flat_map(entry))
+    Element::new("dl").with("class", "words").children(all.flat_map(entry))
 }

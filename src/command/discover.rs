@@ -3,12 +3,14 @@
 use super::output::{Format, print};
 use super::progress::ProgressLine;
 use super::runs;
+use super::terminal;
 use super::user_catalogues::UserCatalogues;
+use crate::discrepancy::rendering::patched_state::State;
 use clap::Args;
 use creepage::discrepancy::discover::discover_aligned;
 use creepage::discrepancy::discovery::Discovery;
 use creepage::discrepancy::rendering::html::{gap_svg, html};
-use creepage::discrepancy::rendering::summary::summary_text;
+use creepage::discrepancy::rendering::summary::summary_text_in;
 use creepage::discrepancy::report::Verdict;
 use creepage::discrepancy::request::Request;
 use creepage::files::{ModelFile, VEHICLES_FILE, write_all_or_nothing};
@@ -148,5 +150,6 @@ fn screen(found: &Discovery, out: &Path) -> String {
         false => "report.html, report.json and gap.svg",
     };
     let written = format!("{files} are in {}\n", out.display());
-    format!("{}{written}", summary_text(&found.report))
+    let text = summary_text_in(&found.report, terminal::columns());
+    format!("{}{written}", terminal::headed(&text, State::of(&found.report)))
 }

@@ -18,6 +18,7 @@ mod runs;
 mod simulate;
 mod stage_text;
 mod sweep;
+mod terminal;
 mod user_catalogues;
 mod verify;
 

@@ -60,7 +60,7 @@ impl Element {
     pub fn haloed(mut self) -> Self {
         let with_halo = |child: Child| match child {
             Child::Element(text) if text.name == "text" => {
-                vec![Child::Element(text.clone().as_halo()), Child::Element(text)]
+                vec![Child::Element(text.clone().into_halo()), Child::Element(text)]
             }
             Child::Element(other) => vec![Child::Element(other.haloed())],
             other => vec![other],
@@ -70,7 +70,7 @@ impl Element {
     }
 
     /// The halo of a text, which nobody reads twice.
-    fn as_halo(mut self) -> Self {
+    fn into_halo(mut self) -> Self {
         match self.attributes.iter_mut().find(|(name, _)| *name == "class") {
             Some((_, class)) => *class = format!("{class} halo").trim_start().to_string(),
             None => self.attributes.push(("class", "halo".into())),

@@ -12,6 +12,7 @@ pub mod html;
 pub mod manoeuvre_text;
 pub(crate) mod odd_run_text;
 pub(crate) mod other_vehicle_text;
+pub(crate) mod patched_state;
 pub(crate) mod plain_text;
 pub(crate) mod pose_filter_text;
 pub(crate) mod reason_text;

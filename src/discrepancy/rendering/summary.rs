@@ -66,8 +66,14 @@ pub fn why(rival: &Rival) -> &str {
 
 /// The one-screen summary: at most 24 lines of 80 columns, without control characters.
 pub fn summary_text(report: &Report) -> String {
+    summary_text_in(report, COLUMNS)
+}
+
+/// The same in so many columns; tables stay as wide as they are.
+pub fn summary_text_in(report: &Report, columns: usize) -> String {
+    let wrapped = |text: &str, indent: usize, most: usize| wrapped_in(columns.max(COLUMNS), text, indent, most);
     let mut lines = wrapped(&format!("{}: {}", verdict_name(report.verdict), verdict_sentence(report)), 0, 4);
-    lines.extend(effect_lines(&report.effects));
+    lines.extend(effect_lines(&report.effects, &wrapped));
     lines.extend(
         report
             .unnamed
@@ -81,26 +87,29 @@ pub fn summary_text(report: &Report) -> String {
         tail.push(String::new());
         tail.extend(wrapped(&format!("Next: {}: {}", next.manoeuvre, next.why), 0, 5));
     }
-    tail.extend(data_lines(report));
+    tail.extend(data_lines(report, &wrapped));
     lines.truncate(LINES - gap.len() - tail.len());
     lines.extend(gap);
     lines.extend(tail);
-    lines.iter().map(|line| format!("{}\n", clean(line))).collect()
+    lines.iter().map(|line| format!("{}\n", clean(line, columns.max(COLUMNS)))).collect()
 }
 
 /// A line without control characters, cut to the terminal's columns.
-fn clean(line: &str) -> String {
+fn clean(line: &str, columns: usize) -> String {
     let printable: String = line.chars().map(|c| if c.is_control() { '?' } else { c }).collect();
-    cut(printable.trim_end(), COLUMNS)
+    cut(printable.trim_end(), columns)
 }
 
-/// Words in lines of at most 80 columns, the first `indent` deep and the others two deeper.
-fn wrapped(text: &str, indent: usize, most: usize) -> Vec<String> {
+/// Words in lines, the first so deep and the others two deeper, and how many lines at most.
+type Wrap<'a> = &'a dyn Fn(&str, usize, usize) -> Vec<String>;
+
+/// Words in lines of so many columns, the first `indent` deep and the others two deeper.
+fn wrapped_in(columns: usize, text: &str, indent: usize, most: usize) -> Vec<String> {
     let mut lines = vec![" ".repeat(indent)];
     for word in text.split_whitespace() {
         let line = lines.last_mut().expect("one line at least");
         let empty = line.trim().is_empty();
-        if !empty && line.chars().count() + 1 + word.chars().count() > COLUMNS {
+        if !empty && line.chars().count() + 1 + word.chars().count() > columns {
             lines.push(format!("{}{word}", " ".repeat(indent + 2)));
         } else {
             line.push_str(if empty { "" } else { " " });
@@ -114,12 +123,12 @@ fn wrapped(text: &str, indent: usize, most: usize) -> Vec<String> {
     lines
 }
 
-fn effect_lines(effects: &[Named]) -> Vec<String> {
+fn effect_lines(effects: &[Named], wrapped: Wrap) -> Vec<String> {
     if effects.is_empty() {
         return Vec::new();
     }
     let mut lines = vec![String::new(), row("effect", "parameter", "value ± std", "unit", "ΔBIC")];
-    lines.extend(effects.iter().take(3).flat_map(one_effect));
+    lines.extend(effects.iter().take(3).flat_map(|e| one_effect(e, wrapped)));
     if effects.len() > 3 {
         let others: Vec<&str> = effects[3..].iter().map(|e| e.id.as_str()).collect();
         lines.extend(wrapped(&format!("and {}: see the report", others.join(", ")), 2, 2));
@@ -131,7 +140,7 @@ fn row(effect: &str, parameter: &str, value: &str, unit: &str, bic: &str) -> Str
     format!("  {:<23}{:<15}{:<24}{:<7}{bic:>9}", cut(effect, 22), cut(parameter, 14), cut(value, VALUE), cut(unit, 6))
 }
 
-fn one_effect(effect: &Named) -> Vec<String> {
+fn one_effect(effect: &Named, wrapped: Wrap) -> Vec<String> {
     let bic = significant(effect.evidence.delta_bic, 3);
     let mut lines: Vec<String> = Vec::new();
     for (name, estimate) in effect.parameters.iter().take(3) {
@@ -230,7 +239,7 @@ fn reason(why_dropped: &BTreeMap<String, usize>) -> String {
     }
 }
 
-fn data_lines(report: &Report) -> Vec<String> {
+fn data_lines(report: &Report, wrapped: Wrap) -> Vec<String> {
     let data = &report.data;
     let runs = if data.runs == 1 { "1 run".to_string() } else { format!("{} runs", data.runs) };
     let mut lines = vec![
@@ -271,6 +280,7 @@ mod tests {
 
     #[test]
     fn lines_are_as_full_as_they_may_be() {
+        let wrapped = |text: &str, indent: usize, most: usize| wrapped_in(COLUMNS, text, indent, most);
         let text = |first: usize| format!("{} {}", "a".repeat(first), "b".repeat(COLUMNS - first - 1));
         // One blank, and to the column all that a line holds.
         assert_eq!(wrapped(&text(60), 0, 9), [text(60)]);

@@ -1,7 +1,7 @@
 //! The top of the page: the state, what was driven, the sentence, and what was found in one line each.
 
 use super::part::holding;
-use super::state::{self, State};
+use crate::discrepancy::rendering::patched_state::{self, State};
 use crate::discrepancy::rendering::summary::{verdict_sentence, why};
 use crate::discrepancy::rendering::{plain_text, title_text};
 use crate::discrepancy::report::{Driving, Estimate, Named, OddRun, Pictures, Report, Verdict};
@@ -64,7 +64,7 @@ fn unbroken(name: &'static str, text: &str) -> Element {
 
 fn eyebrow(report: &Report, pictures: &Pictures) -> Element {
     let state = State::of(report);
-    let pill = holding("span", format!("{} {}", state.mark(), state::name(report)))
+    let pill = holding("span", format!("{} {}", state.mark(), patched_state::name(report)))
         .with("class", format!("verdict {}", state.class()));
     let vehicle = Some(pictures.vehicle.clone()).filter(|v| !v.is_empty());
     let data = &report.data;

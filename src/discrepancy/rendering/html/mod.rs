@@ -16,7 +16,6 @@ mod paths;
 mod residuals;
 mod runs;
 mod script;
-mod state;
 mod story;
 mod style;
 mod tables;

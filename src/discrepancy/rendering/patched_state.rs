@@ -8,7 +8,7 @@ const WORSE: f64 = 1.05;
 
 /// How far a user may build on the patched model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum State {
+pub(crate) enum State {
     /// It explains the runs to their noise.
     AtFloor,
     /// Something remains above the noise, or cannot be told.
@@ -48,7 +48,7 @@ impl State {
 }
 
 /// What was found and how far it goes, in a few words.
-pub(super) fn name(report: &Report) -> String {
+pub(crate) fn name(report: &Report) -> String {
     let causes = report.effects.len();
     let rest = match State::of(report) {
         State::AtFloor => "only noise is left",

@@ -42,7 +42,9 @@ pub(super) fn list(report: &Report) -> Element {
     let ids: BTreeSet<&str> = named.chain(report.refuted.iter().map(|r| r.id.as_str())).collect();
     let known = ids.into_iter().filter_map(effects::named);
     let of_effects = known.map(|e| (e.id.clone(), format!("{}; {}", e.says, e.source)));
-    entries(method().chain(of_effects))
+    // Where nothing was judged, no word of judging comes up.
+    let judged = !report.gap.is_empty();
+    entries(method().filter(|(word, _)| judged || word.ends_with("constraint")).chain(of_effects))
 }
 
 /// The words of the method alone.

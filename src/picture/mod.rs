@@ -15,6 +15,8 @@
 //! ```
 
 pub mod axis;
+#[cfg(feature = "drawings")]
+pub mod converted;
 pub mod decimate;
 pub mod maths;
 pub mod plot;

@@ -205,3 +205,30 @@ fn drawings() {
         ],
     );
 }
+
+/// Figures as PDF and PNG where the program has the feature; where it has not, a message that says how to get it.
+#[test]
+fn drawings_as_pdf_and_png() {
+    let folder = TempDir::new().unwrap();
+    let asked = |form: &str| {
+        let arguments = ["figures", "fig1", "fig7", "--format", form, "--out", "out"];
+        Command::new(env!("CARGO_BIN_EXE_creepage")).args(arguments).current_dir(folder.path()).output().unwrap()
+    };
+    for (form, magic) in [("pdf", &b"%PDF-"[..]), ("png", b"\x89PNG\r\n")] {
+        let output = asked(form);
+        if cfg!(feature = "drawings") {
+            assert!(output.status.success(), "{output:?}");
+            let read = |name: &str| std::fs::read(folder.path().join("out").join(name)).unwrap();
+            for figure in ["fig1", "fig7"] {
+                let drawn = read(&format!("{figure}.{form}"));
+                // A sheet with nothing on it would be smaller.
+                assert!(drawn.starts_with(magic) && drawn.len() > 8_000, "{figure}.{form}: {} bytes", drawn.len());
+            }
+            assert!(!folder.path().join("out/fig1.svg").exists() && !read("fig1.csv").is_empty());
+        } else {
+            assert_eq!(output.status.code(), Some(2), "{output:?}");
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert!(said.contains("--features drawings") && !folder.path().join("out").exists(), "{said}");
+        }
+    }
+}

@@ -26,6 +26,7 @@ def test_the_missing_effect_is_named_with_its_value(found: cp.Discovery) -> None
     (effect,) = found.effects
     slide = effect.parameters["mass_over_bT"]
     assert effect.id == "cornering-creep" and slide.unit == "s" and slide.std is not None
+    assert effect.plain.startswith("In turns the robot slides outwards: 8.")
     assert abs(slide.value - 0.11) < 4 * slide.std
     last = [gap for gap in found.gap if gap.held_out][1]
     assert last.horizon_s == 5.0 and last.position_after < 0.1 * last.position_before

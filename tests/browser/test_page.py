@@ -69,6 +69,7 @@ def test_a_phone_shows_all_of_it_without_moving_sideways(look: Open, name: str) 
       && e.tagName !== 'SCRIPT' && e.getBoundingClientRect().right > 391
       && !e.closest('svg svg') && !e.closest('pre')).map(e => e.tagName + ' ' + e.textContent.slice(0, 40))"""
     assert page.evaluate(beyond) == []
+    SHOTS.mkdir(parents=True, exist_ok=True)
     # A finger needs 24 px at least (WCAG 2.2, 2.5.8).
     small = """() => Array.from(document.querySelectorAll('button, select, input')).filter(e => e.checkVisibility()
       && Math.min(e.getBoundingClientRect().height, e.getBoundingClientRect().width) < 24).map(e => e.id)"""
@@ -180,8 +181,9 @@ def test_without_its_script_the_page_says_the_same(look: Open, name: str) -> Non
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_on_paper_it_is_a_few_full_pages(look: Open, name: str, tmp_path: pathlib.Path) -> None:
+def test_on_paper_it_is_a_few_full_pages(look: Open, name: str) -> None:
     page = look(name)
-    page.pdf(path=tmp_path / "page.pdf", format="A4")
-    sheets = len(re.findall(rb"/Type\s*/Page\b", (tmp_path / "page.pdf").read_bytes()))
+    SHOTS.mkdir(parents=True, exist_ok=True)
+    page.pdf(path=SHOTS / f"{name}.pdf", format="A4")
+    sheets = len(re.findall(rb"/Type\s*/Page\b", (SHOTS / f"{name}.pdf").read_bytes()))
     assert (1 if name in ("unusable", "fleet") else 2) <= sheets <= 4

@@ -229,6 +229,66 @@ fn the_drawing_says_in_its_title_what_shrank() {
     assert!(page.contains(&on_page), "the page says it, too: {on_page}");
 }
 
+/// The heading is for anyone; what the report's own sentence says beyond its effects is not lost.
+#[test]
+fn the_heading_says_what_was_found_and_nothing_less() {
+    let heading = |report: &Report| {
+        let [page, _] = check(report, &pictures());
+        let (_, after) = page.split_once("<h1>").unwrap();
+        after.split_once("</h1>").unwrap().0.to_string()
+    };
+    let mut found = report();
+    let plain = format!("{}.", found.effects[0].plain);
+    found.summary = format!("{} (cornering-creep).", found.effects[0].plain);
+    assert_eq!(heading(&found), plain);
+    found.summary = "The model misses cornering-creep; what else remains differs between parts.".into();
+    assert!(heading(&found).contains("what else remains differs"), "{}", heading(&found));
+    // A run that differs is told first, and counts as a cause.
+    let odd = OddRun {
+        run: "c.csv".into(),
+        id: "track-width".into(),
+        parameters: Default::default(),
+        others: Default::default(),
+        plain: "The wheels stand 3.0 % further apart than the model says".into(),
+        says: "c.csv differs".into(),
+    };
+    found.odd_runs = vec![odd];
+    let both = heading(&found);
+    assert!(
+        both.starts_with("In c.csv the wheels stand 3.0 % further apart") && both.contains("In the others in turns"),
+        "{both}"
+    );
+    found.effects.clear();
+    let [page, _] = check(&found, &pictures());
+    assert!(page.contains("Found 1 cause") && page.contains("1 run unlike the others"), "{both}");
+}
+
+/// The mark and the colour are those of the patched model.
+#[test]
+fn the_state_is_that_of_the_patched_model() {
+    let class = |report: &Report| {
+        let [page, _] = check(report, &pictures());
+        page.split("<span class=\"verdict ").nth(1).unwrap().split('"').next().unwrap().to_string()
+    };
+    let mut found = report();
+    assert_eq!(class(&found), "good");
+    let remains = Remains {
+        ratio: 5.0,
+        place: "yaw rate".into(),
+        from: 1.0,
+        to: 2.0,
+        regime: "reverse".into(),
+        says: "held-out error is 5.0 times the noise".into(),
+    };
+    found.remains = Some(remains);
+    assert_eq!(class(&found), "above");
+    let judged = found.gap[1].held_out.as_mut().unwrap();
+    judged.position_rms_after = 1.2 * judged.position_rms_before;
+    assert_eq!(class(&found), "bad");
+    assert_eq!(class(&bare(Verdict::UnusableData)), "bad");
+    assert_eq!(class(&bare(Verdict::NotIdentifiable)), "above");
+}
+
 /// Where nothing can be said the warnings say why, before any picture; elsewhere they wait at the end.
 #[test]
 fn the_reason_for_no_answer_stands_at_the_top() {

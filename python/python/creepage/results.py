@@ -42,6 +42,7 @@ class Effect:
     scope: str | None
     on: str | None
     equation: str
+    plain: str = ""
 
 
 @dataclass(frozen=True)
@@ -72,6 +73,7 @@ def _effect(found: dict[str, Any]) -> Effect:
         scope=(found.get("scope") or {}).get("says"),
         on=found.get("on"),
         equation=found.get("equation", ""),
+        plain=found.get("plain", ""),
     )
 
 

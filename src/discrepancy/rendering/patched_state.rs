@@ -49,7 +49,7 @@ impl State {
 
 /// What was found and how far it goes, in a few words.
 pub(crate) fn name(report: &Report) -> String {
-    let causes = report.effects.len();
+    let causes = report.effects.len() + report.odd_runs.len();
     let rest = match State::of(report) {
         State::AtFloor => "only noise is left",
         State::Above => "something remains",

@@ -60,6 +60,10 @@ fn sure(report: &Report, pictures: &Pictures) -> Option<Element> {
     if report.verdict == Verdict::UnusableData {
         return None;
     }
+    if report.effects.is_empty() && !report.odd_runs.is_empty() {
+        let says = report.odd_runs.iter().map(|o| small(format!("{}.", o.says))).collect();
+        return Some(card(heading, Some(format!("{} unlike the others", counted(report.odd_runs.len(), "run"))), says));
+    }
     if report.effects.is_empty() {
         let best = pictures.candidates.iter().map(|c| c.delta_bic).filter(|b| b.is_finite()).reduce(f64::max)?;
         let weighed = format!("{} weighed", counted(pictures.candidates.len(), "effect"));

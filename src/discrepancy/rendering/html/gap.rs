@@ -5,7 +5,7 @@ use super::part;
 use crate::discrepancy::report;
 use crate::discrepancy::report::{BeforeAfter, GapCurve, Pictures, Report};
 use crate::discrepancy::report::{judged, judged_alike, middle};
-use crate::number_format::{plain, prefixed};
+use crate::number_format::{plain, prefixed, significant};
 use crate::picture::axis::{Axis, extent};
 use crate::picture::plot::{Marker, Panel, Size};
 use crate::picture::svg::{Element, label, line, path};
@@ -81,16 +81,32 @@ pub fn panel(report: &Report, curve: &GapCurve, axes: Axes, size: Size, id: &str
         shrink_arrow(&mut panel, report, curve);
     }
     panel.heading("Position error over horizon", &format!("{} data", data_name(report)));
-    let description = "RMS position error of prediction over the horizon: the model as given, the patched model and the \
-                       floor that measurement noise makes.";
-    Some(panel.finish(id, "Position error over the horizon", description))
+    let description = described(curve, "m");
+    Some(panel.finish(id, "Position error over the horizon", &description))
 }
 
 fn heading_panel(report: &Report, curve: &GapCurve) -> Option<Element> {
     let mut panel = drawn(curve, ("heading error", "rad"), Axes::Log, SIZE)?;
     panel.heading("Heading error over horizon", &format!("{} data", data_name(report)));
-    let description = "RMS heading error of prediction over the horizon, before and after, and the noise floor.";
-    Some(panel.finish("gap-heading", "Heading error over the horizon", description))
+    Some(panel.finish("gap-heading", "Heading error over the horizon", &described(curve, "rad")))
+}
+
+/// What a curve shows, with its numbers at both ends.
+fn described(curve: &GapCurve, base: &str) -> String {
+    let at = |i: usize| {
+        let values = [curve.before[i], curve.after[i], curve.floor[i]];
+        let (factor, unit) = prefixed(values.into_iter().filter(|v| v.is_finite()).fold(0.0, f64::max), base);
+        let [before, after, floor] = values.map(|v| significant(v * factor, 2));
+        let horizon = plain(curve.horizon[i]);
+        format!(
+            "{horizon} s ahead the model as given errs by {before} {unit}, the patched one by {after}, noise makes {floor}"
+        )
+    };
+    match curve.horizon.len() {
+        0 => String::new(),
+        1 => format!("{}.", at(0)),
+        n => format!("{}; {}.", at(0), at(n - 1)),
+    }
 }
 
 fn drawn(curve: &GapCurve, (name, base): (&str, &str), axes: Axes, size: Size) -> Option<Panel> {

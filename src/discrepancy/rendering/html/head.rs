@@ -19,13 +19,15 @@ pub fn header(report: &Report, pictures: &Pictures) -> Element {
         .children(reasons(report))
 }
 
-/// What was found, for anyone: the effects' own sentences where they are all there is to say.
+/// What was found, for anyone: the effects' own sentences where the report's sentence is made of them.
 pub fn sentence(report: &Report) -> String {
+    let composed = plain_text::sentences_with_ids(&report.effects);
+    let is_composed = report.summary.is_empty() || report.summary.starts_with(composed.trim_end_matches('.'));
     let plain = report.verdict == Verdict::MissingEffect
         && report.odd_runs.is_empty()
         && !report.effects.is_empty()
         && report.effects.iter().all(|e| !e.plain.is_empty());
-    if plain { plain_text::sentences(&report.effects) } else { odd_or_whole(report) }
+    if plain && is_composed { plain_text::sentences(&report.effects) } else { odd_or_whole(report) }
 }
 
 /// The sentence of runs that differ, or else the report's own without the lines to paste, which stand below it.

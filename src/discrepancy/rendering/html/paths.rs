@@ -2,6 +2,7 @@
 
 use super::part;
 use crate::discrepancy::report::{PathPicture, Pictures};
+use crate::number_format::{prefixed, significant};
 use crate::picture::axis::{Axis, equal_aspect, extent, widened};
 use crate::picture::plot::{Key, Marker, Panel, Size};
 use crate::picture::svg::{Element, cut};
@@ -76,7 +77,26 @@ pub fn panel(run: &PathPicture, size: Size, close_up: bool, id: &str) -> Option<
     let remark = [if run.held_out { "held out" } else { "fitted" }, if near.is_some() { ", close-up" } else { "" }];
     panel.heading(&run.run, &remark.concat());
     let title = format!("Path of {}", cut(&run.run, 60));
-    Some(panel.finish(id, &title, "Seen from above: the measured path, the model as given and the patched model."))
+    Some(panel.finish(id, &title, &described(run, whole)))
+}
+
+/// What a run seen from above shows, with its numbers.
+fn described(run: &PathPicture, [x, y]: [[f64; 2]; 2]) -> String {
+    let [wide, high] = [x, y].map(|[from, to]| significant(to - from, 2));
+    let size = format!("Seen from above, {wide} m by {high} m");
+    let apart = run.before.iter().zip(&run.after).filter_map(|(a, b)| Some((a.last()?, b.last()?)));
+    let apart = apart.map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1])).filter(|d| d.is_finite()).fold(0.0, f64::max);
+    match (run.before.is_empty(), run.after.is_empty()) {
+        (true, _) => format!("{size}: the measured path."),
+        (_, true) => format!("{size}: the measured path and the model as given."),
+        _ => {
+            let (factor, unit) = prefixed(apart, "m");
+            format!(
+                "{size}: the model as given and the patched one part by {} {unit} at most.",
+                significant(apart * factor, 2)
+            )
+        }
+    }
 }
 
 fn restarts(run: &PathPicture) -> Vec<[f64; 2]> {

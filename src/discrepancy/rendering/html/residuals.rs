@@ -53,10 +53,13 @@ fn chosen<'a>(all: &[&'a ResidualPicture]) -> Vec<&'a ResidualPicture> {
 fn panel(r: &ResidualPicture, id: &str) -> Element {
     let size = Size { width: WIDTH, height: TOP + 2.0 * STRIP + 6.0, margins: [0.0; 4] };
     let title = format!("Violation of the {} in {}", cut(&r.constraint, 40), cut(&r.run, 40));
+    let most = |values: &[f64]| values.iter().map(|v| v.abs()).filter(|v| v.is_finite()).fold(0.0, f64::max);
+    let [before, after] = [&r.before, &r.after].map(|v| significant(most(v), 2));
     let description = format!(
-        "Before above, after below, on one scale; the band is twice the noise, {} {}.",
+        "At most {before} {unit} before, above, and {after} {unit} after, below, on one scale; the band is twice the noise, \
+         {} {unit}.",
         significant(2.0 * r.noise, 2),
-        r.unit
+        unit = r.unit
     );
     let strips = [("before", "model as given", &r.before), ("after", "patched model", &r.after)];
     let strip = |(i, (class, name, values)): (usize, (&str, &str, &Vec<f64>))| {

@@ -8,6 +8,7 @@ use super::diagnosis::forecasts::forecasts;
 use super::diagnosis::held_out::{Judge, refuted};
 use super::diagnosis::reason::Reason;
 use super::diagnosis::rest::rest;
+use super::diagnosis::scope_spans::Gates;
 use super::diagnosis::verdict::{self, Outcome};
 use super::diagnosis::warning::Warning;
 use super::diagnosis::{contradictions, plausibility};
@@ -160,9 +161,10 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
     };
     let report = report(request, &data, outcome.verdict, found, clocks);
     let added = selected.chosen.iter().filter(|_| usable).map(|c| c.applied.entry()).collect();
+    let chosen: Vec<Applied> = selected.chosen.iter().map(|c| c.applied.clone()).collect();
     let pictures = Pictures {
         driving: Some(driving),
-        forecasts: forecasts(&comparison, middle(&report.gap)),
+        forecasts: forecasts(&comparison, middle(&report.gap), &Gates::of(&model, &chosen)?),
         ..figure_data::pictures(&data, &selected, &report, &comparison, [&before, &after])
     };
     Ok(Discovery { report, pictures, added, pose_filter: None })

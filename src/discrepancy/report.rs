@@ -738,6 +738,8 @@ pub struct Forecast {
     pub ahead: f64,
     /// What noise alone makes of such an error, m.
     pub floor: f64,
+    /// From when until when an effect holds that holds in part, s.
+    pub scoped: Vec<[f64; 2]>,
     /// Times of the places, s.
     pub time: Vec<f64>,
     /// Measured x, y and heading there.

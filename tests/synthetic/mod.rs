@@ -136,6 +136,7 @@ pub fn forecast(run: &str, held_out_from: f64) -> Forecast {
         held_out_from,
         ahead: 2.0,
         floor: 0.009,
+        scoped: vec![],
         pose: places.iter().map(|t| [at(*t)[0], at(*t)[1], 0.3 * t]).collect(),
         paths: places
             .iter()

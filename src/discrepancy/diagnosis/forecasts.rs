@@ -1,6 +1,7 @@
 //! Forecasts: where the model as given and the patched one would be some seconds ahead, from many places of every run.
 
 use super::before_after::{ModelComparison, Rollouts};
+use super::scope_spans::Gates;
 use crate::discrepancy::report::{Forecast, Gap};
 use crate::discrepancy::shooting::rollout::Rollout;
 use crate::model::observation::{BODY_HEADING, PLACE};
@@ -14,13 +15,13 @@ const MOST_PLACES: usize = 400;
 const POINTS: usize = 10;
 
 /// The forecasts of every run as far ahead as a gap, the one first of which the patched model leaves most.
-pub(crate) fn forecasts(of: &ModelComparison, gap: Option<&Gap>) -> Vec<Forecast> {
+pub(crate) fn forecasts(of: &ModelComparison, gap: Option<&Gap>, gates: &Gates) -> Vec<Forecast> {
     let Some(gap) = gap else { return vec![] };
     let runs = of.fitted[0].each().len() + of.held_out[0].each().len();
     let places = (PLACES[0] / runs.max(1)).clamp(PLACES[1], MOST_PLACES);
     let each = |[before, after]: &[Rollouts; 2]| -> Vec<Forecast> {
         let both: Vec<_> = before.each().iter().zip(after.each()).collect();
-        both.par_iter().filter_map(|(b, a)| forecast([b, a], gap, places)).collect()
+        both.par_iter().filter_map(|(b, a)| forecast([b, a], gap, places, gates)).collect()
     };
     let held_out = each(&of.held_out).into_iter().map(|f| Forecast { held_out_from: f64::NEG_INFINITY, ..f });
     let mut found = joined(each(&of.fitted), held_out);
@@ -37,6 +38,7 @@ fn joined(fitted: Vec<Forecast>, held_out: impl Iterator<Item = Forecast>) -> Ve
         match before {
             Some(run) => {
                 run.held_out_from = begins;
+                run.scoped.extend(part.scoped);
                 run.time.extend(part.time);
                 run.pose.extend(part.pose);
                 run.paths.extend(part.paths);
@@ -55,7 +57,7 @@ fn remaining(of: &Forecast) -> f64 {
 }
 
 /// Forecasts of both models along a run; none of a run that is no longer than they look ahead.
-fn forecast(both: [&Rollout; 2], gap: &Gap, places: usize) -> Option<Forecast> {
+fn forecast(both: [&Rollout; 2], gap: &Gap, places: usize, gates: &Gates) -> Option<Forecast> {
     let (rows, time) = both[0].rows();
     let every = (time[rows.end - 1] - time[rows.start]) / places as f64;
     let mut next = time[rows.start];
@@ -77,6 +79,7 @@ fn forecast(both: [&Rollout; 2], gap: &Gap, places: usize) -> Option<Forecast> {
         held_out_from: f64::INFINITY,
         ahead: gap.horizon_s,
         floor: gap.noise_floor.position_rms,
+        scoped: gates.spans(both[0], &at),
         ..Forecast::default()
     };
     for i in at {

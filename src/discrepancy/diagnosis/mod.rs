@@ -10,5 +10,6 @@ pub(crate) mod held_out;
 pub(crate) mod plausibility;
 pub mod reason;
 pub(crate) mod rest;
+pub(crate) mod scope_spans;
 pub mod verdict;
 pub mod warning;

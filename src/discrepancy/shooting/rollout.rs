@@ -180,6 +180,14 @@ impl<'a> Rollout<'a> {
         (self.record.rows.clone(), &self.record.time)
     }
 
+    /// The inputs at a row, and their rates.
+    pub fn inputs(&self, i: usize) -> (Vec<f64>, Vec<f64>) {
+        let channels = self.record.signals.channels();
+        let (mut u, mut slope) = (vec![0.0; channels], vec![0.0; channels]);
+        self.record.signals.at(self.record.time[i], &mut u, &mut slope);
+        (u, slope)
+    }
+
     /// The name of the run.
     pub fn name(&self) -> &str {
         &self.record.name

@@ -135,9 +135,8 @@
     if (run.held !== null) {
       make(g, 'rect', { class: 'held', x: clip(run.held), y: 4, width: 1000 - clip(run.held), height: 112 });
     }
-    data.times.forEach(([from, until]) => {
-      const [a, b] = [from === null ? 0 : clip(from), until === null ? 1000 : clip(until)];
-      if (b > a) make(g, 'rect', { class: 'scope', x: a, y: 4, width: b - a, height: 112 });
+    run.scoped.forEach(([from, until]) => {
+      make(g, 'rect', { class: 'scope', x: clip(from), y: 4, width: clip(until) - clip(from), height: 112 });
     });
     if (run.floor !== null) {
       make(g, 'line', { class: 'line floor', x1: 0, x2: 1000, y1: y(run.floor), y2: y(run.floor) });

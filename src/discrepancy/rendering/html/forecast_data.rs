@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 /// The block of data: every run, and where and when effects hold in part.
 pub(super) fn block(report: &Report, forecasts: &[Forecast]) -> Element {
-    let data = json!({ "runs": forecasts.iter().map(run).collect::<Vec<_>>(), "patched": is_patched(report), "times": times(report), "disks": disks(report) });
+    let data = json!({ "runs": forecasts.iter().map(run).collect::<Vec<_>>(), "patched": is_patched(report), "disks": disks(report) });
     // A bracket of a name never ends the element.
     let text = data.to_string().replace('<', "\\u003c");
     Element::new("script").with("type", "application/json").with("id", "forecasts").verbatim(text)
@@ -30,6 +30,7 @@ fn run(of: &Forecast) -> Value {
         "held": Some(of.held_out_from.max(of.time[0])).filter(|t| t.is_finite()),
         "floor": Some(of.floor).filter(|f| f.is_finite()),
         "top": top,
+        "scoped": of.scoped,
         "m": points,
         "t": packed(of.time.iter().copied()),
         "x": pose(0), "y": pose(1), "h": pose(2),
@@ -47,16 +48,6 @@ pub(super) fn is_patched(report: &Report) -> bool {
 pub(super) fn top(of: &Forecast) -> f64 {
     let most = of.error.iter().flatten().copied().filter(|e| e.is_finite()).fold(1e-12, f64::max);
     if of.floor.is_finite() { most.max(4.0 * of.floor) } else { most }
-}
-
-/// When effects hold that hold for a time, and what remains: from and until, s.
-pub(super) fn times(report: &Report) -> Vec<[Option<f64>; 2]> {
-    let scopes = report.effects.iter().filter_map(|e| e.scope.as_ref());
-    let of = |s: &crate::discrepancy::report::ScopeFound| -> Vec<[Option<f64>; 2]> {
-        let open = (s.from.is_some() || s.until.is_some()).then_some([s.from, s.until]);
-        open.into_iter().chain(s.intervals.iter().map(|span| span.map(|t| t.is_finite().then_some(t)))).collect()
-    };
-    scopes.flat_map(of).collect()
 }
 
 /// Where effects hold that hold within a disk: x, y and radius, m.

@@ -2,7 +2,7 @@
 //!
 //! What is drawn here stands without a script; the script moves the place, the view and the run.
 
-use super::forecast_data::{self, disks, is_patched, times, top};
+use super::forecast_data::{self, disks, is_patched, top};
 use super::part::holding;
 use crate::discrepancy::report::{Forecast, Pictures, Report};
 use crate::number_format::{decimals, plain, significant};
@@ -35,7 +35,7 @@ pub(super) fn section(report: &Report, pictures: &Pictures) -> Option<Element> {
             .child(holding("h2", heading))
             .child(tools(&pictures.forecasts, is_patched))
             .child(drawn)
-            .child(key(of, is_patched))
+            .child(key(&pictures.forecasts, is_patched))
             .child(
                 holding("p", said(of, worst, is_patched))
                     .with("id", "read")
@@ -185,7 +185,9 @@ fn scale(place: &Placing) -> Element {
         .with("style", format!("width:{}%", fixed(100.0 * step / metres)))
 }
 
-fn key(of: &Forecast, is_patched: bool) -> Element {
+fn key(all: &[Forecast], is_patched: bool) -> Element {
+    let of = &all[0];
+    let is_scoped = all.iter().any(|f| !f.scoped.is_empty());
     let entry = |class: &str, text: String| {
         let swatch = Element::new("i").with("class", format!("swatch {class}"));
         Element::new("span").child(swatch).text(text)
@@ -204,6 +206,7 @@ fn key(of: &Forecast, is_patched: bool) -> Element {
         .children(is_patched.then(|| entry("after", "patched model from there".into())))
         .child(entry("noise", "noise alone".into()))
         .child(entry("kept", "held out".into()))
+        .children(is_scoped.then(|| entry("framed", "when the effect holds".into())))
 }
 
 fn slider(of: &Forecast, at: usize) -> Element {
@@ -223,9 +226,9 @@ fn strip(of: &Forecast, report: &Report, at: usize) -> Element {
     let span = (of.time[of.time.len() - 1] - from).max(1e-9);
     let x = |t: f64| WIDTH * (t - from) / span;
     let [high, low, height] = STRIP;
-    let shaded = times(report).into_iter().filter_map(|[from, until]| {
-        let [a, b] = [from.map_or(0.0, x), until.map_or(WIDTH, x)].map(|v| v.clamp(0.0, WIDTH));
-        (b > a).then(|| rect("scope", [a, high - 4.0], b - a, low - high + 4.0))
+    let shaded = of.scoped.iter().map(|span| {
+        let [a, b] = span.map(|t| x(t).clamp(0.0, WIDTH));
+        rect("scope", [a, high - 4.0], b - a, low - high + 4.0)
     });
     let y = |error: f64| low - (low - high) * error / top;
     let held = of.held_out_from.clamp(from, from + span);

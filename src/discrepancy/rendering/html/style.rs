@@ -66,6 +66,7 @@ ERRORS.robot{fill:var(--ink);stroke:var(--paper);stroke-width:1.5}
 .swatch.start{width:11px;height:11px;border:1.5px solid var(--ink);border-radius:99px}
 .swatch.noise{border-top:3px dotted var(--floor)}
 .swatch.kept{height:12px;border:0;background:var(--band)}
+.swatch.framed{height:12px;border:1px dashed var(--soft);background:var(--band)}
 .held{fill:var(--band);fill-opacity:.55}
 .ramp{display:inline-flex;gap:0;vertical-align:middle;border:1px solid var(--soft);border-radius:3px;overflow:hidden}
 .ramp .step{display:block;width:16px;height:11px}

@@ -16,8 +16,8 @@ pub fn columns() -> usize {
 /// is set.
 pub fn headed(text: &str, state: State) -> String {
     let style = match state {
-        State::AtFloor => Style::new().green(),
-        State::Above => Style::new().yellow(),
+        State::Good => Style::new().green(),
+        State::Doubtful => Style::new().yellow(),
         State::NotUsable => Style::new().red(),
     };
     match text.split_once(':') {
@@ -33,11 +33,11 @@ mod tests {
     #[test]
     fn colours_stand_around_the_first_words_alone_and_only_where_there_are_any() {
         console::set_colors_enabled(true);
-        let told = headed("Missing effect: creep: 1\n", State::AtFloor);
+        let told = headed("Missing effect: creep: 1\n", State::Good);
         console::set_colors_enabled(false);
         assert!(told.starts_with("\u{1b}[") && told.ends_with("m: creep: 1\n"), "{told:?}");
         assert!(told.contains("Missing effect"));
-        assert_eq!(headed("Missing effect: creep: 1\n", State::Above), "Missing effect: creep: 1\n");
+        assert_eq!(headed("Missing effect: creep: 1\n", State::Doubtful), "Missing effect: creep: 1\n");
         assert_eq!(headed("no colon", State::NotUsable), "no colon");
         assert!((80..=120).contains(&columns()));
     }

@@ -44,9 +44,13 @@ fn with_changes(mut found: Discovery, request: &Request) -> Discovery {
 /// # Errors
 /// As [`discover`]; when some runs are in one file and others in two.
 pub fn discover_aligned(request: &Request, near: Option<f64>, progress: &OnProgress) -> Result<Discovery> {
+    Ok(with_changes(by_aligned_clocks(request, near, progress)?, request))
+}
+
+fn by_aligned_clocks(request: &Request, near: Option<f64>, progress: &OnProgress) -> Result<Discovery> {
     let all = || request.runs.iter().chain(request.held_out);
     if all().all(is_aligned) {
-        return discover(request, progress);
+        return discover_before_filter(request, Clocks::default(), progress);
     }
     if let Some(run) = all().find(|r| is_aligned(r)) {
         return Err(Error::input("has its poses in itself, where others have them in a file of their own")
@@ -60,7 +64,7 @@ pub fn discover_aligned(request: &Request, near: Option<f64>, progress: &OnProgr
     let share = if request.held_out.is_empty() { FITTED_SHARE } else { 1.0 };
     let first = match aligned(request.runs, share, request, &model, near, progress)? {
         Ok(first) => first,
-        Err(outcome) => return Ok(with_changes(unfitted(request, Clocks::default(), outcome), request)),
+        Err(outcome) => return Ok(unfitted(request, Clocks::default(), outcome)),
     };
     let chosen = with_effects(request, &model, &first, progress)?;
     let all = first.len();
@@ -75,7 +79,7 @@ pub fn discover_aligned(request: &Request, near: Option<f64>, progress: &OnProgr
     // The held-out runs are looked at with the effects as they are: nothing but their clocks is fitted.
     let held_out = match aligned(request.held_out, 1.0, request, &chosen.fixed(), near, progress)? {
         Ok(held_out) => held_out,
-        Err(outcome) => return Ok(with_changes(unfitted(request, Clocks::default(), outcome), request)),
+        Err(outcome) => return Ok(unfitted(request, Clocks::default(), outcome)),
     };
     let library: Vec<Effect> = request.library.iter().filter(|e| !e.is_of_clock()).cloned().collect();
     let runs = |all: &[Aligned]| all.iter().map(|a| a.run.clone()).collect::<Vec<Run>>();
@@ -85,7 +89,7 @@ pub fn discover_aligned(request: &Request, near: Option<f64>, progress: &OnProgr
         clocks: fitted.iter().map(|a| a.clock(false)).chain(held_out.iter().map(|a| a.clock(true))).collect(),
         warnings: fitted.iter().chain(&held_out).filter_map(Aligned::doubt).chain(delay).collect(),
     };
-    Ok(with_changes(discover_before_filter(&request, clocks, progress)?, &request))
+    discover_before_filter(&request, clocks, progress)
 }
 
 /// The model with the effects that the aligned runs ask for, free; the delay they ask for goes into the clocks.

@@ -22,7 +22,7 @@ use super::localisation::constraint_residuals::ConstraintResiduals;
 use super::localisation::driving_regimes;
 use super::localisation::unexplained_motion::remaining;
 use super::preprocessing::dataset::{Data, FITTED_SHARE};
-use super::preprocessing::driving::{driving, typical};
+use super::preprocessing::driving::driving;
 use super::preprocessing::input_effects::on_inputs;
 use super::preprocessing::prepared_run::PreparedRun;
 use super::preprocessing::quantisation::{CoarseInput, coarse_inputs};
@@ -118,11 +118,12 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
     };
     let relatives = relatives(&selected, request.library, measured(&data.fitted[0]));
     let usable = outcome.verdict != Verdict::UnusableData;
-    let driving = driving(&model, &data.fitted)?;
-    let told = |e: &Applied| plain_text::plain(e, typical(&driving));
+    let comparison = ModelComparison::of(&data, &model, &selected, request.seed)?;
+    let driving = driving(comparison.fitted[0].each());
+    let motion = driving.motion;
+    let told = |e: &Applied| plain_text::plain(e, motion);
     let (effects, unnamed) =
         if usable { chosen(&selected, &relatives, &data, &problem.records, &model, told)? } else { (vec![], vec![]) };
-    let comparison = ModelComparison::of(&data, &model, &selected, request.seed)?;
     let gap = comparison.gaps(&horizons);
     let mut warnings = vec![];
     if usable {
@@ -152,7 +153,7 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
         rest: rest(&selected.after, &after, &unseen, &gap).filter(|_| usable && !is_noise),
         covariance: covariance(&selected.after).filter(|_| usable),
         odd,
-        motion: typical(&driving),
+        motion,
         refused: selected.refused.iter().filter(|_| usable).cloned().collect(),
         remaining: Some(remaining(&selected.after, data.fitted[0].measures_heading(), &after)),
         steps: comparison.steps(&selected, &gap)?,
@@ -161,10 +162,10 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
     };
     let report = report(request, &data, outcome.verdict, found, clocks);
     let added = selected.chosen.iter().filter(|_| usable).map(|c| c.applied.entry()).collect();
-    let chosen: Vec<Applied> = selected.chosen.iter().map(|c| c.applied.clone()).collect();
+    let gates = Gates::of(&model, selected.chosen.iter().map(|c| &c.applied))?;
     let pictures = Pictures {
         driving: Some(driving),
-        forecasts: forecasts(&comparison, middle(&report.gap), &Gates::of(&model, &chosen)?),
+        forecasts: forecasts(&comparison, middle(&report.gap), &gates),
         ..figure_data::pictures(&data, &selected, &report, &comparison, [&before, &after])
     };
     Ok(Discovery { report, pictures, added, pose_filter: None })

@@ -1,5 +1,6 @@
 //! What `discover` says, as data: the contract's `report.json` and the pictures of `report.html`.
 
+use crate::effects::TypicalMotion;
 use crate::error::{Error, Result};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -719,12 +720,8 @@ pub struct Driving {
     pub left_turns: usize,
     /// Turns to the right.
     pub right_turns: usize,
-    /// When the last of them ends, s.
-    pub until: f64,
-    /// Usual speed, m/s.
-    pub speed: f64,
-    /// Usual yaw rate in turns, rad/s.
-    pub turning: f64,
+    /// The usual motion, at which effects are told.
+    pub motion: TypicalMotion,
 }
 
 /// Predictions from many places of a run, all as far ahead.

@@ -46,7 +46,7 @@ enum Piece {
 }
 
 /// Units that a number may be said in; `input` stands for that of the input.
-const UNITS: [&str; 11] = ["%", "1", "m", "m/s", "s", "rad", "rad/s", "deg", "deg/s", "input", "s^2/m"];
+const UNITS: [&str; 10] = ["%", "1", "m", "m/s", "s", "rad", "rad/s", "deg", "deg/s", "input"];
 /// What formulas know beside the parameters.
 const DRIVEN: [&str; 2] = ["speed", "turning"];
 /// The unit that stands for that of the input.

@@ -37,7 +37,7 @@ pub use model::known::{Known, KnownDynamics, KnownEffect, KnownInput, KnownLaw, 
 pub use model::measurement::{Initial, InputTiming, Noise, PoseFilter, Sensor};
 pub use model::model_file::ModelFile;
 pub use model::patch::VEHICLES_FILE;
-pub(crate) use model::patch::with_pose_filter;
+pub(crate) use model::patch::{lines_of, with_pose_filter};
 #[doc(hidden)]
 pub use model::prior_entry::KnownBefore;
 pub use model::scope_entry::{CourseEntry, Motion};

@@ -14,7 +14,7 @@ mod file;
 mod free;
 pub mod observation;
 mod own;
-mod reference_speeds;
+pub(crate) mod reference_speeds;
 mod solution;
 pub mod state;
 mod terms;

@@ -7,7 +7,7 @@ use crate::mechanism::Definitions;
 use std::collections::BTreeMap;
 
 /// The forward speed that the inputs ask for, its rate, and the yaw rate that they ask for.
-pub(super) const REFERENCE: [&str; 3] = ["v_0", "v_0'", "w_0"];
+pub(crate) const REFERENCE: [&str; 3] = ["v_0", "v_0'", "w_0"];
 
 /// The most operations of a formula that is written out.
 const MAX_OPERATIONS: usize = 5000;

@@ -89,6 +89,7 @@ def test_the_slider_moves_the_place_and_what_is_said_of_it(look: Open) -> None:
     for _ in range(4):
         page.keyboard.press("ArrowLeft")
     assert page.inner_text("#read") != before and page.inner_html("#ghosts") != ghosts
+    assert page.get_attribute("#cursor", "aria-valuetext") == page.inner_text("#read"), "aloud it says what stands there"
     # The strip under it has the same cursor.
     at = float(page.get_attribute("#now", "x1") or "nan")
     strip = page.locator("#strip")

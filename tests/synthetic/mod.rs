@@ -1,6 +1,7 @@
 //! A report as `discover` would write it: a wheel with cornering creep on figure-eight paths.
 
 use creepage::discrepancy::report::*;
+use creepage::effects::TypicalMotion;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Normal};
@@ -108,9 +109,7 @@ pub fn pictures() -> Pictures {
             metres: 38.0,
             left_turns: 4,
             right_turns: 3,
-            until: 20.0,
-            speed: 0.95,
-            turning: 0.7,
+            motion: TypicalMotion { speed: 0.95, turning: 0.7, until: 20.0 },
         }),
         forecasts: vec![forecast("eight-held-out.csv", f64::NEG_INFINITY), forecast("eight-fast.csv", f64::INFINITY)],
         changes: vec![

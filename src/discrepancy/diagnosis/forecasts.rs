@@ -11,8 +11,8 @@ use rayon::prelude::*;
 const PLACES: [usize; 2] = [900, 60];
 /// Places of one run: more are not told apart on a map.
 const MOST_PLACES: usize = 400;
-/// Points of a forecast after its first.
-const POINTS: usize = 10;
+/// Points of a forecast, its first and its last among them.
+const POINTS: usize = 11;
 
 /// The forecasts of every run as far ahead as a gap, the one first of which the patched model leaves most.
 pub(crate) fn forecasts(of: &ModelComparison, gap: Option<&Gap>, gates: &Gates) -> Vec<Forecast> {
@@ -69,11 +69,12 @@ fn forecast(both: [&Rollout; 2], gap: &Gap, places: usize, gates: &Gates) -> Opt
         due
     };
     let at: Vec<usize> = rows.filter(|i| is_due(i)).collect();
-    let windows = both[0].windows_from(at.iter().copied(), gap.horizon_s);
-    if windows.len() < 2 {
+    let windows = both[0].windows_from(&at, gap.horizon_s);
+    let within: Vec<(usize, usize)> = windows.iter().copied().flatten().collect();
+    if within.len() < 2 {
         return None;
     }
-    let paths = both.map(|rollout| rollout.paths(&windows, POINTS));
+    let mut paths = both.map(|rollout| rollout.paths::<POINTS>(&within).into_iter());
     let mut found = Forecast {
         run: both[0].name().into(),
         held_out_from: f64::INFINITY,
@@ -82,22 +83,22 @@ fn forecast(both: [&Rollout; 2], gap: &Gap, places: usize, gates: &Gates) -> Opt
         scoped: gates.spans(both[0], &at),
         ..Forecast::default()
     };
-    for i in at {
+    let place = |y: &Vec<f64>| PLACE.map(|c| y[c]);
+    for (i, window) in at.into_iter().zip(windows) {
         let here = both[0].measured(i);
         found.time.push(time[i]);
         found.pose.push([here[PLACE[0]], here[PLACE[1]], here[BODY_HEADING]]);
-        let k = windows.iter().position(|(from, _)| *from == i);
-        found.paths.push(paths.each_ref().map(|of| match k {
-            Some(k) => of[k].iter().map(|y| PLACE.map(|c| y[c])).collect(),
-            None => vec![],
-        }));
-        let ends = k.map(|k| (both[0].measured(windows[k].1), paths.each_ref().map(|of| of[k].last().cloned())));
-        let error = ends.map(|(there, ends)| {
-            ends.map(|end| {
-                end.map_or(f64::NAN, |y| (y[PLACE[0]] - there[PLACE[0]]).hypot(y[PLACE[1]] - there[PLACE[1]]))
-            })
+        let ahead = paths.each_mut().map(|of| window.and_then(|_| of.next()));
+        let error = ahead.each_ref().map(|path| {
+            let ([.., end], (_, to)) = (path.as_ref()?, window?);
+            let ([x, y], [there_x, there_y]) = (place(end), place(&both[0].measured(to)));
+            Some((x - there_x).hypot(y - there_y)).filter(|e| e.is_finite())
         });
-        found.error.push(error.filter(|e| e.iter().all(|e| e.is_finite())).unwrap_or([f64::NAN; 2]));
+        found.paths.push(ahead.map(|path| path.iter().flatten().map(place).collect()));
+        found.error.push(match error {
+            [Some(before), Some(after)] => [before, after],
+            _ => [f64::NAN; 2],
+        });
     }
     Some(found)
 }

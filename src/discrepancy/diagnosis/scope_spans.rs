@@ -1,5 +1,6 @@
 //! When the scopes of found effects are open along a run: each gate evaluated at what the vehicle does there.
 
+use crate::discrepancy::localisation::asked_motion::AskedMotion;
 use crate::discrepancy::shooting::rollout::Rollout;
 use crate::effects::Applied;
 use crate::error::Result;
@@ -12,10 +13,7 @@ use std::collections::BTreeMap;
 pub(crate) struct Gates {
     /// Each with the numbers of its scope.
     gates: Vec<(Expr, BTreeMap<String, f64>)>,
-    inputs: Vec<String>,
-    /// The reference speeds by name.
-    speeds: Vec<(&'static str, Expr)>,
-    fixed: BTreeMap<Symbol, f64>,
+    asked: AskedMotion,
 }
 
 impl Gates {
@@ -23,19 +21,12 @@ impl Gates {
     ///
     /// # Errors
     /// When the model's formulas are malformed.
-    pub fn of(model: &Model, effects: &[Applied]) -> Result<Self> {
-        let scopes = effects.iter().filter_map(|e| e.effect.scope.as_ref());
+    pub fn of<'a>(model: &Model, effects: impl Iterator<Item = &'a Applied>) -> Result<Self> {
+        let scopes = effects.filter_map(|e| e.effect.scope.as_ref());
         let gates: Vec<_> = scopes.map(|s| (s.gate(), s.numbers().into_iter().collect())).collect();
-        if gates.is_empty() {
-            return Ok(Self::default());
-        }
-        let names = ["v_0", "v_0'", "w_0"];
-        Ok(Self {
-            gates,
-            inputs: model.inputs.clone(),
-            speeds: names.into_iter().zip(model.reference_speeds()?).collect(),
-            fixed: model.fixed().values(),
-        })
+        // Without one nothing has to be known of the model.
+        let asked = if gates.is_empty() { AskedMotion::default() } else { AskedMotion::of(model)? };
+        Ok(Self { gates, asked })
     }
 
     /// From when until when some gate is open, looked at at some rows in their order.
@@ -60,17 +51,7 @@ impl Gates {
 
     fn is_open(&self, along: &Rollout, i: usize) -> bool {
         let (place, t) = (along.measured(i), along.rows().1[i]);
-        let (u, slope) = along.inputs(i);
-        let input = |name: &str| self.inputs.iter().position(|role| role == name);
-        let driven = |s: &Symbol| {
-            let name = s.as_str();
-            let rate = name.strip_suffix('\'').and_then(input).map(|k| slope[k]);
-            input(name).map(|k| u[k]).or(rate).or_else(|| self.fixed.get(s).copied()).unwrap_or(f64::NAN)
-        };
-        let speed = |name: &str| {
-            let (_, formula) = self.speeds.iter().find(|(speed, _)| *speed == name)?;
-            Some(formula.eval(&driven).unwrap_or(f64::NAN))
-        };
+        let asked = self.asked.at(along.signals(), t);
         self.gates.iter().any(|(gate, numbers)| {
             let value = |s: &Symbol| match s.as_str() {
                 "x" => place[0],
@@ -78,7 +59,7 @@ impl Gates {
                 "t" => t,
                 // Times are those of the log.
                 "delay" => 0.0,
-                name => numbers.get(name).copied().or_else(|| speed(name)).unwrap_or_else(|| driven(s)),
+                name => numbers.get(name).copied().unwrap_or_else(|| asked.value(s)),
             };
             gate.eval(&value).is_some_and(|open| open > 0.5)
         })
@@ -110,7 +91,7 @@ mod tests {
                     Applied { effect: creep.effect.within(s.clone()), ..creep }
                 })
                 .collect();
-            Gates::of(&model, &effects).unwrap().spans(&along, &rows)
+            Gates::of(&model, effects.iter()).unwrap().spans(&along, &rows)
         };
         let near = |found: &[[f64; 2]], [from, until]: [f64; 2]| {
             found.len() == 1 && (found[0][0] - from).abs() < 0.3 && (found[0][1] - until).abs() < 0.3

@@ -1,5 +1,6 @@
 //! Where and when model and data disagree.
 
+pub(crate) mod asked_motion;
 pub mod clock_drift;
 pub mod constraint_residuals;
 pub(crate) mod driving_regimes;

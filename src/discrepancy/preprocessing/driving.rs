@@ -1,42 +1,38 @@
 //! How runs were driven: how long and how far, how fast, and how often to each side.
 
-use super::motion_ratios::{STRAIGHT, Step, steps};
-use crate::discrepancy::record::run_record::Record;
+use super::motion_ratios::{STRAIGHT, Step, steps_along};
 use crate::discrepancy::report::Driving;
+use crate::discrepancy::shooting::rollout::Rollout;
 use crate::effects::TypicalMotion;
-use crate::error::Result;
-use crate::model::Model;
 
 /// A turn to one side of so much is one turn, rad.
 const ONE_TURN: f64 = 0.5;
 /// Less than this share of what is usual is not moving, or not turning.
 const LITTLE: f64 = 0.1;
 
-/// The driving of some runs by a model, in windows of a second.
-///
-/// # Errors
-/// When the model's formulas are malformed.
-pub(crate) fn driving(model: &Model, records: &[Record]) -> Result<Driving> {
-    let each = records.iter().map(|r| steps(model, r)).collect::<Result<Vec<_>>>()?;
+/// The driving of some runs by a model along them, in windows of a second.
+pub(crate) fn driving(along: &[Rollout]) -> Driving {
+    let each: Vec<Vec<Step>> = along.iter().map(steps_along).collect();
     let all: Vec<&Step> = each.iter().flatten().collect();
     let rates = |f: &dyn Fn(&Step) -> f64| all.iter().map(|s| f(s).abs() / s.seconds).collect::<Vec<f64>>();
     let [left_turns, right_turns] =
         each.iter().map(|s| turns(s)).fold([0, 0], |[a, b], [left, right]| [a + left, b + right]);
-    Ok(Driving {
-        runs: records.len(),
-        seconds: records.iter().map(|r| r.time[r.rows.end - 1] - r.time[r.rows.start]).sum(),
+    let spans = along.iter().map(|r| {
+        let (rows, time) = r.rows();
+        [time[rows.start], time[rows.end - 1]]
+    });
+    Driving {
+        runs: along.len(),
+        seconds: spans.clone().map(|[from, until]| until - from).sum(),
         metres: all.iter().map(|s| s.way.abs()).sum(),
         left_turns,
         right_turns,
-        until: records.iter().map(|r| r.time[r.rows.end - 1]).fold(0.0, f64::max),
-        speed: usual(rates(&|s| s.way)),
-        turning: usual(rates(&|s| s.turn)),
-    })
-}
-
-/// The motion at which effects are told.
-pub(crate) fn typical(of: &Driving) -> TypicalMotion {
-    TypicalMotion { speed: of.speed, turning: of.turning, until: of.until }
+        motion: TypicalMotion {
+            speed: usual(rates(&|s| s.way)),
+            turning: usual(rates(&|s| s.turn)),
+            until: spans.map(|[_, until]| until).fold(0.0, f64::max),
+        },
+    }
 }
 
 /// The median of what is more than little; zero where there is nothing.
@@ -78,12 +74,13 @@ mod tests {
         let (equations, p) = equations(&[]);
         let time = (0..=640).map(|i| f64::from(i) / 16.0).collect();
         let record = logged((&equations, &p), time, [&wheel, &turn], &[0.0; 3], 0.0);
-        let told = driving(&unicycle(&[]), &[record.clone(), record]).unwrap();
+        let along = || Rollout::new(&unicycle(&[]), &record).unwrap();
+        let told = driving(&[along(), along()]);
         assert_eq!((told.runs, told.left_turns, told.right_turns), (2, 4, 2));
         assert!((told.seconds - 80.0).abs() < 1e-9, "{told:?}");
         // Wheels of half a metre; the last window of each run is not whole.
-        assert!((told.metres - 80.0).abs() < 3.0 && (told.speed - 1.0).abs() < 0.01, "{told:?}");
-        assert!((0.4..=0.5).contains(&told.turning), "{told:?}");
+        assert!((told.metres - 80.0).abs() < 3.0 && (told.motion.speed - 1.0).abs() < 0.01, "{told:?}");
+        assert!((0.4..=0.5).contains(&told.motion.turning), "{told:?}");
     }
 
     #[test]

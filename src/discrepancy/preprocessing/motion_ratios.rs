@@ -51,10 +51,13 @@ pub struct Ratios {
 /// # Errors
 /// When the model's formulas are malformed.
 pub fn steps(model: &Model, record: &Record) -> Result<Vec<Step>> {
-    let predictor = Rollout::new(model, record)?;
-    let step = |(from, to): (usize, usize)| {
-        let y = predictor.outputs(from, to);
-        let last = y.last()?;
+    Ok(steps_along(&Rollout::new(model, record)?))
+}
+
+/// The same of a model that is already put along the run.
+pub(crate) fn steps_along(predictor: &Rollout) -> Vec<Step> {
+    let (_, time) = predictor.rows();
+    let step = |((from, to), [first, last]): ((usize, usize), [Vec<f64>; 2])| {
         let (a, b) = (predictor.measured(from), predictor.measured(to));
         let way = |p: &[f64], q: &[f64], heading: f64| (q[0] - p[0]) * heading.cos() + (q[1] - p[1]) * heading.sin();
         let chord = |p: &[f64], q: &[f64]| {
@@ -63,16 +66,18 @@ pub fn steps(model: &Model, record: &Record) -> Result<Vec<Step>> {
             length.copysign(way(p, q, middle))
         };
         let step = Step {
-            way: chord(&y[0], last),
-            turn: last[BODY_HEADING] - y[0][BODY_HEADING],
+            way: chord(&first, &last),
+            turn: last[BODY_HEADING] - first[BODY_HEADING],
             measured_way: chord(&a, &b),
             measured_turn: b[BODY_HEADING] - a[BODY_HEADING],
-            moved: [[&y[0], last], [&a, &b]].map(|[from, to]| Complex::new(to[0] - from[0], to[1] - from[1])),
-            seconds: record.time[to] - record.time[from],
+            moved: [[&first, &last], [&a, &b]].map(|[from, to]| Complex::new(to[0] - from[0], to[1] - from[1])),
+            seconds: time[to] - time[from],
         };
         [step.way, step.turn, step.measured_way].iter().all(|x| x.is_finite()).then_some(step)
     };
-    Ok(predictor.windows(WINDOW).into_iter().filter_map(step).collect())
+    let windows = predictor.windows(WINDOW);
+    let ends = predictor.paths(&windows);
+    windows.into_iter().zip(ends).filter_map(step).collect()
 }
 
 impl Ratios {

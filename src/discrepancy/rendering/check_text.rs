@@ -65,13 +65,7 @@ fn data(text: &mut String, data: &Health) {
         "run", "rows", "time", "rate", "speed, 90 %", "left", "right", "stands"
     );
     data.runs.iter().for_each(|r| run(text, r));
-    let noise = [(data.position_noise, "m", "position"), (data.heading_noise, "rad", "heading")];
-    let noise = noise.into_iter().filter_map(|(v, unit, what)| {
-        let v = v?;
-        let (factor, unit) = prefixed(v, unit);
-        Some(format!("{what} {} {unit}", significant(v * factor, 2)))
-    });
-    let noise: Vec<String> = noise.collect();
+    let noise = noises(data);
     if !noise.is_empty() {
         let _ = writeln!(text, "  noise: {}", noise.join(", "));
     }
@@ -81,9 +75,30 @@ fn data(text: &mut String, data: &Health) {
     }
 }
 
+/// The noise of position and heading, as far as they are known.
+pub(super) fn noises(data: &Health) -> Vec<String> {
+    let noise = [(data.position_noise, "m", "position"), (data.heading_noise, "rad", "heading")];
+    let noise = noise.into_iter().filter_map(|(v, unit, what)| {
+        let v = v?;
+        let (factor, unit) = prefixed(v, unit);
+        Some(format!("{what} {} {unit}", significant(v * factor, 2)))
+    });
+    noise.collect()
+}
+
+/// The speeds of most of the time.
+pub(super) fn speeds(r: &RunHealth) -> String {
+    r.speed.map_or("–".into(), |s| format!("{} to {} m/s", significant(s[0], 2), significant(s[2], 2)))
+}
+
+/// An effect with the trailer it acts on.
+pub(super) fn label(effect: &Prospect) -> String {
+    effect.trailer.map_or(effect.id.clone(), |i| format!("{} (trailer {i})", effect.id))
+}
+
 fn run(text: &mut String, r: &RunHealth) {
     let percent = |x: f64| format!("{:.0} %", 100.0 * x);
-    let speed = r.speed.map_or("–".into(), |s| format!("{} to {} m/s", significant(s[0], 2), significant(s[2], 2)));
+    let speed = speeds(r);
     let dropped = if r.rows_dropped > 0 { format!("  ({} dropped)", r.rows_dropped) } else { String::new() };
     let _ = writeln!(
         text,
@@ -114,7 +129,7 @@ fn effects(text: &mut String, effects: &[Prospect]) {
     text.push('\n');
     text.push_str(&columns("effect", "parameter", ["std", "seen from", "plausible"], "unit", "seen"));
     for effect in effects {
-        let label = effect.trailer.map_or(effect.id.clone(), |i| format!("{} (trailer {i})", effect.id));
+        let label = label(effect);
         let seen = match effect.seen {
             Seen::Yes => "yes",
             Seen::OnceExplained => "once the rest is explained",

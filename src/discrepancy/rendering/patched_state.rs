@@ -6,13 +6,13 @@ use crate::wording::counted;
 /// How much worse a patched model may predict before the patch is no help.
 const WORSE: f64 = 1.05;
 
-/// How far a user may build on the patched model.
+/// How far a user may build on what a page is of: on the patched model, of a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum State {
-    /// It explains the runs to their noise.
-    AtFloor,
+    /// It may be built on: the patched model explains the runs to their noise.
+    Good,
     /// Something remains above the noise, or cannot be told.
-    Above,
+    Doubtful,
     /// The data cannot be put to the model, or the patched one predicts worse.
     NotUsable,
 }
@@ -23,16 +23,16 @@ impl State {
         match report.verdict {
             Verdict::UnusableData => Self::NotUsable,
             _ if is_worse(report) => Self::NotUsable,
-            Verdict::NoMissingEffect | Verdict::MissingEffect if report.remains.is_none() => Self::AtFloor,
-            _ => Self::Above,
+            Verdict::NoMissingEffect | Verdict::MissingEffect if report.remains.is_none() => Self::Good,
+            _ => Self::Doubtful,
         }
     }
 
     /// The class of its colour.
     pub fn class(self) -> &'static str {
         match self {
-            Self::AtFloor => "good",
-            Self::Above => "above",
+            Self::Good => "good",
+            Self::Doubtful => "above",
             Self::NotUsable => "bad",
         }
     }
@@ -40,8 +40,8 @@ impl State {
     /// A mark that tells it without colour.
     pub fn mark(self) -> &'static str {
         match self {
-            Self::AtFloor => "✓",
-            Self::Above => "▲",
+            Self::Good => "✓",
+            Self::Doubtful => "▲",
             Self::NotUsable => "✕",
         }
     }
@@ -51,8 +51,8 @@ impl State {
 pub(crate) fn name(report: &Report) -> String {
     let causes = report.effects.len() + report.odd_runs.len();
     let rest = match State::of(report) {
-        State::AtFloor => "only noise is left",
-        State::Above => "something remains",
+        State::Good => "only noise is left",
+        State::Doubtful => "something remains",
         State::NotUsable => "the patched model is no better",
     };
     match report.verdict {

@@ -4,6 +4,9 @@ use super::repair_text;
 use crate::discrepancy::preprocessing::unit_errors::{Slip, SlipKind, TurningCause, WayCause};
 use crate::number_format::significant;
 
+/// What stands before the lines that mend a slip; a page that shows the lines cuts the sentence here.
+pub(crate) const PASTE: &str = " Paste into the model file";
+
 /// A slip as a sentence.
 pub fn sentence(slip: &Slip) -> String {
     let run = &slip.run;
@@ -25,25 +28,25 @@ pub fn sentence(slip: &Slip) -> String {
         ),
         SlipKind::Repair(repaired) => {
             let mend = repair_text::mend_in_line(repaired);
-            format!("In {run} {}. Paste into the model file: {mend}", repair_text::says(repaired))
+            format!("In {run} {}.{PASTE}: {mend}", repair_text::says(repaired))
         }
         SlipKind::LoggedTwice { roles: [a, b], way } => {
             let way = way.filter(|r| !(0.8..1.25).contains(r)).map_or_else(String::new, |r| {
                 format!("; the measured way is {} times what they drive", significant(r, 2))
             });
             format!(
-                "In {run} {a} and {b} are the same in every row, and the vehicle turns: one column stands for both{way}. Paste \
-                 into the model file, with the column's name: [columns]  {b} = \"COLUMN\""
+                "In {run} {a} and {b} are the same in every row, and the vehicle turns: one column stands for both{way}.{PASTE}, \
+                 with the column's name: [columns]  {b} = \"COLUMN\""
             )
         }
         SlipKind::Stands { role, value } => format!(
-            "In {run} {role} is {} in every row, and the vehicle turns: the column holds nothing. Paste into the model file, \
+            "In {run} {role} is {} in every row, and the vehicle turns: the column holds nothing.{PASTE}, \
              with the right column's name: [columns]  {role} = \"COLUMN\"",
             significant(*value, 3)
         ),
         SlipKind::Bursts { steps: [within, behind], rates } => format!(
             "In {run} rows come in bursts, {} s apart and then {} s, and rates within one are {} times those after it: the \
-             times are those of arrival, not of measuring. Paste into the model file, with the name of the column that holds \
+             times are those of arrival, not of measuring.{PASTE}, with the name of the column that holds \
              the time of measuring: [columns]  time = \"COLUMN\"",
             significant(*within, 2),
             significant(*behind, 2),

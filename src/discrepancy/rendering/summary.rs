@@ -71,7 +71,8 @@ pub fn summary_text(report: &Report) -> String {
 
 /// The same in so many columns; tables stay as wide as they are.
 pub fn summary_text_in(report: &Report, columns: usize) -> String {
-    let wrapped = |text: &str, indent: usize, most: usize| wrapped_in(columns.max(COLUMNS), text, indent, most);
+    let columns = columns.max(COLUMNS);
+    let wrapped = |text: &str, indent: usize, most: usize| wrapped_in(columns, text, indent, most);
     let mut lines = wrapped(&format!("{}: {}", verdict_name(report.verdict), verdict_sentence(report)), 0, 4);
     lines.extend(effect_lines(&report.effects, &wrapped));
     lines.extend(
@@ -91,7 +92,7 @@ pub fn summary_text_in(report: &Report, columns: usize) -> String {
     lines.truncate(LINES - gap.len() - tail.len());
     lines.extend(gap);
     lines.extend(tail);
-    lines.iter().map(|line| format!("{}\n", clean(line, columns.max(COLUMNS)))).collect()
+    lines.iter().map(|line| format!("{}\n", clean(line, columns))).collect()
 }
 
 /// A line without control characters, cut to the terminal's columns.

@@ -3,6 +3,7 @@
 use super::interval_search::Change;
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::evidence::scope_scan::{BlockScores, Blocks, Cumulated};
+use crate::discrepancy::localisation::asked_motion::AskedMotion;
 use crate::effects::{DrivingRegime, Scope};
 use crate::error::Result;
 use crate::formula::Expr;
@@ -66,27 +67,16 @@ impl Proposal {
 impl BlockRows {
     /// Of the blocks of a problem.
     pub fn of(problem: &Problem, model: &Model, blocks: &Blocks) -> Result<Self> {
-        let [speed, growth, yaw] = model.reference_speeds()?;
+        let asked = AskedMotion::of(model)?;
         let mut found = Self { rows: vec![], times: vec![], runs: vec![] };
-        let values = model.fixed().values();
         let mut before = None;
         for (block, (run, rows)) in blocks.rows(&problem.plan).into_iter().enumerate() {
             let record = &problem.records[run];
-            let channels = record.signals.channels();
-            let (mut u, mut slope) = (vec![0.0; channels], vec![0.0; channels]);
-            let mut row = |i: usize| {
-                record.signals.at(record.time[i], &mut u, &mut slope);
-                let value = |s: &crate::formula::Symbol| {
-                    let name = s.as_str();
-                    let input = |name: &str| model.inputs.iter().position(|role| role == name);
-                    let rate = name.strip_suffix('\'').and_then(input).map(|k| slope[k]);
-                    input(name).map(|k| u[k]).or(rate).or_else(|| values.get(s).copied()).unwrap_or(f64::NAN)
-                };
-                let of = |e: &Expr| e.eval(&value).unwrap_or(f64::NAN);
-                let place = [record.columns[0][i], record.columns[1][i]];
-                Row { place, speed: of(&speed), growth: of(&growth), yaw: of(&yaw) }
+            let row = |i: usize| {
+                let [speed, growth, yaw] = asked.at(&record.signals, record.time[i]).speeds();
+                Row { place: [record.columns[0][i], record.columns[1][i]], speed, growth, yaw }
             };
-            found.rows.push(rows.clone().map(&mut row).collect());
+            found.rows.push(rows.clone().map(row).collect());
             found.times.push([record.time[rows.start], record.time[rows.end.min(record.time.len() - 1)]]);
             match found.runs.last_mut().filter(|_| before == Some(run)) {
                 Some(blocks) => blocks.end = block + 1,

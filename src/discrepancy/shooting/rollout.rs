@@ -11,7 +11,7 @@ use crate::discrepancy::record::sensor_noise::Noise;
 use crate::error::Result;
 use crate::model::observation::{BODY_HEADING, PLACE};
 use crate::model::{Equations, Model};
-use crate::motion::{LaneStates, LaneStepper, StateSensitivity, Stepper};
+use crate::motion::{LaneStates, LaneStepper, Signals, StateSensitivity, Stepper};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use std::ops::Range;
@@ -120,59 +120,40 @@ impl<'a> Rollout<'a> {
         found
     }
 
-    /// What the sensor would measure at the first and at the last row of some windows, each restarted at its first.
-    fn ends(&self, windows: &[(usize, usize)]) -> Vec<[Vec<f64>; 2]> {
+    /// What the sensor would measure along some windows, each restarted at its first row, at N rows from its first to its last.
+    pub fn paths<const N: usize>(&self, windows: &[(usize, usize)]) -> Vec<[Vec<f64>; N]> {
         windows.chunks(LANES).flat_map(|some| self.side_by_side(some)).collect()
     }
 
-    /// As [`Rollout::ends`], of so many windows as there are lanes, or fewer: the last one fills the rest.
-    fn side_by_side(&self, windows: &[(usize, usize)]) -> Vec<[Vec<f64>; 2]> {
-        let rows: [Range<usize>; LANES] = std::array::from_fn(|l| windows[l.min(windows.len() - 1)]).map(|(i, k)| i..k);
-        let starts = rows.each_ref().map(|rows| self.start(rows.start, rows.end));
-        let mut arcs = LaneStates::of(starts.each_ref().map(|z| &z[..]));
-        let mut stepper = LaneStepper::new(&self.equations, &self.record.signals, [&[]; LANES]);
-        let visible = self.equations.visible;
-        let measured = |y: &[[f64; LANES]], l: usize| y[..visible].iter().map(|y| y[l]).collect::<Vec<f64>>();
-        let y = stepper.outputs_here(&arcs.z);
-        let first: Vec<Vec<f64>> = (0..windows.len()).map(|l| measured(y, l)).collect();
-        stepper.through(&mut arcs, &self.record.time, &rows);
-        let y = stepper.outputs_here(&arcs.z);
-        first.into_iter().enumerate().map(|(l, first)| [first, measured(y, l)]).collect()
-    }
-
-    /// Outputs along some windows, each restarted at its first row and looked at at so many times on its way.
-    pub fn paths(&self, windows: &[(usize, usize)], times: usize) -> Vec<Vec<Vec<f64>>> {
-        windows.chunks(LANES).flat_map(|some| self.paths_side_by_side(some, times)).collect()
-    }
-
-    fn paths_side_by_side(&self, windows: &[(usize, usize)], times: usize) -> Vec<Vec<Vec<f64>>> {
+    /// As [`Rollout::paths`], of so many windows as there are lanes, or fewer: the last one fills the rest.
+    fn side_by_side<const N: usize>(&self, windows: &[(usize, usize)]) -> Vec<[Vec<f64>; N]> {
         let rows: [(usize, usize); LANES] = std::array::from_fn(|l| windows[l.min(windows.len() - 1)]);
         let starts = rows.map(|(from, to)| self.start(from, to));
         let mut arcs = LaneStates::of(starts.each_ref().map(|z| &z[..]));
         let mut stepper = LaneStepper::new(&self.equations, &self.record.signals, [&[]; LANES]);
         let visible = self.equations.visible;
-        let mut found = vec![vec![]; windows.len()];
-        for k in 0..=times {
-            let at = |(from, to): (usize, usize), k: usize| from + (to - from) * k / times;
+        let mut found = vec![[const { Vec::new() }; N]; windows.len()];
+        for k in 0..N {
+            let at = |(from, to): (usize, usize), k: usize| from + (to - from) * k / (N - 1);
             if k > 0 {
                 stepper.through(&mut arcs, &self.record.time, &rows.map(|r| at(r, k - 1)..at(r, k)));
             }
             let y = stepper.outputs_here(&arcs.z);
-            found.iter_mut().enumerate().for_each(|(l, path)| path.push(y[..visible].iter().map(|y| y[l]).collect()));
+            found.iter_mut().enumerate().for_each(|(l, path)| path[k] = y[..visible].iter().map(|y| y[l]).collect());
         }
         found
     }
 
-    /// The windows of a horizon that begin at some rows, those that end within the log.
-    pub fn windows_from(&self, rows: impl Iterator<Item = usize>, horizon: f64) -> Vec<(usize, usize)> {
+    /// The windows of a horizon that begin at some rows; none of a row from which it leads beyond the log.
+    pub fn windows_from(&self, rows: &[usize], horizon: f64) -> Vec<Option<(usize, usize)>> {
         let time = &self.record.time;
         let segments = self.record.segments(MARGIN);
-        let window = |i: usize| {
+        let window = |&i: &usize| {
             let segment = segments.iter().find(|s| s.contains(&i))?;
             let end = i + time[i..segment.end].partition_point(|t| *t < time[i] + horizon - 0.5 * self.record.step());
             (end < segment.end).then_some((i, end))
         };
-        rows.filter_map(window).collect()
+        rows.iter().map(window).collect()
     }
 
     /// The rows between which the run is followed, and their times.
@@ -180,12 +161,9 @@ impl<'a> Rollout<'a> {
         (self.record.rows.clone(), &self.record.time)
     }
 
-    /// The inputs at a row, and their rates.
-    pub fn inputs(&self, i: usize) -> (Vec<f64>, Vec<f64>) {
-        let channels = self.record.signals.channels();
-        let (mut u, mut slope) = (vec![0.0; channels], vec![0.0; channels]);
-        self.record.signals.at(self.record.time[i], &mut u, &mut slope);
-        (u, slope)
+    /// The inputs of the run.
+    pub fn signals(&self) -> &Signals {
+        &self.record.signals
     }
 
     /// The name of the run.
@@ -215,7 +193,7 @@ impl<'a> Rollout<'a> {
     pub fn errors(&self, horizon: f64) -> PredictionError {
         let mut errors = PredictionError::default();
         let windows = self.windows(horizon);
-        for ((_, to), [_, end]) in windows.iter().zip(self.ends(&windows)) {
+        for ((_, to), [_, end]) in windows.iter().zip(self.paths(&windows)) {
             let measured = |c: usize| self.record.columns[c][*to];
             let heading = self.record.measures_heading().then(|| end[BODY_HEADING] - measured(BODY_HEADING));
             errors.add(PLACE.map(|c| end[c] - measured(c)), heading);
@@ -251,7 +229,7 @@ impl<'a> Rollout<'a> {
         let noisier = self.record.with_noisier_inputs(seed);
         let beside = Rollout { record: &noisier, equations: self.equations.clone(), hidden: self.hidden.clone() };
         let windows = self.windows(horizon);
-        for ([_, here], [_, there]) in self.ends(&windows).iter().zip(beside.ends(&windows)) {
+        for ([_, here], [_, there]) in self.paths(&windows).iter().zip(beside.paths(&windows)) {
             let heading = self.record.measures_heading().then(|| there[BODY_HEADING] - here[BODY_HEADING]);
             moved.add(PLACE.map(|c| there[c] - here[c]), heading);
         }
@@ -271,7 +249,7 @@ impl<'a> Rollout<'a> {
                 course: (!self.record.has_heading()).then(|| heading_over(&self.equations, self.record, from, horizon)),
             }
         };
-        windows.iter().zip(self.ends(&windows)).map(restart).collect()
+        windows.iter().zip(self.paths(&windows)).map(restart).collect()
     }
 }
 
@@ -340,18 +318,19 @@ mod tests {
             let mut lengths: Vec<usize> = windows.iter().map(|(from, to)| to - from).collect();
             lengths.dedup();
             assert!(windows.len() > 1 && (lengths.len() > 1 || horizon > 1.0), "{lengths:?}");
-            for ((from, to), [first, last]) in windows.iter().zip(predictor.ends(&windows)) {
+            for ((from, to), [first, last]) in windows.iter().zip(predictor.paths(&windows)) {
                 let alone = predictor.outputs(*from, *to);
                 assert_eq!((&alone[0], &alone[to - from]), (&first, &last));
             }
-            for ((from, to), path) in windows.iter().zip(predictor.paths(&windows, 4)) {
+            for ((from, to), path) in windows.iter().zip(predictor.paths::<5>(&windows)) {
                 let alone = predictor.outputs(*from, *to);
                 let at = |k: usize| &alone[(to - from) * k / 4];
-                assert!(path.len() == 5 && (0..5).all(|k| &path[k] == at(k)));
+                assert!((0..5).all(|k| &path[k] == at(k)));
             }
         }
         // Windows that begin anywhere end where the horizon does, and none of them beyond the log.
-        let anywhere = predictor.windows_from(0..record.time.len(), 2.0);
+        let rows: Vec<usize> = (0..record.time.len()).collect();
+        let anywhere: Vec<(usize, usize)> = predictor.windows_from(&rows, 2.0).into_iter().flatten().collect();
         assert!(anywhere.len() > 300 && anywhere.last().unwrap().1 < record.time.len());
         for (from, to) in anywhere {
             assert!((record.time[to] - record.time[from] - 2.0).abs() < 0.11, "{from} {to}");

@@ -150,11 +150,6 @@ impl ModelFile {
         }
     }
 
-    /// The lines that effects are in a model file.
-    pub fn lines_of(&self, added: &[EffectEntry]) -> String {
-        patch::patched("", added).trim_start().to_string()
-    }
-
     /// The model with effects added, or in the place of those for the same target; its text stays as it is.
     pub fn with_effects(&self, added: &[EffectEntry]) -> Self {
         let mut file = self.clone();

@@ -23,6 +23,11 @@ pub(crate) fn patched(text: &str, added: &[EffectEntry]) -> String {
     printed(&document, text)
 }
 
+/// The lines that effects are in a model file.
+pub(crate) fn lines_of(added: &[EffectEntry]) -> String {
+    patched("", added).trim_start().to_string()
+}
+
 /// The text with a filter of the measured pose.
 pub(crate) fn with_pose_filter(text: &str, filter: PoseFilter) -> String {
     let Some(mut document) = parse(text) else { return text.to_string() };

@@ -3,8 +3,9 @@
 use super::caterpillar::caterpillar;
 use super::fleet_text;
 use crate::discrepancy::rendering::html::cards::{card, small};
-use crate::discrepancy::rendering::html::part::{Cell, figure, fold, holding, section, table};
-use crate::discrepancy::rendering::html::{page, policy_head};
+use crate::discrepancy::rendering::html::page;
+use crate::discrepancy::rendering::html::part::{Cell, Fold, eyebrow, figure, folds, holding, section, table};
+use crate::discrepancy::rendering::patched_state::State;
 use crate::discrepancy::rendering::plain_text::within;
 use crate::effects::{self, Applied, TypicalMotion};
 use crate::fleet::report::{FleetEffect, FleetParameter, FleetReport, RobotReport};
@@ -17,35 +18,26 @@ const NAMED: usize = 6;
 
 /// The report as a self-contained page: no script, no font, no request.
 pub fn fleet_html(report: &FleetReport) -> String {
-    let tables = [
-        (
-            "fleet",
-            "What the fleet needs, in numbers",
-            true,
-            [effects(report), tags(report)].into_iter().flatten().collect(),
-        ),
-        ("robots", "Robot by robot", true, robots(report).into_iter().collect::<Vec<_>>()),
-        ("rest", "What was left out", false, rest(report)),
+    let title = format!("{} — creepage fleet", report.summary.trim_end_matches('.'));
+    let needed = [effects(report), tags(report)].into_iter().flatten();
+    let parts = vec![
+        Fold::open("fleet", "What the fleet needs, in numbers", needed),
+        Fold::open("robots", "Robot by robot", robots(report)),
+        Fold::closed("rest", "What was left out", rest(report)),
     ];
-    let full = tables.into_iter().filter(|(_, _, _, content)| !content.is_empty());
     let main = Element::new("main")
         .child(header(report))
         .child(fleet_cards(report))
         .children(section("Robots, each beside all others", figures(report).into_iter().collect()))
-        .children(full.map(|(id, heading, open, content)| fold(id, heading, open, content)));
-    page(
-        policy_head(&format!("{} — creepage fleet", report.summary.trim_end_matches('.')), &report.version, false),
-        main,
-    )
+        .children(folds(parts, false));
+    page(&title, &report.version, main, false)
 }
 
 fn header(report: &FleetReport) -> Element {
     let differ = !(report.odd_robots.is_empty() && report.own_effects.is_empty() && report.odd_runs.is_empty());
-    let (class, word) = if differ { ("verdict above", "▲ Some differ") } else { ("verdict good", "✓ All alike") };
-    let eyebrow = Element::new("p")
-        .with("class", "eyebrow")
-        .child(holding("span", word).with("class", class))
-        .text(format!("fleet · {} · {}", counted(report.robots, "robot"), counted(report.runs, "run")));
+    let (state, word) = if differ { (State::Doubtful, "Some differ") } else { (State::Good, "All alike") };
+    let of = format!("fleet · {} · {}", counted(report.robots, "robot"), counted(report.runs, "run"));
+    let eyebrow = eyebrow(state, word, of);
     let plain: Vec<String> = report.effects.iter().filter_map(in_the_mean).collect();
     let lead = (!plain.is_empty()).then(|| format!("In the mean {}", within(&plain.join(" "))));
     let lead = lead.map(|says| holding("p", says).with("class", "lead"));
@@ -70,12 +62,8 @@ fn in_the_mean(of: &FleetEffect) -> Option<String> {
 }
 
 fn fleet_cards(report: &FleetReport) -> Element {
-    let odd: Vec<String> = report
-        .odd_robots
-        .iter()
-        .map(|o| o.robot.clone())
-        .chain(report.own_effects.iter().map(|o| o.robot.clone()))
-        .collect();
+    let own = report.own_effects.iter().map(|o| &o.robot);
+    let odd: Vec<String> = report.odd_robots.iter().map(|o| &o.robot).chain(own).cloned().collect();
     let differ = if odd.is_empty() {
         "no robot".into()
     } else {

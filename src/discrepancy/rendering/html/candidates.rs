@@ -1,10 +1,10 @@
 //! The candidates by their evidence.
 
-use super::part::{self, holding};
+use super::part;
 use crate::discrepancy::report::{CandidatePicture, Pictures};
 use crate::number_format::plain;
 use crate::picture::axis::{Axis, extent};
-use crate::picture::svg::{Element, fixed};
+use crate::picture::svg::Element;
 use crate::wording::counted;
 
 /// Candidates that get a bar, besides those chosen and their rivals.
@@ -49,13 +49,5 @@ fn row(candidate: &CandidatePicture, axis: &Axis) -> [Element; 3] {
     let value = candidate.delta_bic;
     let zero = axis.at(0.0);
     let to = if value.is_finite() { axis.at(value).clamp(0.0, 100.0) } else { zero };
-    let (left, width) = (zero.min(to), (to - zero).abs());
-    let place = format!("left:{}%;width:{}%", fixed(left), fixed(width));
-    let line = Element::new("b").with("class", "zero").with("style", format!("left:{}%", fixed(zero)));
-    let fill = Element::new("i").with("class", look).with("style", place);
-    [
-        holding("span", &candidate.id).with("class", format!("name {look}")),
-        holding("span", format!("{}{remark}", plain(value))).with("class", "value"),
-        Element::new("span").with("class", "length").with("aria-hidden", "true").child(fill).child(line),
-    ]
+    part::bar(look, &candidate.id, format!("{}{remark}", plain(value)), zero, to, zero)
 }

@@ -1,13 +1,15 @@
 //! `check.html`: what some runs can tell of a model, before anyone drives again.
 
-use super::part::{Cell, fold, holding, table};
-use super::{cards, change, document, policy_head, script, words};
+use super::part::{Cell, Fold, bar, eyebrow, folds, holding, table};
+use super::{cards, change, page, words};
 use crate::discrepancy::identifiability::check_report::{Check, Pair, Parameter, Prospect, RunHealth, Seen, Standing};
+use crate::discrepancy::rendering::patched_state::State;
 use crate::discrepancy::rendering::plain_text::capitalised;
+use crate::discrepancy::rendering::{changes, check_text};
 use crate::discrepancy::report::Change;
-use crate::number_format::{plain, prefixed, significant};
+use crate::number_format::{plain, significant};
 use crate::picture::axis::Axis;
-use crate::picture::svg::{Element, fixed};
+use crate::picture::svg::Element;
 use crate::wording::{counted, listed_to};
 
 /// How far below and above its plausible size an effect is drawn.
@@ -17,24 +19,22 @@ const NAMED: usize = 4;
 
 /// The check as a self-contained page.
 pub fn check_html(check: &Check, vehicle: &str, version: &str) -> String {
-    let mended = changes(check);
-    let has_texts = !mended.is_empty();
+    let mends: Vec<Change> = changes::mends(&check.data.findings).into_iter().collect();
     let title = format!("{} — creepage check", check.summary.trim_end_matches('.'));
     let main = Element::new("main")
         .child(header(check, vehicle))
         .children(three_cards(check))
-        .children(change::section(&mended, check.next_experiment.as_ref()))
+        .children(change::section(&mends, check.next_experiment.as_ref()))
         .children(evidence(check));
-    document(policy_head(&title, version, has_texts), main, has_texts.then(script::element))
+    page(&title, version, main, !mends.is_empty())
 }
 
 fn header(check: &Check, vehicle: &str) -> Element {
-    let (class, mark, name) = match check.verdict {
-        Standing::Identifiable => ("good", "✓", "These runs can tell"),
-        Standing::NotIdentifiable => ("above", "▲", "These runs cannot tell everything"),
-        Standing::UnusableData => ("bad", "✕", "These data cannot be used"),
+    let (state, name) = match check.verdict {
+        Standing::Identifiable => (State::Good, "These runs can tell"),
+        Standing::NotIdentifiable => (State::Doubtful, "These runs cannot tell everything"),
+        Standing::UnusableData => (State::NotUsable, "These data cannot be used"),
     };
-    let pill = holding("span", format!("{mark} {name}")).with("class", format!("verdict {class}"));
     let seconds: f64 = check.data.runs.iter().map(|r| r.duration_s).sum();
     let rows: usize = check.data.runs.iter().map(|r| r.rows).sum();
     let what = format!(
@@ -42,15 +42,7 @@ fn header(check: &Check, vehicle: &str) -> Element {
         counted(check.data.runs.len(), "run"),
         counted(rows, "row")
     );
-    Element::new("header")
-        .child(Element::new("p").with("class", "eyebrow").child(pill).text(what))
-        .child(holding("h1", &check.summary))
-}
-
-/// The lines that mend the data, and those that the notes of the check give.
-fn changes(check: &Check) -> Vec<Change> {
-    let mends = check.data.findings.iter().filter_map(|f| f.mend.clone());
-    mends.map(|text| Change { of: "model.toml, for the data".into(), text }).collect()
+    Element::new("header").child(eyebrow(state, name, what)).child(holding("h1", &check.summary))
 }
 
 fn three_cards(check: &Check) -> Option<Element> {
@@ -58,7 +50,7 @@ fn three_cards(check: &Check) -> Option<Element> {
         return None;
     }
     let seen = check.effects.iter().filter(|e| e.seen == Seen::Yes).count();
-    let missed: Vec<String> = check.effects.iter().filter(|e| e.seen == Seen::No).map(label).collect();
+    let missed: Vec<String> = check.effects.iter().filter(|e| e.seen == Seen::No).map(check_text::label).collect();
     let apart: Vec<&Pair> = check.not_separated.iter().filter(|p| p.why == "data").collect();
     let later = check.effects.iter().filter(|e| e.seen == Seen::OnceExplained).count();
     let later = (later > 0).then(|| format!("{later} more once the rest is explained"));
@@ -71,15 +63,7 @@ fn three_cards(check: &Check) -> Option<Element> {
     } else {
         listed_to(&pairs, NAMED)
     };
-    let noise = |v: Option<f64>, unit: &str, of: &str| {
-        let (factor, unit) = prefixed(v?, unit);
-        Some(format!("{of} {} {unit}", significant(v? * factor, 2)))
-    };
-    let noises: Vec<String> =
-        [noise(check.data.position_noise, "m", "position"), noise(check.data.heading_noise, "rad", "heading")]
-            .into_iter()
-            .flatten()
-            .collect();
+    let noises = check_text::noises(&check.data);
     let first = noises.first().cloned().unwrap_or_else(|| "not known".into());
     Some(Element::new("div").with("class", "cards").children([
         cards::card(
@@ -100,20 +84,15 @@ fn evidence(check: &Check) -> Vec<Element> {
     let notes: Vec<Element> =
         check.data.findings.iter().filter(|f| f.mend.is_none()).map(|f| holding("li", capitalised(&f.says))).collect();
     let notes = (!notes.is_empty()).then(|| Element::new("ul").with("class", "plain").children(notes));
-    let parts = [
-        ("notes", "What to know of these data", true, notes.into_iter().collect::<Vec<_>>()),
-        ("effects", "From which size each effect would be seen", true, sizes(check)),
-        ("numbers", "The same in numbers", false, numbers(check).into_iter().collect()),
-        ("runs", "Run by run", true, runs(check).into_iter().collect()),
-        ("pairs", "Effects that are not told apart", false, pairs(check).into_iter().collect()),
-        ("words", "Words", false, vec![words::of_method()]),
+    let parts = vec![
+        Fold::open("notes", "What to know of these data", notes),
+        Fold::open("effects", "From which size each effect would be seen", sizes(check)),
+        Fold::closed("numbers", "The same in numbers", numbers(check)),
+        Fold::open("runs", "Run by run", runs(check)),
+        Fold::closed("pairs", "Effects that are not told apart", pairs(check)),
+        Fold::closed("words", "Words", [words::of_method()]),
     ];
-    let full = parts.into_iter().filter(|(_, _, _, content)| !content.is_empty());
-    full.map(|(id, heading, open, content)| fold(id, heading, open, content)).collect()
-}
-
-fn label(of: &Prospect) -> String {
-    of.trailer.map_or_else(|| of.id.clone(), |i| format!("{} (trailer {i})", of.id))
+    folds(parts, false)
 }
 
 /// Every effect by the smallest size that would be seen, over the plausible one.
@@ -130,7 +109,7 @@ fn sizes(check: &Check) -> Vec<Element> {
 }
 
 fn row(of: &Prospect, axis: &Axis) -> [Element; 3] {
-    let seen = match of.seen {
+    let (look, remark) = match of.seen {
         Seen::Yes => ("solid", ""),
         Seen::OnceExplained => ("hatched", ", once the rest is explained"),
         Seen::No => ("hollow", ", would be missed"),
@@ -140,13 +119,7 @@ fn row(of: &Prospect, axis: &Axis) -> [Element; 3] {
     let to = if worst.is_finite() { axis.at(worst.clamp(SPAN[0], SPAN[1])) } else { 100.0 };
     let said =
         if worst.is_finite() { format!("{} of its plausible size", percent(worst)) } else { "not to be seen".into() };
-    let line = Element::new("b").with("class", "zero").with("style", format!("left:{}%", fixed(axis.at(1.0))));
-    let fill = Element::new("i").with("class", seen.0).with("style", format!("left:0%;width:{}%", fixed(to)));
-    [
-        holding("span", label(of)).with("class", format!("name {}", seen.0)),
-        holding("span", format!("{said}{}", seen.1)).with("class", "value"),
-        Element::new("span").with("class", "length").with("aria-hidden", "true").child(fill).child(line),
-    ]
+    bar(look, &check_text::label(of), format!("{said}{remark}"), 0.0, to, axis.at(1.0))
 }
 
 /// The smallest size that would be seen over the plausible one.
@@ -165,7 +138,7 @@ fn numbers(check: &Check) -> Option<Element> {
             let unit = if p.unit == "1" { String::new() } else { format!(", {}", p.unit) };
             let name = format!("{name}{unit}");
             vec![
-                Cell::text(label(e)),
+                Cell::text(check_text::label(e)),
                 Cell::text(name),
                 number(p.std),
                 number(p.smallest_seen),
@@ -180,14 +153,12 @@ fn numbers(check: &Check) -> Option<Element> {
 fn runs(check: &Check) -> Option<Element> {
     let percent = |x: f64| Cell::Number(format!("{:.0} %", 100.0 * x));
     let row = |r: &RunHealth| {
-        let speed =
-            r.speed.map_or_else(|| "–".into(), |s| format!("{} to {} m/s", significant(s[0], 2), significant(s[2], 2)));
         vec![
             Cell::text(&r.run),
             Cell::Number(r.rows.to_string()),
             Cell::Number(format!("{} s", significant(r.duration_s, 3))),
             Cell::Number(format!("{} Hz", plain(r.rate_hz))),
-            Cell::text(speed),
+            Cell::text(check_text::speeds(r)),
             percent(r.left),
             percent(r.right),
             percent(r.standing),

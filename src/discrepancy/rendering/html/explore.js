@@ -177,8 +177,8 @@
   const go = i => {
     at = Math.min(run.t.length - 1, Math.max(0, Math.round(i)));
     slider.value = at;
-    slider.setAttribute('aria-valuetext', read.textContent);
     draw();
+    slider.setAttribute('aria-valuetext', read.textContent);
   };
   const choose = k => {
     run = runs[k];

@@ -1,9 +1,9 @@
 //! The top of the page: the state, what was driven, the sentence, and what was found in one line each.
 
-use super::part::holding;
+use super::part::{self, holding};
 use crate::discrepancy::rendering::patched_state::{self, State};
 use crate::discrepancy::rendering::summary::{verdict_sentence, why};
-use crate::discrepancy::rendering::{plain_text, title_text};
+use crate::discrepancy::rendering::{plain_text, slip_text, title_text};
 use crate::discrepancy::report::{Driving, Estimate, Named, OddRun, Pictures, Report, Verdict};
 use crate::discrepancy::report::{judged, middle};
 use crate::number_format::{plain, prefixed, significant, with_error};
@@ -36,8 +36,7 @@ fn odd_or_whole(report: &Report) -> String {
     if report.odd_runs.is_empty() || !is_told || report.verdict != Verdict::MissingEffect {
         let whole = verdict_sentence(report);
         let is_mended = report.data.findings.iter().any(|f| f.mend.is_some());
-        let cut =
-            whole.split_once(" Paste into the model file").filter(|_| is_mended).map(|(says, _)| says.to_string());
+        let cut = whole.split_once(slip_text::PASTE).filter(|_| is_mended).map(|(says, _)| says.to_string());
         return cut.unwrap_or(whole);
     }
     let odd = |o: &OddRun| format!("In {} {}, and in no other run.", o.run, plain_text::within(&o.plain));
@@ -65,9 +64,6 @@ fn unbroken(name: &'static str, text: &str) -> Element {
 }
 
 fn eyebrow(report: &Report, pictures: &Pictures) -> Element {
-    let state = State::of(report);
-    let pill = holding("span", format!("{} {}", state.mark(), patched_state::name(report)))
-        .with("class", format!("verdict {}", state.class()));
     let vehicle = Some(pictures.vehicle.clone()).filter(|v| !v.is_empty());
     let data = &report.data;
     let driven = match &pictures.driving {
@@ -75,7 +71,7 @@ fn eyebrow(report: &Report, pictures: &Pictures) -> Element {
         None => vec![counted(data.runs, "run"), counted(data.rows, "row")],
     };
     let words: Vec<String> = vehicle.into_iter().chain(driven).collect();
-    Element::new("p").with("class", "eyebrow").child(pill).text(words.join(" · "))
+    part::eyebrow(State::of(report), &patched_state::name(report), words.join(" · "))
 }
 
 /// Runs, time, way and turns.
@@ -118,7 +114,7 @@ fn lead(report: &Report) -> Option<Element> {
         ),
     };
     let left = match State::of(report) {
-        State::AtFloor if !report.effects.is_empty() => Some("Nothing else is left to find in these runs.".to_string()),
+        State::Good if !report.effects.is_empty() => Some("Nothing else is left to find in these runs.".to_string()),
         State::NotUsable if !report.effects.is_empty() => {
             Some("The patched model predicts no better: do not use it.".into())
         }

@@ -1,6 +1,7 @@
 //! The parts a page is built of: sections, figures, tables.
 
-use crate::picture::svg::Element;
+use crate::discrepancy::rendering::patched_state::State;
+use crate::picture::svg::{Element, fixed};
 
 /// An element that holds only text.
 pub fn holding(name: &'static str, text: impl Into<String>) -> Element {
@@ -13,11 +14,62 @@ pub fn section(heading: &str, content: Vec<Element>) -> Option<Element> {
     (!content.is_empty()).then(|| body.children(content))
 }
 
-/// A part that unfolds.
-pub fn fold(id: &str, heading: &str, open: bool, content: Vec<Element>) -> Element {
-    let details = Element::new("details").with("id", id);
-    let details = if open { details.with("open", "") } else { details };
-    details.child(Element::new("summary").child(holding("h2", heading))).children(content)
+/// A part that unfolds: its id, its heading, whether it is open, and what it holds.
+pub struct Fold {
+    /// Its id.
+    pub id: &'static str,
+    /// Its heading.
+    pub heading: &'static str,
+    /// Whether it is open.
+    pub open: bool,
+    /// What it holds.
+    pub content: Vec<Element>,
+}
+
+impl Fold {
+    /// A part that is open.
+    pub fn open(id: &'static str, heading: &'static str, content: impl IntoIterator<Item = Element>) -> Self {
+        Self { id, heading, open: true, content: content.into_iter().collect() }
+    }
+
+    /// A part that is folded.
+    pub fn closed(id: &'static str, heading: &'static str, content: impl IntoIterator<Item = Element>) -> Self {
+        Self { open: false, ..Self::open(id, heading, content) }
+    }
+
+    fn element(self) -> Element {
+        let details = Element::new("details").with("id", self.id);
+        let details = if self.open { details.with("open", "") } else { details };
+        details.child(Element::new("summary").child(holding("h2", self.heading))).children(self.content)
+    }
+}
+
+/// Parts that unfold, with links to them before where there shall be such; those without content are left out.
+pub fn folds(parts: Vec<Fold>, linked: bool) -> Vec<Element> {
+    let full: Vec<Fold> = parts.into_iter().filter(|p| !p.content.is_empty()).collect();
+    let links = full.iter().map(|p| holding("a", p.heading).with("href", format!("#{}", p.id)));
+    let contents = (linked && !full.is_empty())
+        .then(|| Element::new("nav").with("aria-label", "Evidence").child(holding("h2", "Evidence")).children(links));
+    contents.into_iter().chain(full.into_iter().map(Fold::element)).collect()
+}
+
+/// The first line of a page: a state as a mark with its colour and its name, and what the page is of.
+pub fn eyebrow(state: State, name: &str, of: String) -> Element {
+    let pill = holding("span", format!("{} {name}", state.mark())).with("class", format!("verdict {}", state.class()));
+    Element::new("p").with("class", "eyebrow").child(pill).text(of)
+}
+
+/// A row of bars: its name, the words behind it, a bar from one percentage to another, and a line across it at a third.
+pub fn bar(look: &str, name: &str, says: String, from: f64, to: f64, line: f64) -> [Element; 3] {
+    let (left, width) = (from.min(to), (to - from).abs());
+    let place = format!("left:{}%;width:{}%", fixed(left), fixed(width));
+    let line = Element::new("b").with("class", "zero").with("style", format!("left:{}%", fixed(line)));
+    let fill = Element::new("i").with("class", look).with("style", place);
+    [
+        holding("span", name).with("class", format!("name {look}")),
+        holding("span", says).with("class", "value"),
+        Element::new("span").with("class", "length").with("aria-hidden", "true").child(fill).child(line),
+    ]
 }
 
 /// A figure: drawings in a grid, and a caption that starts with what to see.

@@ -66,7 +66,8 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
         };
         let paths = request.runs.iter().map(given).collect::<Result<_>>()?;
         // What follows from the slip is not told beside it.
-        return Ok(early(request, &Data::default(), clocks, paths, verdict::unusable(slip)));
+        let data = Data::default();
+        return Ok(early(request, &data, clocks, as_logged(request, &model, paths), verdict::unusable(slip)));
     }
     let library = on_inputs(request.library, &model, request.runs);
     let request = &Request { library: &library, ..*request };
@@ -79,7 +80,7 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
     if let Some(outcome) = verdict::before_fitting(&problem, &model)? {
         let given = |r| figure_data::path_as_given(r, &model);
         let paths = data.fitted.iter().map(given).collect::<Result<_>>()?;
-        return Ok(early(request, &data, clocks, paths, outcome));
+        return Ok(early(request, &data, clocks, as_logged(request, &model, paths), outcome));
     }
     let mut choice = choose(&problem, &model, request.library, progress)?;
     let mut odd = vec![];
@@ -95,7 +96,7 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
     }
     let Some(selected) = choice else {
         let paths = data.fitted.iter().map(|r| figure_data::measured_path(r, false)).collect();
-        return Ok(early(request, &data, clocks, paths, verdict::undefined_motion()));
+        return Ok(early(request, &data, clocks, as_logged(request, &model, paths), verdict::undefined_motion()));
     };
     begin(progress, Stage::HeldOut)?;
     let horizons = horizons(request);
@@ -212,13 +213,19 @@ fn next(
 
 /// The answer for runs that are not even put to the model.
 pub(crate) fn unfitted(request: &Request, clocks: Clocks, outcome: Outcome) -> Discovery {
-    early(request, &Data::default(), clocks, vec![], outcome)
+    early(request, &Data::default(), clocks, Pictures::default(), outcome)
+}
+
+/// What runs that are not fitted show: their paths, and their columns as they were logged.
+fn as_logged(request: &Request, model: &Model, paths: Vec<PathPicture>) -> Pictures {
+    let columns = request.runs.iter().flat_map(|r| figure_data::columns(r, model)).collect();
+    Pictures { paths, columns, ..Pictures::default() }
 }
 
 /// The answer for runs that are not fitted.
-fn early(request: &Request, data: &Data, clocks: Clocks, paths: Vec<PathPicture>, outcome: Outcome) -> Discovery {
+fn early(request: &Request, data: &Data, clocks: Clocks, pictures: Pictures, outcome: Outcome) -> Discovery {
     let next = outcome.next.map(NextStep::Advice);
     let found = Findings { reason: outcome.reason, next, ..Findings::default() };
     let report = report(request, data, outcome.verdict, found, clocks);
-    Discovery { report, pictures: Pictures { paths, ..Pictures::default() }, added: vec![], pose_filter: None }
+    Discovery { report, pictures, added: vec![], pose_filter: None }
 }

@@ -693,6 +693,8 @@ pub struct Pictures {
     pub gap: GapCurve,
     /// Violation of each constraint over time.
     pub residuals: Vec<ResidualPicture>,
+    /// The columns of the runs, where these are not fitted.
+    pub columns: Vec<ColumnPicture>,
     /// The candidates by evidence, best first.
     pub candidates: Vec<CandidatePicture>,
     /// The patched constraints: name, text equation.
@@ -769,6 +771,21 @@ pub struct PathPicture {
     pub before: Vec<Vec<[f64; 2]>>,
     /// The patched model, likewise.
     pub after: Vec<Vec<[f64; 2]>>,
+}
+
+/// One column of a run over time.
+#[derive(Clone, Debug, Default)]
+pub struct ColumnPicture {
+    /// File name of the run.
+    pub run: String,
+    /// What the column is, such as "wheel rate".
+    pub name: String,
+    /// Its unit.
+    pub unit: String,
+    /// Times, s.
+    pub time: Vec<f64>,
+    /// Values.
+    pub values: Vec<f64>,
 }
 
 /// RMS gap against horizon.

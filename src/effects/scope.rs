@@ -162,6 +162,14 @@ impl Scope {
         }
     }
 
+    /// The regime in which something grows, and how much of it, where the scope is that it grows by more than that.
+    pub(crate) fn regime_beyond(&self) -> Option<(DrivingRegime, f64)> {
+        let Self::Where(formula) = self else { return None };
+        let (left, bound) = bound(formula)?;
+        let grows = |r: &DrivingRegime| parsed(r.row().2) == left;
+        DrivingRegime::all().find(grows).map(|regime| (regime, bound))
+    }
+
     /// How many parameters it costs: the numbers that a search may move, and one for a choice among a few.
     pub fn cost(&self) -> usize {
         self.movable().len().max(1)
@@ -297,6 +305,7 @@ mod tests {
         assert_eq!(two.moved(&[4.5, 4.0, 6.0]), None);
         let fast = Scope::Where(Expr::parse("sign(v_0)*v_0' - 0.05").unwrap());
         assert_eq!((fast.movable(), fast.cost()), (vec![0.05], 1));
+        assert_eq!(fast.regime_beyond(), Some((DrivingRegime::SpeedingUp, 0.05)));
         assert_eq!(fast.moved(&[0.25]).unwrap().to_string(), "where sign(v_0)*v_0' - 0.25 > 0");
         assert_eq!(Scope::Disk([0.0, 1.0, 2.0]).moved(&[0.0, 1.0, -2.0]), None);
     }

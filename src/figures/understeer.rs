@@ -109,7 +109,7 @@ fn curvature(curves: &[Vec<[f64; 2]>]) -> Element {
         panel.markers(class, *marker, end);
     }
     let ([_, right], [bottom, top]) = (CURVES.columns(), CURVES.rows());
-    panel.note(maths("caption", [right, bottom + 35.0], "end", "steering angle $δ$, rad"));
+    panel.note(maths("caption", [right, bottom + 35.0], "end", "steering angle δ, rad"));
     panel.note(maths("caption", [right, top - 12.0], "end", "curvature $φ̇/v_{l}$, 1/m"));
     panel.finish("curvature", "Curvature", "Curvature over steering angle.")
 }

@@ -1,6 +1,13 @@
 //! Text with a little mathematics: letters in italics, subscripts and superscripts.
 
+use super::letters;
 use super::svg::{Element, label};
+
+/// Size of a figure's letters in pixels, and how much larger and wider those of a heading are.
+const LETTERS: f64 = 12.0;
+const HEADING: f64 = 1.1;
+/// How much wider the letters of the widest usual face, DejaVu Sans, are than those of Helvetica.
+const WIDEST: f64 = 1.14;
 
 /// Size of raised and lowered text, relative to the text around it.
 const SMALL: f64 = 0.76;
@@ -43,6 +50,9 @@ impl Level {
 /// | `$e_{rc}$` | a subscript, upright |
 /// | `$T^{N}$` | a superscript, upright |
 ///
+/// Text that is centred or ends at the point is laid out from its left end, by the widths of the usual letters: there
+/// are programs that anchor each stretch of a text by itself, and stretches would lie over one another.
+///
 /// ```
 /// use creepage::picture::maths::maths;
 /// let e = maths("", [0.0, 0.0], "start", "creep $e_{rc}$ = 0.2").to_string();
@@ -50,10 +60,17 @@ impl Level {
 /// assert!(e.contains("<tspan dy=\"-3.4\"> = 0.2</tspan>"), "{e}");
 /// ```
 pub fn maths(class: &str, at: [f64; 2], anchor: &str, text: &str) -> Element {
+    let runs = runs(text);
+    let (left, anchor) = match (runs.len(), anchor) {
+        // Centred between the widths of both faces; what ends at the point does not pass it in either.
+        (2.., "middle") => (at[0] - (1.0 + WIDEST) / 2.0 * laid_out(&runs, class) / 2.0, "start"),
+        (2.., "end") => (at[0] - WIDEST * laid_out(&runs, class), "start"),
+        _ => (at[0], anchor),
+    };
     // Some programs drop the spaces at the ends of a span, unless they are told not to.
-    let mut out = label(class, at, anchor, "").with("xml:space", "preserve");
+    let mut out = label(class, [left, at[1]], anchor, "").with("xml:space", "preserve");
     let mut level = Level::Line;
-    for run in runs(text) {
+    for run in runs {
         out = out.child(span(&run, level));
         level = run.level;
     }
@@ -69,7 +86,7 @@ fn span(run: &Run, before: Level) -> Element {
     if shift != 0.0 {
         span = span.number("dy", shift);
     }
-    if before == Level::Sub && run.level == Level::Line && !run.text.starts_with(' ') {
+    if has_room(run, before) {
         span = span.number("dx", ROOM);
     }
     if run.level != Level::Line {
@@ -78,7 +95,23 @@ fn span(run: &Run, before: Level) -> Element {
     span.text(run.text.clone())
 }
 
-/// A guess at the width of such a text in pixels.
+/// Whether there is room between a lowered letter and this stretch.
+fn has_room(run: &Run, before: Level) -> bool {
+    before == Level::Sub && run.level == Level::Line && !run.text.starts_with(' ')
+}
+
+/// The width of the stretches in a figure.
+fn laid_out(runs: &[Run], class: &str) -> f64 {
+    let size = if class == "heading" { HEADING * LETTERS } else { LETTERS };
+    let before = std::iter::once(Level::Line).chain(runs.iter().map(|r| r.level));
+    let width = |(run, before): (&Run, Level)| {
+        let size = if run.level == Level::Line { size } else { SMALL * size };
+        letters::width(&run.text, size) + if has_room(run, before) { ROOM } else { 0.0 }
+    };
+    runs.iter().zip(before).map(width).sum()
+}
+
+/// A guess at the width of such a text in pixels, wide enough for any usual sans-serif font.
 pub fn width_of(text: &str, font_size: f64) -> f64 {
     let width = |run: &Run| {
         let size = if run.level == Level::Line { font_size } else { SMALL * font_size };
@@ -134,6 +167,15 @@ mod tests {
         let plain = |text: &str, size: f64| crate::picture::svg::width_of(text, size);
         let expected = plain("v", 10.0) + plain("max", SMALL * 10.0);
         assert!((width_of("$v_{max}$", 10.0) - expected).abs() < 1e-9);
+    }
+
+    #[test]
+    fn stretches_are_laid_out_from_the_left_end() {
+        let x = |anchor, text| maths("", [100.0, 0.0], anchor, text).to_string();
+        // l and 0, smaller: 222·12/1000 + 556·0.76·12/1000 = 7.73, and 1.14 of it where it is wide.
+        assert!(x("middle", "$l_{0}$").starts_with("<text class=\"\" x=\"95.9\" y=\"0\" text-anchor=\"start\""));
+        assert!(x("end", "$l_{0}$").starts_with("<text class=\"\" x=\"91.2\" y=\"0\" text-anchor=\"start\""));
+        assert!(x("end", "plain").contains("x=\"100\" y=\"0\" text-anchor=\"end\""));
     }
 
     #[test]

@@ -18,6 +18,7 @@ pub mod axis;
 #[cfg(feature = "drawings")]
 pub mod converted;
 pub mod decimate;
+pub mod letters;
 pub mod maths;
 pub mod plot;
 pub mod sketch;

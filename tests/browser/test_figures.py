@@ -24,6 +24,15 @@ def by_rsvg(svg: str) -> bytes:
     return subprocess.run(command, input=svg.encode(), stdout=subprocess.PIPE, check=True).stdout
 
 
+def by_inkscape(svg: str) -> bytes:
+    command = ["inkscape", "--pipe", "--export-type=png", "--export-filename=-", "--export-dpi=192"]
+    drawn = [*command, "--export-background=white", "--export-background-opacity=1"]
+    return subprocess.run(drawn, input=svg.encode(), capture_output=True, check=True).stdout
+
+
+NEEDED = {by_rsvg: "rsvg-convert", by_inkscape: "inkscape"}
+
+
 @pytest.fixture(scope="session")
 def figures(tmp_path_factory: pytest.TempPathFactory) -> list[pathlib.Path]:
     out = tmp_path_factory.mktemp("figures")
@@ -31,10 +40,10 @@ def figures(tmp_path_factory: pytest.TempPathFactory) -> list[pathlib.Path]:
     return sorted(out.glob("*.svg"))
 
 
-@pytest.mark.parametrize("render", [by_cairosvg, by_rsvg])
+@pytest.mark.parametrize("render", [by_cairosvg, by_rsvg, by_inkscape])
 def test_every_text_of_every_figure_is_seen(figures: list[pathlib.Path], render: Renderer) -> None:
-    if render is by_rsvg and shutil.which("rsvg-convert") is None:
-        pytest.skip("rsvg-convert is not installed")
+    if render in NEEDED and shutil.which(NEEDED[render]) is None:
+        pytest.skip(f"{NEEDED[render]} is not installed")
     assert len(figures) == 14
     for figure in figures:
         svg = figure.read_text()
@@ -46,3 +55,14 @@ def test_every_text_of_every_figure_is_seen(figures: list[pathlib.Path], render:
         seen = letters.histogram()[255]
         shown = sum(len(re.sub(r"<[^>]*>", "", text)) for text in texts)
         assert seen > 8 * shown, f"{figure.name}: {seen} dark pixels for {shown} letters"
+
+
+def test_texts_of_several_pieces_are_laid_out_from_the_left(figures: list[pathlib.Path]) -> None:
+    """CairoSVG anchors each piece of a text by itself: centred pieces would lie over one another."""
+    several = 0
+    for figure in figures:
+        for anchor, inner in re.findall(r'<text [^>]*text-anchor="(\w+)"[^>]*>(.*?)</text>', figure.read_text(), re.S):
+            pieces = inner.count("<tspan")
+            several += pieces > 1
+            assert pieces <= 1 or anchor == "start", f"{figure.name}: {inner}"
+    assert several > 20

@@ -336,6 +336,7 @@ fn text_from_files_stays_text() {
     report.provenance.inputs_sha256.insert(evil.into(), evil.into());
     pictures.paths.iter_mut().for_each(|p| p.run = evil.into());
     pictures.residuals[0].constraint = evil.into();
+    pictures.columns = vec![column(evil, 0.0)];
     pictures.candidates[0].id = evil.into();
     let [page, svg] = check(&report, &pictures);
     assert!(page.contains("&lt;script&gt;alert(&quot;1&quot;)&lt;/script&gt;&amp;"));
@@ -389,6 +390,7 @@ fn values_that_are_no_numbers_break_lines_and_never_reach_the_page() {
         pictures.forecasts[0].paths[4][1] = vec![[bad, 0.0]; 5];
         pictures.forecasts[0].error[5] = [bad; 2];
         pictures.forecasts[0].floor = bad;
+        pictures.columns = vec![column("speed", bad)];
         report.gap[1].held_out.as_mut().unwrap().position_rms_after = bad;
         report.effects[0].evidence.delta_bic = bad;
         report.effects[0].parameters.get_mut("mass_over_bT").unwrap().value = bad;
@@ -402,6 +404,19 @@ fn values_that_are_no_numbers_break_lines_and_never_reach_the_page() {
         &report(),
         &Pictures { paths: vec![PathPicture { measured: vec![[f64::NAN; 2]; 9], ..Default::default() }], ..pictures() },
     );
+}
+
+fn column(name: &str, first: f64) -> ColumnPicture {
+    let (time, values) = (vec![0.0, 0.1, 0.2], vec![first, 1.0, 2.0]);
+    ColumnPicture { run: "a.csv".into(), name: name.into(), unit: "m/s".into(), time, values }
+}
+
+#[test]
+fn the_columns_of_data_that_cannot_be_used_are_drawn() {
+    let columns = (0..25).map(|_| column("speed", 0.5)).collect();
+    let [page, _] = check(&bare(Verdict::UnusableData), &Pictures { columns, ..Pictures::default() });
+    assert_eq!(page.matches("Between 0.500 and 2.00 m/s, from 0 s to 0.200 s.").count(), 24);
+    assert!(page.contains("Not drawn: 1 further column."));
 }
 
 #[test]
@@ -423,12 +438,14 @@ fn a_million_rows_still_give_a_small_page() {
     residual.time = (0..1_000_000).map(|i| i as f64 * 1e-3).collect();
     residual.before = (0..1_000_000_u64).map(|i| (i * 7919 % 1000) as f64 * 1e-3).collect();
     residual.after = residual.before.clone();
-    pictures.residuals = vec![residual; 30];
+    let short = crate::synthetic::residual("traverse constraint", "short.csv", 0.1, 1);
+    pictures.residuals = [vec![residual; 30], vec![short; 47]].concat();
     pictures.paths.push(path_picture("seventh.csv", false, 1));
     let [page, svg] = check(&report(), &pictures);
     println!("page {} bytes, drawing {} bytes", page.len(), svg.len());
     assert_eq!(page.matches("id=\"path-").count(), 2 * 6, "six runs: a title and a description each");
-    assert!(page.contains("Not drawn: 1 further run.") && page.contains("Not drawn: 6 further pairs"));
+    assert!(page.contains("Not drawn: 1 further run.") && page.contains("Not drawn: 5 further pairs"));
+    assert_eq!(page.matches("residual-29-both-title").count(), 2, "one strip for both models");
     assert!(page.len() < 1_500_000, "{} bytes", page.len());
     assert!(svg.len() < 300_000, "{} bytes", svg.len());
 }

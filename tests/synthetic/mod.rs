@@ -82,6 +82,7 @@ pub fn pictures() -> Pictures {
     let horizon: Vec<f64> = vec![1.0, 2.0, 5.0, 10.0, 15.0, 20.0, 30.0];
     let floor: Vec<f64> = horizon.iter().map(|h| 0.0042 + 0.0009 * h).collect();
     Pictures {
+        columns: vec![],
         paths: vec![
             path_picture("eight-slow.csv", false, 0),
             path_picture("eight-fast.csv", false, 1),

@@ -4,11 +4,12 @@ use crate::discrepancy::diagnosis::before_after::{ModelComparison, Rollouts};
 use crate::discrepancy::localisation::constraint_residuals::ConstraintResiduals;
 use crate::discrepancy::preprocessing::dataset::Data;
 use crate::discrepancy::record::run_record::Record;
-use crate::discrepancy::report::{CandidatePicture, PathPicture, Pictures, Report};
+use crate::discrepancy::report::{CandidatePicture, ColumnPicture, PathPicture, Pictures, Report};
 use crate::discrepancy::selection::choice::Selected;
 use crate::discrepancy::shooting::rollout::Rollout;
 use crate::effects::Applied;
 use crate::error::Result;
+use crate::files::Run;
 use crate::model::Model;
 
 /// Runs that are drawn.
@@ -56,6 +57,21 @@ pub(crate) fn measured_path(record: &Record, held_out: bool) -> PathPicture {
         measured: record.rows.clone().map(point).collect(),
         ..PathPicture::default()
     }
+}
+
+/// The inputs and the pose of a run as they were logged, each over time.
+pub(crate) fn columns(run: &Run, model: &Model) -> Vec<ColumnPicture> {
+    let column = |name: &str, unit: &str, values: &Vec<f64>| ColumnPicture {
+        run: run.name.clone(),
+        name: name.replace('_', " "),
+        unit: unit.into(),
+        time: run.time.clone(),
+        values: values.clone(),
+    };
+    let inputs = run.roles.iter().zip(&run.inputs).map(|(role, of)| column(role, model.vehicle.unit_of(role), of));
+    let pose = [("x", "m", Some(&run.x)), ("y", "m", Some(&run.y)), ("heading", "rad", run.heading.as_ref())];
+    let pose = pose.into_iter().filter_map(|(name, unit, of)| Some(column(name, unit, of?)));
+    inputs.chain(pose).collect()
 }
 
 /// The measured path of a run beside that of the model as given, which nothing was fitted to.

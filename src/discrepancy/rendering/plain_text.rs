@@ -2,7 +2,7 @@
 
 use super::title_text::title;
 use crate::discrepancy::report::Named;
-use crate::effects::{Applied, TypicalMotion};
+use crate::effects::{Applied, DrivingRegime, Scope, TypicalMotion};
 use crate::number_format::significant;
 
 /// Sentences that stand in a heading; more are counted.
@@ -15,13 +15,27 @@ pub(crate) fn plain(applied: &Applied, motion: TypicalMotion) -> String {
     let effect = &applied.effect;
     let told = in_the_end(applied, motion.until).in_plain_words(motion);
     let told = told.unwrap_or_else(|| capitalised(&effect.says));
-    let scope = effect.scope.as_ref().map(|s| format!(", {s}")).unwrap_or_default();
+    let scope = effect.scope.as_ref().map(|s| format!(", {}", in_words(s))).unwrap_or_default();
     let course = match (&effect.course, &effect.walk) {
         (Some(_), _) => format!(", at {} s, and this changes with time", significant(motion.until, 3)),
         (_, Some(_)) => ", and this wanders".into(),
         _ => String::new(),
     };
     format!("{}{scope}{course}", told.trim_end_matches('.'))
+}
+
+/// When or where an effect holds, for anyone: a rate that passes a bound has words in place of its formula.
+fn in_words(scope: &Scope) -> String {
+    let Some((regime, bound)) = scope.regime_beyond() else { return scope.to_string() };
+    let by = |unit: &str| format!("{} {unit}", significant(bound, 2));
+    match regime {
+        DrivingRegime::SpeedingUp => format!("while it gains more than {} every second", by("m/s")),
+        DrivingRegime::SlowingDown => format!("while it loses more than {} every second", by("m/s")),
+        DrivingRegime::Forward => format!("forward, above {}", by("m/s")),
+        DrivingRegime::Reverse => format!("in reverse, above {}", by("m/s")),
+        DrivingRegime::Left => format!("in left turns faster than {}", by("rad/s")),
+        DrivingRegime::Right => format!("in right turns faster than {}", by("rad/s")),
+    }
 }
 
 /// Several findings, sentence after sentence.
@@ -70,7 +84,15 @@ pub(crate) fn capitalised(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::effects::{self, DrivingRegime, Effect, Scope};
+    use crate::effects::{self, Effect};
+
+    #[test]
+    fn a_rate_beyond_a_bound_has_words() {
+        let words = |formula: &str| in_words(&Scope::Where(crate::formula::Expr::parse(formula).unwrap()));
+        assert_eq!(words("-sign(v_0)*v_0' - 0.17608"), "while it loses more than 0.18 m/s every second");
+        assert_eq!(words("w_0 - 0.5"), "in left turns faster than 0.50 rad/s");
+        assert_eq!(words("x - 3"), "where x - 3 > 0");
+    }
 
     #[test]
     fn an_effect_is_told_with_its_scope_and_without_a_template() {

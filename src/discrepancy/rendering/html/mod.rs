@@ -7,6 +7,7 @@ mod candidates;
 pub(crate) mod cards;
 mod change;
 pub mod check_page;
+mod columns;
 mod forecast_data;
 mod gap;
 mod head;
@@ -74,6 +75,7 @@ fn evidence(report: &Report, pictures: &Pictures) -> Vec<Fold> {
     let residuals = tables::residuals(report, residuals::figure(pictures));
     vec![
         Fold::open("effects", "What was found, by name", found),
+        Fold::open("columns", "The columns over time", columns::figure(pictures)),
         Fold::open("gap", "The error at every horizon", gaps),
         Fold::closed("candidates", "Every candidate weighed", candidates::figure(pictures)),
         Fold::closed("residuals", "The violated constraints over time", residuals),

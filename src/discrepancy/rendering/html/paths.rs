@@ -74,7 +74,12 @@ pub fn panel(run: &PathPicture, size: Size, close_up: bool, id: &str) -> Option<
     panel.pieces("before", &run.before, MOST_POINTS);
     panel.pieces("after", &run.after, MOST_POINTS);
     panel.markers("start", Marker::Ring, &restarts(run));
-    let remark = [if run.held_out { "held out" } else { "fitted" }, if near.is_some() { ", close-up" } else { "" }];
+    let part = match (run.held_out, run.after.is_empty()) {
+        (true, _) => "held out",
+        (_, true) => "not fitted",
+        _ => "fitted",
+    };
+    let remark = [part, if near.is_some() { ", close-up" } else { "" }];
     panel.heading(&run.run, &remark.concat());
     let title = format!("Path of {}", cut(&run.run, 60));
     Some(panel.finish(id, &title, &described(run, whole)))

@@ -94,6 +94,7 @@ figure{margin:0 0 22px}
 figcaption{max-width:62em;margin-top:8px;font-size:15px;color:var(--soft)}
 figcaption strong{color:var(--ink);font-weight:600}
 figcaption.over{margin:0;padding:6px 0;font-weight:600;color:var(--ink)}
+.line.slim{stroke-width:1.3}
 .panels{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,430px),1fr));gap:14px 24px}
 .panels.single{grid-template-columns:minmax(0,820px)}
 .weighed{display:grid;grid-auto-flow:row dense;grid-template-columns:auto minmax(60px,1fr) auto;gap:5px 12px;align-items:center;max-width:820px;font-size:15px}

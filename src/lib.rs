@@ -39,7 +39,7 @@
 //! | [`check()`], [`check_with()`] | says before any fit what runs can tell of a model |
 //! | [`fit()`] | fits just the effects that are named: values and covariance, and no selection |
 //! | [`describe()`] | the constraints of a model with their equations, Jacobians and growth vector |
-//! | [`simulate()`], [`sweep()`] | the motion of a model; a table of the motions of many cases |
+//! | [`simulate()`], [`simulate_many()`], [`sweep()`] | the motion of a model; motions of many cases as arrays; as a table |
 //! | [`verify()`] | runs the claims of the paper, each with its evidence |
 //!
 //! They take a [`Model`] and [`Run`]s, from files or from arrays, and [`Options`]; they tell their [`Progress`], and stop
@@ -121,8 +121,8 @@ pub use discrepancy::report::{Report, Verdict};
 pub use error::{Error, Kind as ErrorKind, Result};
 pub use files::Run;
 pub use front_door::{
-    Discovery, Model, Options, Pose, check, check_with, describe, describe_with, discover, discover_with, fit,
-    simulate, sweep, verify,
+    Discovery, Model, Motions, Options, Pose, check, check_with, describe, describe_with, discover, discover_with, fit,
+    simulate, simulate_many, sweep, verify,
 };
 pub use progress::{OnProgress, Progress, Stage};
 

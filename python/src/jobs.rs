@@ -5,8 +5,9 @@ use crate::model::Model;
 use crate::run::Run;
 use crate::work::worked;
 use clap::Parser;
+use creepage::sweep::{Shard, Sweep};
 use creepage::{Options, command};
-use numpy::{PyArray1, ToPyArray};
+use numpy::{PyArray1, PyArray3, PyArrayMethods, ToPyArray};
 use pyo3::prelude::*;
 use std::path::PathBuf;
 
@@ -83,19 +84,57 @@ pub fn simulate<'py>(py: Python<'py>, model: &Model, run: &Run) -> PyResult<Vec<
     Ok(table.names.into_iter().zip(&table.columns).map(|(name, column)| (name, column.to_pyarray(py))).collect())
 }
 
-/// Simulates all cases of a sweep's file into a table; how many there are, and how many of them are undefined.
+/// The motions of a model over the inputs of a run, once for each set of values: x, y, heading and headings of trailers of
+/// every case and row, how many are undefined, and how many did not reach the error asked for.
 #[pyfunction]
+pub fn simulate_many<'py>(
+    py: Python<'py>,
+    model: &Model,
+    run: &Run,
+    values: Vec<(String, Vec<f64>)>,
+    threads: Option<usize>,
+) -> PyResult<(Bound<'py, PyArray3<f64>>, usize, usize)> {
+    let (model, run) = (&model.0, &run.0);
+    let (shape, numbers, troubles) = worked(py, threads, None, move |_| {
+        let values: Vec<(&str, Vec<f64>)> = values.iter().map(|(name, of)| (name.as_str(), of.clone())).collect();
+        let found = creepage::simulate_many(model, run, &values)?;
+        let is_pose = |name: &String| ["x", "y", "heading"].contains(&name.as_str()) || name.starts_with("trailer");
+        let pose = found.columns.iter().take_while(|name| is_pose(name)).count();
+        let numbers: Vec<f64> = {
+            let all: Vec<f64> = found.values().collect();
+            all.chunks(found.columns.len()).flat_map(|row| row[..pose].iter().copied()).collect()
+        };
+        let undefined = found.cases.iter().filter(|c| !c.is_defined()).count();
+        let rough = found.cases.iter().filter(|c| c.is_defined() && !c.converged).count();
+        Ok(([found.cases.len(), found.rows, pose], numbers, (undefined, rough)))
+    })?;
+    let array = PyArray1::from_vec(py, numbers).reshape(shape)?;
+    Ok((array, troubles.0, troubles.1))
+}
+
+/// Simulates the cases of a sweep's file, or of a shard of them, into a table; how many there are, and how many of them are
+/// undefined.
+#[pyfunction]
+#[pyo3(signature = (spec, out, shard, threads, progress))]
 pub fn sweep(
     py: Python,
     spec: PathBuf,
     out: PathBuf,
+    shard: Option<String>,
     threads: Option<usize>,
     progress: Option<&Bound<PyAny>>,
 ) -> PyResult<(usize, usize)> {
     worked(py, threads, progress, move |progress| {
-        let written = creepage::sweep(spec, out, &Options { progress, ..Options::default() })?;
+        let shard = shard.map_or(Ok(Shard::WHOLE), |part| part.parse().map_err(creepage::Error::input))?;
+        let written = Sweep::read(spec)?.write(shard, &out, progress)?;
         Ok((written.cases, written.undefined))
     })
+}
+
+/// Joins the tables of all shards of a sweep.
+#[pyfunction]
+pub fn join_sweep(py: Python, spec: PathBuf, parts: Vec<PathBuf>, out: PathBuf) -> PyResult<()> {
+    py.detach(|| Sweep::read(spec)?.join(&parts, &out)).map_err(|e| raised(py, &e))
 }
 
 /// The constraints of a model: text, LaTeX and JSON.

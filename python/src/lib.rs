@@ -2,6 +2,7 @@
 //! package `python/creepage`.
 
 mod errors;
+mod export;
 mod jobs;
 mod model;
 mod run;
@@ -22,7 +23,11 @@ mod _creepage {
     #[pymodule_export]
     use super::errors::{InputError, RunError};
     #[pymodule_export]
-    use super::jobs::{check, describe, discover, effects, fit, main, simulate, sweep, verify};
+    use super::export::export;
+    #[pymodule_export]
+    use super::jobs::{
+        check, describe, discover, effects, fit, join_sweep, main, simulate, simulate_many, sweep, verify,
+    };
     #[pymodule_export]
     use super::model::Model;
     #[pymodule_export]

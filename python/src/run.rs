@@ -30,6 +30,18 @@ impl Run {
         py.detach(|| creepage::Run::parse(name, text, model.0.as_ref())).map(Self).map_err(|e| raised(py, &e))
     }
 
+    /// Inputs and poses logged apart, each with its name, and with its text where it is at hand as CSV.
+    #[staticmethod]
+    fn apart(
+        py: Python,
+        inputs: (String, Option<String>),
+        truth: (String, Option<String>),
+        model: &Model,
+    ) -> PyResult<Self> {
+        let both = [&inputs, &truth].map(|(name, text)| (name.as_str(), text.as_deref()));
+        py.detach(|| creepage::Run::parse_apart(both, model.0.as_ref())).map(Self).map_err(|e| raised(py, &e))
+    }
+
     /// Name of the file, without its folder.
     #[getter]
     fn name(&self) -> &str {

@@ -52,3 +52,15 @@ def test_a_manifest_that_is_none_is_told(tmp_path) -> None:
     with pytest.raises(cp.InputError, match="nowhere.csv"):
         cp.fleet(tmp_path / "nowhere.csv", tmp_path / "out", shards=1)
     assert shard(str(MANIFEST), str(tmp_path / "rows"), "1/8") == "1/8"
+
+
+def test_a_sweep_has_the_same_bytes_on_every_engine(tmp_path) -> None:
+    spec = ROOT / "examples" / "sweeps" / "wheels.toml"
+    whole = cp.sweep(spec, tmp_path / "whole.csv")
+    with ThreadPoolExecutor(2) as pool:
+        for name, executor in (("pool", pool), ("map", Mapping()), ("dying", Dying(pool))):
+            assert cp.sweep(spec, tmp_path / f"{name}.csv", executor=executor, shards=3) == whole
+            assert (tmp_path / f"{name}.csv").read_bytes() == (tmp_path / "whole.csv").read_bytes(), name
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["dying.csv", "map.csv", "pool.csv", "whole.csv"]
+    with pytest.raises(cp.InputError, match="none.toml"):
+        cp.sweep(tmp_path / "none.toml", tmp_path / "none.csv", executor=Mapping(), shards=2)

@@ -44,19 +44,25 @@ fn parameter_text(p: &Parameter) -> String {
 
 /// The ids of the vehicles it applies to.
 fn applies_to<'v>(e: &Effect, vehicles: &'v [Vehicle]) -> Result<Vec<&'v str>> {
-    let library = std::slice::from_ref(e);
     let mut found = Vec::new();
     for v in vehicles {
-        if !Model::sample(v)?.applicable(library).is_empty() {
+        if applies(e, &Model::sample(v)?) {
             found.push(v.id.as_str());
         }
     }
     for v in tractors(vehicles) {
-        if !found.contains(&WITH_TRAILERS) && !sample_train(v)?.applicable(library).is_empty() {
+        if !found.contains(&WITH_TRAILERS) && applies(e, &sample_train(v)?) {
             found.push(WITH_TRAILERS);
         }
     }
     Ok(found)
+}
+
+/// Whether an effect applies to a model; one that acts on an input, on any of its inputs.
+fn applies(e: &Effect, model: &Model) -> bool {
+    let on = |role: &String| e.on_input(role, model.vehicle.unit_of(role), 1.0);
+    let all: Vec<Effect> = if e.per_input { model.inputs.iter().map(on).collect() } else { vec![e.clone()] };
+    !model.applicable(&all).is_empty()
 }
 
 /// Every effect of a library as JSON.

@@ -56,12 +56,8 @@ pub fn with(own: &[Effect]) -> Vec<Effect> {
     library
 }
 
-/// The effect of the catalogue that shifts the inputs in time.
-///
-/// ```
-/// assert!(creepage::effects::of_clock().is_some_and(|e| e.parameters["delay"].unit == "s"));
-/// ```
-pub fn of_clock() -> Option<&'static Effect> {
+/// The effect by which the inputs act at another time than they were logged.
+pub(crate) fn of_clock() -> Option<&'static Effect> {
     all().iter().find(|e| e.is_of_clock())
 }
 

@@ -1,11 +1,11 @@
 //! The join of a fleet: from the rows of robots to what the fleet has, which robots differ, and a model for each.
 
 use super::column::{Column, columns_of, parameter};
-use super::covariates::Covariate;
+use super::covariates::{Covariate, days};
 use super::fits::{Plan, fits};
 use super::needed_effects::{Wanted, wanted};
 use super::outlying_robots::Outlier;
-use super::parameter_model::{Levels, ParameterModel};
+use super::parameter_model::{Levels, ParameterModel, Said};
 use super::rendering::fleet_text;
 use super::report::*;
 use super::robot_models::RobotModel;
@@ -195,8 +195,28 @@ impl Fleet {
             runs: fitted.runs.len(),
             verdict: discovered.verdict().id().into(),
             values: told.iter().filter_map(value).collect(),
+            over_time: told.iter().filter_map(|(c, m)| Some((c.name(), self.over_time(i, c, m)?))).collect(),
             mend: vec![],
         }
+    }
+}
+
+impl Fleet {
+    /// What the dated runs of a robot say of a parameter, by date; none where there are not several.
+    fn over_time(&self, robot: usize, column: &Column, model: &ParameterModel) -> Option<Vec<RunValue>> {
+        let dates: Vec<Option<&String>> =
+            self.all.iter().flat_map(|(d, _)| d.robot.logs.iter().map(|l| l.date.as_ref())).collect();
+        let names: Vec<&str> = self.runs().collect();
+        let one = |s: &Said| {
+            let date = dates.get(s.run).copied().flatten()?;
+            let is_odd = model.odd_runs.iter().any(|o| o.which == s.run);
+            let run =
+                RunValue { run: names.get(s.run)?.to_string(), date: date.clone(), value: s.value, std: s.std, is_odd };
+            Some((days(date)?, run))
+        };
+        let mut found: Vec<(f64, RunValue)> = column.said.iter().filter(|s| s.robot == robot).filter_map(one).collect();
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        (found.len() > 1).then(|| found.into_iter().map(|(_, run)| run).collect())
     }
 }
 

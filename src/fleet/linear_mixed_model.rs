@@ -120,6 +120,14 @@ pub struct Groups<'a> {
     least: f64,
 }
 
+/// Adds w·x·xᵀ to a matrix and w·y·x to a vector.
+fn add_square(matrix: &mut DMatrix<f64>, vector: &mut DVector<f64>, w: f64, y: f64, x: &[f64]) {
+    for j in 0..x.len() {
+        vector[j] += w * y * x[j];
+        (0..x.len()).for_each(|i| matrix[(i, j)] += w * x[i] * x[j]);
+    }
+}
+
 /// Steps of a golden section: its bracket shrinks to 10⁻⁷ of what it was.
 const STEPS: usize = 34;
 const GOLDEN: f64 = 0.618_033_988_749_894_8;
@@ -156,21 +164,21 @@ impl<'a> Groups<'a> {
         let (mut information, mut right) = (DMatrix::zeros(n, n), DVector::zeros(n));
         let (mut square, mut volume) = (0.0, 0.0);
         let tau2 = between * between;
+        let mut rows = vec![0.0; n];
         for group in &self.all {
-            let (mut total, mut values, mut rows) = (0.0, 0.0, DVector::zeros(n));
+            let (mut total, mut values) = (0.0, 0.0);
+            rows.fill(0.0);
             for o in group {
-                let (w, x, y) = (weight(o, within, self.least), o.design(), o.value - self.centre);
-                information += w * &x * x.transpose();
-                right += w * y * &x;
+                let (w, y) = (weight(o, within, self.least), o.value - self.centre);
+                add_square(&mut information, &mut right, w, y, &o.row);
+                rows.iter_mut().zip(&o.row).for_each(|(sum, x)| *sum += w * x);
                 square += w * y * y;
                 volume -= w.ln();
                 total += w;
                 values += w * y;
-                rows += w * x;
             }
             let shrunk = tau2 / (1.0 + tau2 * total);
-            information -= shrunk * &rows * rows.transpose();
-            right -= shrunk * values * &rows;
+            add_square(&mut information, &mut right, -shrunk, values, &rows);
             square -= shrunk * values * values;
             volume += (tau2 * total).ln_1p();
         }

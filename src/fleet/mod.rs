@@ -25,6 +25,7 @@ mod report;
 mod robot_models;
 mod rows;
 
+pub(crate) use covariates::days;
 pub use join::{Joined, join};
 pub use map::{Outcome, map};
 pub use rendering::fleet_html::fleet_html;

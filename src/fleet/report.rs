@@ -177,9 +177,27 @@ pub struct RobotReport {
     pub verdict: String,
     /// Its values, `EFFECT PARAMETER`.
     pub values: BTreeMap<String, ValueOfRobot>,
+    /// What each dated run says of them, by date, where there are several.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty", default)]
+    pub over_time: BTreeMap<String, Vec<RunValue>>,
     /// Lines of its ROS 2 controller's parameters that these change, where there is one for the vehicle.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub mend: Vec<String>,
+}
+
+/// What a dated run says of a value.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RunValue {
+    /// The run.
+    pub run: String,
+    /// Its date, as the manifest has it.
+    pub date: String,
+    /// The value.
+    pub value: f64,
+    /// Its deviation.
+    pub std: f64,
+    /// Whether the run differs from the others of its robot.
+    pub is_odd: bool,
 }
 
 /// A value of a robot.

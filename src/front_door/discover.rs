@@ -189,9 +189,13 @@ pub fn simulate(model: &Model, run: &Run) -> Result<Table> {
     model.file.no_forces("simulate")?;
     let vehicle = VehicleModel::from_file(&model.file, &model.library, &run.roles)?;
     let signals = Signals::of_run(run, model.file.input_timing);
+    simulate_model(&vehicle, &signals, &run.time, &first_pose(&vehicle, run), &Integrator::default())
+}
+
+/// The first pose of a run; trailers that are not measured stand in line.
+pub(super) fn first_pose(vehicle: &VehicleModel, run: &Run) -> Vec<f64> {
     let heading = run.heading.as_ref().map_or(0.0, |h| h[0]);
     let measured = run.trailer_headings.iter().map(|h| h[0]);
-    let trailers: Vec<f64> = measured.chain(std::iter::repeat(heading)).take(vehicle.trailer_count()).collect();
-    let start: Vec<f64> = [run.x[0], run.y[0], heading].into_iter().chain(trailers).collect();
-    simulate_model(&vehicle, &signals, &run.time, &start, &Integrator::default())
+    let trailers = measured.chain(std::iter::repeat(heading)).take(vehicle.trailer_count());
+    [run.x[0], run.y[0], heading].into_iter().chain(trailers).collect()
 }

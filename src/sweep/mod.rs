@@ -3,7 +3,7 @@
 mod cases;
 mod join;
 mod journal;
-mod names;
+pub(crate) mod names;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod prepared_sweep;

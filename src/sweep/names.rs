@@ -7,7 +7,7 @@ use crate::model::Model;
 use crate::motion::Varied;
 
 /// A quantity of the model that may vary: its name in the file, what it is, and the values it may take.
-pub(super) struct Quantity {
+pub(crate) struct Quantity {
     pub name: String,
     pub varied: Varied,
     pub allowed: Allowed,
@@ -15,7 +15,7 @@ pub(super) struct Quantity {
 
 /// Values a quantity may take.
 #[derive(Clone, Copy)]
-pub(super) struct Allowed {
+pub(crate) struct Allowed {
     min: f64,
     max: f64,
     /// Whether `min` itself is not allowed.
@@ -32,19 +32,21 @@ impl Allowed {
 
     /// Refuses a value that is not allowed.
     pub fn check(&self, name: &str, value: f64, spot: &Spot) -> Result<()> {
-        if self.holds(value) {
-            return Ok(());
-        }
+        if self.holds(value) { Ok(()) } else { Err(spot.told(self.refusal(name, value))) }
+    }
+
+    /// Why a value is not allowed.
+    pub fn refusal(&self, name: &str, value: f64) -> Error {
         let advice = match self.above {
             true => "it must be greater than zero, in SI units".to_string(),
             false => format!("it must lie within {:?} and {:?}", self.min, self.max),
         };
-        Err(spot.error(format!("{name} = {value:?} is out of range")).help(advice))
+        Error::input(format!("{name} = {value:?} is out of range")).help(advice)
     }
 }
 
 /// Everything of the model that may vary.
-pub(super) fn quantities(file: &ModelFile, model: &Model) -> Vec<Quantity> {
+pub(crate) fn quantities(file: &ModelFile, model: &Model) -> Vec<Quantity> {
     let of_model = |name: String, symbol: Symbol, allowed| Quantity { name, varied: Varied::Model(symbol), allowed };
     let sign = |name: &str| if name.ends_with("offset") { Allowed::ANY } else { Allowed::POSITIVE };
     let mut found: Vec<Quantity> =
@@ -82,14 +84,24 @@ pub(super) fn quantities(file: &ModelFile, model: &Model) -> Vec<Quantity> {
 
 /// The quantity of a name: one of the model, or a constant of the inputs' formulas.
 pub(super) fn find(name: &str, spot: &Spot, known: &[Quantity], used: &[Symbol]) -> Result<(Varied, Allowed)> {
-    if let Some(q) = known.iter().find(|q| q.name == name) {
-        return Ok((q.varied.clone(), q.allowed));
+    if let Ok(found) = of_model(name, known) {
+        return Ok(found);
     }
     if used.iter().any(|s| s.as_str() == name) {
         return Ok((Varied::Input(Symbol::new(name)), Allowed::ANY));
     }
     let names: Vec<&str> = used.iter().map(Symbol::as_str).chain(known.iter().map(|q| q.name.as_str())).collect();
     Err(unknown(name, spot, &names))
+}
+
+/// The quantity of the model that has a name.
+pub(crate) fn of_model(name: &str, known: &[Quantity]) -> Result<(Varied, Allowed)> {
+    let found = known.iter().find(|q| q.name == name);
+    found.map(|q| (q.varied.clone(), q.allowed)).ok_or_else(|| {
+        let names: Vec<&str> = known.iter().map(|q| q.name.as_str()).collect();
+        let message = format!("no quantity of the model is called \"{}\"", shown(name));
+        Error::input(message).help(advice(name, "what may vary", &names))
+    })
 }
 
 fn unknown(name: &str, spot: &Spot, names: &[&str]) -> Error {

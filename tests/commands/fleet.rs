@@ -193,6 +193,19 @@ fn floors_wear_an_effect_of_one_robot_and_an_odd_run_are_told_apart() {
     near(&mismatch[0], 2e-4);
     let own = fs::read_to_string(dir.path().join("fleet/robots/r04.toml")).unwrap();
     assert!(own.contains("lever-arm"));
+    // Every run over its date, the robot with the odd run among them; links lead to files.
+    for robot in found["per_robot"].as_array().unwrap() {
+        let runs = robot["over_time"]["track-width scale"].as_array().unwrap();
+        let dates: Vec<&str> = runs.iter().map(|r| r["date"].as_str().unwrap()).collect();
+        assert!(runs.len() == 3 && dates.is_sorted(), "{dates:?}");
+        let odd = runs.iter().filter(|r| r["is_odd"] == true).count();
+        assert_eq!(odd, usize::from(robot["robot"] == "r07"));
+    }
+    let page = fs::read_to_string(dir.path().join("fleet/fleet.html")).unwrap();
+    assert_eq!(page.matches("id=\"over-time-track-width-scale-").count(), 2 * 12, "a title and a description each");
+    let links: Vec<&str> = page.split("href=\"robots/").skip(1).map(|l| l.split('"').next().unwrap()).collect();
+    assert_eq!(links.len(), 24);
+    assert!(links.iter().all(|l| dir.path().join("fleet/robots").join(l).exists()), "{links:?}");
 }
 
 /// The table as Parquet has the rows and the numbers of the table as CSV.

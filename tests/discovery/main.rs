@@ -8,6 +8,7 @@ mod contradicted;
 mod different_drives;
 mod drifting;
 mod filtered_poses;
+mod fit_coverage;
 mod fit_rates;
 mod fit_statistics;
 #[path = "../forced/mod.rs"]

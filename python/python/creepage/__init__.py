@@ -12,7 +12,7 @@ Units are SI: m, rad, s, kg. Signs: x forward, y to the left, angles counter-clo
 
 from ._creepage import InputError, RunError
 from .fleet import fleet
-from .jobs import check, describe, discover, effects, fit, simulate, sweep, verify
+from .jobs import check, describe, discover, effects, fit, simulate, simulate_many, sweep, verify
 from .model import Model
 from .results import Check, Description, Discovery, Effect, Estimate, Fit, Gap, Ledger
 from .run import Run
@@ -37,6 +37,7 @@ __all__ = [
     "fit",
     "fleet",
     "simulate",
+    "simulate_many",
     "sweep",
     "verify",
 ]

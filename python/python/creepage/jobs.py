@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Sequence
-from os import PathLike
-from typing import Any
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
+from os import PathLike, cpu_count, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from . import _creepage as native
+from .engines import mapped
 from .frames import frame_of
 from .model import Model
 from .progress import Progress, listener
 from .results import Check, Description, Discovery, Fit, Ledger
 from .run import Run, _natives
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 
 def _all(runs: Run | Iterable[Run]) -> tuple[Run, ...]:
@@ -93,13 +101,66 @@ def simulate(model: Model, run: Run) -> Any:
     return frame_of(dict(native.simulate(model._native, run._native)))
 
 
+def simulate_many(
+    model: Model, run: Run, values: Mapping[str, Sequence[float]], *, threads: int | None = None
+) -> NDArray[np.float64]:
+    """The motions of a model over the inputs of a run, once for each of n sets of values: an array of shape (n, t, 3 + N).
+
+    values   n numbers each of parameters ("track_width"), of values of the model's effects ("rotation-creep.e_rc"), or of
+             components of the first pose ("initial.heading")
+
+    Along the last axis: x and y (m), heading (rad, not wrapped), headings of the N trailers; t are the rows of the run. Each
+    motion is integrated twice and checked to 1e-9; where one is undefined it is NaN, and a warning says how many are.
+
+    Raises `InputError` where a name is unknown, a value is out of range or the lists differ in length, and for effects that
+    hold in part or act on one input, which the engine of sweeps does not take.
+    """
+    given = [(name, [float(v) for v in of]) for name, of in values.items()]
+    motions, undefined, rough = native.simulate_many(model._native, run._native, given, threads)
+    for count, what in ((undefined, "is undefined: NaN"), (rough, "did not reach an error of 1e-9")):
+        if count:
+            warnings.warn(f"the motion of {count} of {len(motions)} cases {what}", RuntimeWarning, stacklevel=2)
+    return motions
+
+
 def sweep(
-    spec: str | PathLike[str], out: str | PathLike[str], *, threads: int | None = None, progress: Progress = None
+    spec: str | PathLike[str],
+    out: str | PathLike[str],
+    *,
+    executor: Any = None,
+    shards: int | None = None,
+    threads: int | None = None,
+    progress: Progress = None,
 ) -> dict[str, int]:
-    """Simulates all cases of a sweep's file into a table, CSV or Parquet by its name; goes on where a run was stopped."""
-    with listener(progress) as tell:
-        cases, undefined = native.sweep(spec, out, threads, tell)
-    return {"cases": cases, "undefined": undefined}
+    """Simulates all cases of a sweep's file into a table, CSV or Parquet by its name; goes on where a run was stopped.
+
+    executor  anything with `.submit` (concurrent.futures, a Dask client) or `.map` (a pool of multiprocessing or of Ray), whose
+              workers see the same files and have a thread for each shard; this process, with its threads, where there is none
+    shards    parts of the cases; four for each core where there is no number
+
+    The table has the same bytes for every engine, sharding and number of threads.
+    """
+    if executor is None:
+        with listener(progress) as tell:
+            cases, undefined = native.sweep(spec, out, None, threads, tell)
+        return {"cases": cases, "undefined": undefined}
+    of = shards or 4 * (cpu_count() or 1)
+    table = Path(out).resolve()
+    folder = table.with_name(f"{table.name}.parts")
+    folder.mkdir(parents=True, exist_ok=True)
+    files = {f"{i}/{of}": folder / f"{i:0{len(str(of))}}{table.suffix}" for i in range(1, of + 1)}
+    one = partial(_sweep_shard, fspath(Path(spec).resolve()), {part: fspath(file) for part, file in files.items()})
+    counts = mapped(executor, one, list(files))
+    native.join_sweep(spec, [fspath(file) for file in files.values()], out)
+    for file in files.values():
+        file.unlink()
+    folder.rmdir()
+    return {"cases": sum(c for c, _ in counts), "undefined": sum(u for _, u in counts)}
+
+
+def _sweep_shard(spec: str, files: dict[str, str], part: str) -> tuple[int, int]:
+    """The cases of one shard, such as "3/64", into a file of its own."""
+    return native.sweep(spec, files[part], part, 1, None)
 
 
 def describe(model: Model) -> Description:

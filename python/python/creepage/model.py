@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import html
+import re
 import tempfile
+import warnings
 from os import PathLike, fspath
 from pathlib import Path
 
@@ -66,6 +68,28 @@ class Model:
     def save(self, path: str | PathLike[str]) -> None:
         """Writes the model file, whole or not at all."""
         self._native.write(path)
+
+    def export(self, target: str) -> str:
+        """The findings of the model as what a robot reads.
+
+        target   "ros2-diff-drive", "ros2-steering", "wpilib", "vesc" or "json": parameters of a controller;
+                 "c", "cpp", "python" or "rust": a step of the model with its Jacobian, which needs no library
+
+        What the target has no place for stands in a comment of the text, and a warning says it. Raises `InputError` where the
+        vehicle is none that the target drives.
+        """
+        text, unsaid = native.export(self._native, target)
+        if unsaid:
+            warnings.warn(f"{target} has no place for {'; '.join(unsaid)}", UserWarning, stacklevel=2)
+        return text
+
+    def to_ros2_yaml(self, controller: str | None = None) -> str:
+        """The parameters of the ROS 2 controller that drives such a vehicle: as `export`, under the node's name.
+
+        controller   name of the node; ROS 2's own, such as "diff_drive_controller", where there is none
+        """
+        text = self.export("ros2-diff-drive" if self.vehicle.startswith("differential-drive") else "ros2-steering")
+        return text if controller is None else re.sub(r"(?m)^\w+:$", f"{controller}:", text, count=1)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Model) and (self.text, self._own) == (other.text, other._own)

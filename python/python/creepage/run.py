@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
+_Poses = tuple[str, str | None] | None
+
+
 class Run:
     """A run that was read by the columns of a model: `Run.read` from a file, `Run.from_frame` from a table at hand."""
 
@@ -22,14 +25,14 @@ class Run:
         raise TypeError("a run is read: Run.read(path, model) or Run.from_frame(table, model)")
 
     @classmethod
-    def _made(cls, run: native.Run, how: tuple[object, ...]) -> Run:
+    def _made(cls, run: native.Run, how: tuple[str, str | None, Model, _Poses]) -> Run:
         made = cls.__new__(cls)
         made._native = run
         made._how = how
         return made
 
     _native: native.Run
-    _how: tuple[object, ...]
+    _how: tuple[str, str | None, Model, _Poses]
 
     @classmethod
     def read(cls, path: str | PathLike[str], model: Model, *, truth: str | PathLike[str] | None = None) -> Run:
@@ -37,17 +40,27 @@ class Run:
 
         Raises `InputError` with file, line and column where the log cannot be read.
         """
-        poses = None if truth is None else fspath(truth)
-        return cls._made(native.Run.read(path, model._native, poses), (fspath(path), None, model, poses))
+        poses = None if truth is None else (fspath(truth), None)
+        return _rebuilt(fspath(path), None, model, poses)
 
     @classmethod
-    def from_frame(cls, table: Any, model: Model, *, name: str = "run") -> Run:
+    def from_frame(cls, table: Any, model: Model, *, truth: Any = None, name: str = "run") -> Run:
         """A run from a table at hand: pandas, polars, pyarrow, or a mapping of names to arrays of shape (n,).
+
+        With `truth` the table has inputs alone, and the poses are those of another table, or of the file of that path.
 
         Columns are read as those of a CSV: by the model's `[columns]`, units, quaternions and counts included. A value that
         is not a number is a blank cell; a row without a pose still has its inputs.
         """
-        return _rebuilt(name, csv_of(table), model, None)
+        return _rebuilt(name, csv_of(table), model, None if truth is None else _poses(truth, "truth"))
+
+    def with_truth(self, truth: Any, *, name: str = "truth") -> Run:
+        """The same inputs with poses that were logged apart: a file's path, or a table as `Run.from_frame` takes it.
+
+        The columns of the poses are those of the model; both clocks are aligned where the run is put to a model.
+        """
+        inputs, text, model, _ = self._how
+        return _rebuilt(inputs, text, model, _poses(truth, name))
 
     def __reduce__(self) -> tuple[object, ...]:
         return _rebuilt, self._how
@@ -122,7 +135,15 @@ def _natives(runs: Iterable[Run]) -> list[native.Run]:
     return [run._native for run in runs]
 
 
-def _rebuilt(name: str, text: str | None, model: Model, truth: str | None) -> Run:
+def _poses(truth: Any, name: str) -> tuple[str, str | None]:
+    return (fspath(truth), None) if isinstance(truth, (str, PathLike)) else (name, csv_of(truth))
+
+
+def _rebuilt(name: str, text: str | None, model: Model, truth: _Poses) -> Run:
+    """A run as it was made: from a file or a text, with its poses from another file or text where they were logged apart."""
+    how = (name, text, model, truth)
+    if truth is not None:
+        return Run._made(native.Run.apart((name, text), truth, model._native), how)
     if text is None:
-        return Run.read(name, model, truth=truth)
-    return Run._made(native.Run.parse(name, text, model._native), (name, text, model, None))
+        return Run._made(native.Run.read(name, model._native), how)
+    return Run._made(native.Run.parse(name, text, model._native), how)

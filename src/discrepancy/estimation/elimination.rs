@@ -62,6 +62,15 @@ impl<'v> InformationFilter<'v> {
         Self { v, parameters, form: None, log_determinant: 0.0, backward, jumps: vec![] }
     }
 
+    /// Gives room to further parameters, which no window before depends on.
+    pub fn grow(&mut self, more: usize) {
+        self.parameters += more;
+        self.form = self.form.take().map(|form| {
+            let last = form.nrows() - 1;
+            form.insert_rows(last, more, 0.0).insert_columns(last, more, 0.0)
+        });
+    }
+
     /// Joins the next window.
     pub fn push(&mut self, window: &LinearisedWindow) -> Option<()> {
         let size = window.gram[0].nrows();

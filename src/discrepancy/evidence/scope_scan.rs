@@ -88,15 +88,18 @@ impl BlockScores {
         own: &[usize],
     ) -> Option<Self> {
         let (k, wide) = (own.len(), blocks.count * own.len());
-        let mut joined = ReducedForm::nothing(kept.len() + wide);
+        let (mut information, mut gradient) =
+            (DMatrix::zeros(kept.len() + wide, kept.len() + wide), DVector::zeros(kept.len() + wide));
         for (windows, of_window) in linear.iter().zip(&blocks.of_window) {
-            let mut chain = InformationFilter::new(v, kept.len() + wide, false);
-            for (window, block) in windows.iter().zip(of_window) {
-                chain.push(&in_block(window, all, kept, own, *block, blocks.count))?;
+            let Some(first) = of_window.first() else { continue };
+            let (part, slope) = segment_normal(windows, of_window, v, all, kept, own)?;
+            // The values kept stand first, then those of the segment's own blocks.
+            let place = |i: usize| if i < kept.len() { i } else { i + first * k };
+            for j in 0..slope.len() {
+                gradient[place(j)] += slope[j];
+                (0..slope.len()).for_each(|i| information[(place(i), place(j))] += part[(i, j)]);
             }
-            joined.add(chain)?;
         }
-        let (information, gradient) = joined.normal();
         let (known, open) = (0..kept.len(), kept.len()..kept.len() + wide);
         let part =
             |r: &Range<usize>, c: &Range<usize>| information.view((r.start, c.start), (r.len(), c.len())).into_owned();
@@ -203,6 +206,29 @@ pub(crate) struct Taken {
 fn gained(g: DVector<f64>, mut a: DMatrix<f64>) -> f64 {
     (0..g.len()).for_each(|p| a[(p, p)] = if a[(p, p)] > 0.0 { a[(p, p)] * (1.0 + 1e-9) } else { 1.0 });
     a.cholesky().map_or(0.0, |a| g.dot(&a.solve(&g)))
+}
+
+/// Information and gradient of a segment: of the values kept and of those in its own blocks.
+///
+/// A window depends on the values of blocks up to its own, so the form grows with each block that begins.
+fn segment_normal(
+    windows: &[LinearisedWindow],
+    of_window: &[usize],
+    v: &NoiseModel,
+    all: usize,
+    kept: &[usize],
+    own: &[usize],
+) -> Option<(DMatrix<f64>, DVector<f64>)> {
+    let mut chain = InformationFilter::new(v, kept.len() + own.len(), false);
+    let (first, mut last) = (of_window[0], of_window[0]);
+    for (window, block) in windows.iter().zip(of_window) {
+        chain.grow((block - last) * own.len());
+        last = *block;
+        chain.push(&in_block(window, all, kept, own, block - first, block - first + 1))?;
+    }
+    let mut joined = ReducedForm::nothing(kept.len() + (last - first + 1) * own.len());
+    joined.add(chain)?;
+    Some(joined.normal())
 }
 
 /// A window whose columns are its poses, the parameters kept, and for each block the effect's own: zero but in its own.

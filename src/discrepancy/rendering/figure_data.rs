@@ -60,7 +60,7 @@ pub(crate) fn measured_path(record: &Record, held_out: bool) -> PathPicture {
 }
 
 /// The inputs and the pose of a run as they were logged, each over time.
-pub(crate) fn columns(run: &Run, model: &Model) -> Vec<ColumnPicture> {
+pub fn columns(run: &Run, model: &Model) -> Vec<ColumnPicture> {
     let column = |name: &str, unit: &str, values: &Vec<f64>| ColumnPicture {
         run: run.name.clone(),
         name: name.replace('_', " "),

@@ -9,6 +9,7 @@ use crate::error::Result;
 use crate::formula::Expr;
 use crate::model::Model;
 use std::ops::Range;
+use std::sync::OnceLock;
 
 /// Intervals of time at most.
 const MOST_INTERVALS: usize = 8;
@@ -43,6 +44,14 @@ pub(crate) struct BlockRows {
     times: Vec<[f64; 2]>,
     /// Blocks in a row that belong to one run.
     runs: Vec<Range<usize>>,
+    disks: OnceLock<Disks>,
+}
+
+/// The disks of a grid that are neither all of the data nor none, with the share of each block in them.
+struct Disks {
+    /// How many the grid has.
+    of: usize,
+    told: Vec<(Scope, Vec<f64>)>,
 }
 
 /// A scope and what an effect gains by it, to first order.
@@ -68,7 +77,7 @@ impl BlockRows {
     /// Of the blocks of a problem.
     pub fn of(problem: &Problem, model: &Model, blocks: &Blocks) -> Result<Self> {
         let asked = AskedMotion::of(model)?;
-        let mut found = Self { rows: vec![], times: vec![], runs: vec![] };
+        let mut found = Self { rows: vec![], times: vec![], runs: vec![], disks: OnceLock::new() };
         let mut before = None;
         for (block, (run, rows)) in blocks.rows(&problem.plan).into_iter().enumerate() {
             let record = &problem.records[run];
@@ -228,20 +237,27 @@ impl BlockRows {
         best(tried)
     }
 
-    fn in_disk(&self, scores: &BlockScores) -> Vec<Proposal> {
+    /// The disks of the grid, which are the same for every effect.
+    fn disks(&self) -> Disks {
         let all = || self.rows.iter().flatten().map(|r| r.place);
         let side = |k: usize| all().map(move |p| p[k]);
         let extent = |k: usize| side(k).fold(f64::NEG_INFINITY, f64::max) - side(k).fold(f64::INFINITY, f64::min);
         let extent = extent(0).max(extent(1));
         let centres: Vec<[f64; 2]> =
             self.rows.iter().filter_map(|rows| rows.get(rows.len() / 2)).map(|r| r.place).collect();
-        let of = centres.len() * RADII.len();
-        let disk = |[x, y]: [f64; 2], radius: f64| {
-            let open = |r: &Row| (r.place[0] - x).hypot(r.place[1] - y) < radius;
-            self.proposal(scores, &open, Scope::Disk([x, y, radius].map(rounded)), of)
+        let grid = centres.iter().flat_map(|c| RADII.map(|share| (*c, share * extent)));
+        let told = grid.filter_map(|(c, r)| Some((disk_of(c, r), self.told_shares(&within(c, r))?))).collect();
+        Disks { of: centres.len() * RADII.len(), told }
+    }
+
+    fn in_disk(&self, scores: &BlockScores) -> Vec<Proposal> {
+        let Disks { of, told } = self.disks.get_or_init(|| self.disks());
+        let gains = told.iter().map(|(disk, shares)| (scores.gain(shares), disk, shares));
+        let Some((gain, disk, shares)) = gains.max_by(|a, b| a.0.total_cmp(&b.0)) else { return vec![] };
+        let mut found = Proposal { scope: disk.clone(), gain, shares: shares.clone(), of: *of };
+        let disk = |centre: [f64; 2], radius: f64| {
+            self.proposal(scores, &within(centre, radius), disk_of(centre, radius), *of)
         };
-        let tried = centres.iter().flat_map(|c| RADII.map(|share| (*c, share * extent)));
-        let Some(mut found) = best(tried.filter_map(|(c, r)| disk(c, r)).collect()).pop() else { return vec![] };
         // From the best of the grid on, by steps of its own radius.
         for step in [0.3, 0.15, 0.08] {
             let Scope::Disk([x, y, radius]) = found.scope else { break };
@@ -255,10 +271,16 @@ impl BlockRows {
 
     /// The scope of those rows, unless it is all of them or none.
     fn proposal(&self, scores: &BlockScores, open: &dyn Fn(&Row) -> bool, scope: Scope, of: usize) -> Option<Proposal> {
+        let shares = self.told_shares(open)?;
+        Some(Proposal { scope, gain: scores.gain(&shares), shares, of })
+    }
+
+    /// The share of each block that is open, unless it is all of them or none.
+    fn told_shares(&self, open: &dyn Fn(&Row) -> bool) -> Option<Vec<f64>> {
         let share = |rows: &Vec<Row>| rows.iter().filter(|r| open(r)).count() as f64 / rows.len().max(1) as f64;
         let shares: Vec<f64> = self.rows.iter().map(share).collect();
         let whole = shares.iter().sum::<f64>() / shares.len().max(1) as f64;
-        (0.02..0.98).contains(&whole).then(|| Proposal { scope, gain: scores.gain(&shares), shares, of })
+        (0.02..0.98).contains(&whole).then_some(shares)
     }
 
     fn quantiles(&self, of: impl Fn(&Row) -> f64) -> Vec<f64> {
@@ -267,6 +289,15 @@ impl BlockRows {
         let at = |q: f64| all.get((q * all.len() as f64) as usize).copied();
         QUANTILES.into_iter().filter_map(at).collect()
     }
+}
+
+/// Whether a row lies within a disk.
+fn within([x, y]: [f64; 2], radius: f64) -> impl Fn(&Row) -> bool {
+    move |r| (r.place[0] - x).powi(2) + (r.place[1] - y).powi(2) < radius * radius
+}
+
+fn disk_of([x, y]: [f64; 2], radius: f64) -> Scope {
+    Scope::Disk([x, y, radius].map(rounded))
 }
 
 fn best(tried: Vec<Proposal>) -> Vec<Proposal> {

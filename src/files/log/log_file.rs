@@ -10,7 +10,7 @@ use super::place::Place;
 use super::time_stamp::Origin;
 use crate::error::{Error, Result};
 use crate::files::toml::text::{is_folder, open};
-use std::io::Read;
+use std::io::{Cursor, Read};
 use std::path::Path;
 
 /// An open log whose columns are known.
@@ -52,6 +52,11 @@ impl Log {
                 None => Err(is_folder(path)),
             },
         }
+    }
+
+    /// A table of text that is at hand.
+    pub fn of_text(name: &Path, text: &str) -> Result<Self> {
+        Ok(Self::Csv(Box::new(Sheet::new(Cursor::new(text.to_string()), name)?)))
     }
 
     /// The names of the columns.

@@ -2,7 +2,7 @@
 
 use super::cells::{self, Cells};
 use super::columns::Resolved;
-use super::csv_table::{Numbers, Sheet};
+use super::csv_table::Numbers;
 use super::log_file::Log;
 use super::reading;
 use super::row_order;
@@ -10,7 +10,6 @@ use super::tangent_plane::tangent_plane;
 use crate::error::{Error, Result};
 use crate::files::model::model_file::ModelFile;
 use std::collections::BTreeMap;
-use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 /// The fewest rows of a run: an interval has two ends.
@@ -106,7 +105,7 @@ impl Run {
     /// As [`Run::read`].
     pub fn parse(name: &str, text: &str, model: &ModelFile) -> Result<Self> {
         let path = Path::new(name);
-        let open = || Ok(Log::Csv(Box::new(Sheet::new(Cursor::new(text.to_string()), path)?)));
+        let open = || Log::of_text(path, text);
         Ok(Self::of(path, open()?, &open, model)?.before_filter_of(&model.sensor))
     }
 

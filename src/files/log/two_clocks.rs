@@ -61,11 +61,29 @@ impl Run {
     /// As [`Run::read`], for either file.
     pub fn read_apart(inputs: impl AsRef<Path>, truth: impl AsRef<Path>, model: &ModelFile) -> Result<Self> {
         let (inputs, truth) = (inputs.as_ref(), truth.as_ref());
-        let sheet = Log::open(inputs)?;
+        Self::of_two((inputs, Log::open(inputs)?), (truth, || Log::open(truth)), model)
+    }
+
+    /// The same of texts that are at hand; where one has none it is read from the file of its name.
+    ///
+    /// # Errors
+    /// As [`Run::read`], for either.
+    pub fn parse_apart([inputs, truth]: [(&str, Option<&str>); 2], model: &ModelFile) -> Result<Self> {
+        let open = |(name, text): (&str, Option<&str>)| {
+            text.map_or_else(|| Log::open(Path::new(name)), |text| Log::of_text(Path::new(name), text))
+        };
+        Self::of_two((Path::new(inputs.0), open(inputs)?), (Path::new(truth.0), || open(truth)), model)
+    }
+
+    fn of_two(
+        (inputs, sheet): (&Path, Log),
+        (truth, poses_of): (&Path, impl FnOnce() -> Result<Log>),
+        model: &ModelFile,
+    ) -> Result<Self> {
         let (time, found) = model.columns.resolve_inputs(sheet.header()).map_err(|e| sheet.at_header(e))?;
         let cells: Vec<&Cells> = std::iter::once(&time).chain(found.iter().map(|i| &i.cells)).collect();
         let (driven, mut warnings) = read(sheet, &cells, &[], inputs)?;
-        let (pose, measured, more) = poses(truth, driven.origin, model)?;
+        let (pose, measured, more) = poses((truth, poses_of()?), driven.origin, model)?;
         warnings.extend(more.into_iter().map(|w| format!("{}: {w}", truth.display())));
         let truth_sha256 = measured.sha256.clone();
         let dropped = joined(&driven.dropped, &measured.dropped);
@@ -148,8 +166,11 @@ impl Run {
 }
 
 /// The poses of a file: by the columns of the model file, or as those of a benchmark.
-fn poses(truth: &Path, origin: Origin, model: &ModelFile) -> Result<(Resolved, Numbers, Vec<String>)> {
-    let mut sheet = Log::open(truth)?;
+fn poses(
+    (truth, mut sheet): (&Path, Log),
+    origin: Origin,
+    model: &ModelFile,
+) -> Result<(Resolved, Numbers, Vec<String>)> {
     // Where the inputs' times are seconds as they stand, so are those of the poses.
     sheet.counted_from(Origin(origin.0.or(Some(0))));
     let pose = match model.columns.resolve_truth(sheet.header()) {

@@ -31,6 +31,11 @@ impl Spot {
 
     /// An error at the place.
     pub fn error(&self, message: impl Into<String>) -> Error {
-        Error::input(message).at_file(&self.path).at(self.line, self.column)
+        self.told(Error::input(message))
+    }
+
+    /// An error without a place, at this one.
+    pub(crate) fn told(&self, e: Error) -> Error {
+        e.at_file(&self.path).at(self.line, self.column)
     }
 }

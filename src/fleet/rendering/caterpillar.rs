@@ -53,7 +53,7 @@ pub fn caterpillar(report: &FleetReport, effect: &str, name: &str, p: &FleetPara
 }
 
 /// Pure numbers in per cent, others with a prefix.
-fn scaled(largest: f64, unit: &str) -> (f64, String) {
+pub(super) fn scaled(largest: f64, unit: &str) -> (f64, String) {
     if unit == "1" { (100.0, "%".into()) } else { prefixed(largest, unit) }
 }
 

@@ -2,6 +2,7 @@
 
 use super::caterpillar::caterpillar;
 use super::fleet_text;
+use super::over_time::over_time;
 use crate::discrepancy::rendering::html::cards::{card, small};
 use crate::discrepancy::rendering::html::page;
 use crate::discrepancy::rendering::html::part::{Cell, Fold, eyebrow, figure, folds, holding, section, table};
@@ -20,8 +21,10 @@ const NAMED: usize = 6;
 pub fn fleet_html(report: &FleetReport) -> String {
     let title = format!("{} — creepage fleet", report.summary.trim_end_matches('.'));
     let needed = [effects(report), tags(report)].into_iter().flatten();
+    let multiples = parameters(report).filter_map(|(effect, name, p)| over_time(report, effect, name, p));
     let parts = vec![
         Fold::open("fleet", "What the fleet needs, in numbers", needed),
+        Fold::closed("time", "Run by run over time", multiples),
         Fold::open("robots", "Robot by robot", robots(report)),
         Fold::closed("rest", "What was left out", rest(report)),
     ];
@@ -144,7 +147,7 @@ fn robots(report: &FleetReport) -> Option<Element> {
             let odd = if v.is_some_and(|v| v.is_odd) { " differs" } else { "" };
             Cell::Number(v.map_or("–".into(), |v| with_error(v.value, Some(v.std)) + odd))
         };
-        let first = [Cell::text(&r.robot), Cell::text(&r.verdict), Cell::Number(r.runs.to_string())];
+        let first = [files(r), Cell::text(&r.verdict), Cell::Number(r.runs.to_string())];
         let mend = mends.then(|| Cell::Lines(r.mend.clone()));
         first.into_iter().chain(keys.iter().map(value)).chain(mend).collect()
     };
@@ -152,6 +155,22 @@ fn robots(report: &FleetReport) -> Option<Element> {
     let caption = "Values beside those of all others, and the lines of the ROS 2 controller that they change";
     let caption = if mends { caption } else { "Values beside those of all others" };
     table(caption, &headings, report.per_robot.iter().map(row).collect())
+}
+
+/// A robot with its model, and what ROS 2 reads of it.
+fn files(robot: &RobotReport) -> Cell {
+    let at = |ending: &str| format!("robots/{}.{ending}", in_address(&robot.robot));
+    let yaml = (!robot.mend.is_empty()).then(|| ("ROS 2", at("yaml")));
+    Cell::Files(robot.robot.clone(), [("model", at("toml"))].into_iter().chain(yaml).collect())
+}
+
+/// A file's name in an address: all but letters, digits and a few signs in per cent.
+fn in_address(name: &str) -> String {
+    let one = |b: u8| match b {
+        b if b.is_ascii_alphanumeric() || b"-_.~".contains(&b) => char::from(b).to_string(),
+        b => format!("%{b:02X}"),
+    };
+    name.bytes().map(one).collect()
 }
 
 fn rest(report: &FleetReport) -> Vec<Element> {

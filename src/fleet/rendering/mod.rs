@@ -4,3 +4,4 @@ pub mod caterpillar;
 pub mod fleet_html;
 pub mod fleet_table;
 pub mod fleet_text;
+mod over_time;

@@ -1,7 +1,7 @@
 //! The columns of runs that are not fitted, over time: where a line of it is wrong, it is seen here.
 
 use super::part;
-use crate::discrepancy::report::{ColumnPicture, Pictures};
+use crate::discrepancy::report::ColumnPicture;
 use crate::number_format::significant;
 use crate::picture::axis::{Axis, extent, widened};
 use crate::picture::plot::{Panel, Size};
@@ -14,9 +14,9 @@ const MOST_PANELS: usize = 24;
 const SIZE: Size = Size { width: 520.0, height: 208.0, margins: [62.0, 20.0, 48.0, 44.0] };
 
 /// A panel for every column, the inputs of each run before its pose.
-pub fn figure(pictures: &Pictures) -> Option<Element> {
+pub fn figure(columns: &[ColumnPicture]) -> Option<Element> {
     let drawable = |c: &&ColumnPicture| c.values.iter().any(|v| v.is_finite());
-    let all: Vec<&ColumnPicture> = pictures.columns.iter().filter(drawable).collect();
+    let all: Vec<&ColumnPicture> = columns.iter().filter(drawable).collect();
     let draw = |(i, c): (usize, &&ColumnPicture)| panel(c, &format!("column-{i}"));
     let panels: Vec<Element> = all.iter().take(MOST_PANELS).enumerate().map(draw).collect();
     let more = all.len().saturating_sub(MOST_PANELS);

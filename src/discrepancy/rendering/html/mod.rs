@@ -75,7 +75,7 @@ fn evidence(report: &Report, pictures: &Pictures) -> Vec<Fold> {
     let residuals = tables::residuals(report, residuals::figure(pictures));
     vec![
         Fold::open("effects", "What was found, by name", found),
-        Fold::open("columns", "The columns over time", columns::figure(pictures)),
+        Fold::open("columns", "The columns over time", columns::figure(&pictures.columns)),
         Fold::open("gap", "The error at every horizon", gaps),
         Fold::closed("candidates", "Every candidate weighed", candidates::figure(pictures)),
         Fold::closed("residuals", "The violated constraints over time", residuals),

@@ -80,10 +80,20 @@ pub fn figure(drawings: Vec<Element>, key: Option<Element>, see: &str, how: &str
     Element::new("figure").children(key).child(panels).child(caption)
 }
 
+/// A figure of many small drawings, with what to see above them.
+pub fn small_figure(drawings: Vec<Element>, see: &str, how: &str) -> Element {
+    let caption = Element::new("figcaption").child(holding("strong", see)).text(format!(" {how}"));
+    let caption = caption.with("class", "before");
+    let panels = Element::new("div").with("class", "panels small").children(drawings);
+    Element::new("figure").child(caption).child(panels)
+}
+
 /// A cell of a table.
 pub enum Cell {
     /// Words.
     Text(String),
+    /// Words with files that belong to them: what each is called, and where it lies beside the page.
+    Files(String, Vec<(&'static str, String)>),
     /// A number, set to the right.
     Number(String),
     /// A formula.
@@ -106,6 +116,10 @@ impl Cell {
         let cell = Element::new("td").with("data-of", heading);
         match self {
             Cell::Text(text) => cell.text(text),
+            Cell::Files(text, files) => {
+                let link = |(name, at): (&str, String)| holding("a", name).with("class", "file").with("href", at);
+                cell.text(text).children(files.into_iter().map(link))
+            }
             Cell::Number(text) => cell.with("class", "number").text(text),
             Cell::Code(text) => cell.child(holding("code", text)),
             Cell::Hash(text) => {

@@ -92,11 +92,14 @@ details>:nth-child(2){margin-top:20px}
 .words dd{margin:0 0 10px;color:var(--soft)}
 figure{margin:0 0 22px}
 figcaption{max-width:62em;margin-top:8px;font-size:15px;color:var(--soft)}
+figcaption.before{margin:0 0 12px}
 figcaption strong{color:var(--ink);font-weight:600}
 figcaption.over{margin:0;padding:6px 0;font-weight:600;color:var(--ink)}
 .line.slim{stroke-width:1.3}
 .panels{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,430px),1fr));gap:14px 24px}
 .panels.single{grid-template-columns:minmax(0,820px)}
+.panels.small{grid-template-columns:repeat(auto-fill,minmax(270px,1fr))}
+a.file{margin-left:8px;font-size:13.5px;font-weight:400}
 .weighed{display:grid;grid-auto-flow:row dense;grid-template-columns:auto minmax(60px,1fr) auto;gap:5px 12px;align-items:center;max-width:820px;font-size:15px}
 .weighed span{overflow-wrap:anywhere}
 .weighed .solid{font-weight:650}
@@ -140,6 +143,7 @@ td>div{flex:1 0 100%}
 .panels text{font-size:17px}
 .panels text.heading{font-size:19px}
 .panels text.strong{font-size:15px}
+.panels.small{grid-template-columns:repeat(2,minmax(0,1fr));gap:10px 12px}
 .weighed{grid-template-columns:minmax(0,1fr) auto;gap:1px 12px;font-size:14px}
 .weighed .value{grid-column:2}
 .weighed .length{grid-column:1/-1;margin-bottom:8px}
@@ -167,6 +171,7 @@ h2,h3,.over,summary{break-after:avoid}
 #strip{height:70px}
 .panels{grid-template-columns:1fr 1fr}
 .panels.single{grid-template-columns:130mm}
+.panels.small{grid-template-columns:1fr 1fr 1fr}
 details{padding:6px 0}
 details>:nth-child(2){margin-top:8px}
 figure{margin-bottom:10px}

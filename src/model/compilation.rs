@@ -86,6 +86,24 @@ impl Model {
         self.compiled(free, free)
     }
 
+    /// The rates of the states as a program for any carrier of numbers, by states, inputs and free symbols, then by values
+    /// that stay: what the compiled derivatives are held against.
+    pub(crate) fn rates_of_any_carrier(&self, free: &[Symbol]) -> Result<(Program, Vec<f64>)> {
+        let definitions = self.definitions()?;
+        let mut graph = Graph::default();
+        definitions.insert_into(&mut graph)?;
+        let rates: Vec<NodeId> = self.state_rates().iter().map(|rate| graph.insert(rate)).collect();
+        let (slots, constants) = self.slots(free, &self.logged_and_derived(&definitions));
+        Ok((Program::compile(&graph, &slots, &rates).map_err(undefined_name)?, constants))
+    }
+
+    /// What a program is given: states, inputs, free symbols, then all other values, which follow.
+    fn slots(&self, free: &[Symbol], inputs: &[Symbol]) -> (Vec<Symbol>, Vec<f64>) {
+        let values = self.values().into_iter().filter(|(s, _)| !free.contains(s));
+        let (names, constants): (Vec<Symbol>, Vec<f64>) = values.unzip();
+        ([&self.states()[..], inputs, free, &names].concat(), constants)
+    }
+
     /// The equations of motion for a simulation: the rates have no derivatives where nothing asks for them. Those of a
     /// train of N trailers are N² formulas.
     pub(crate) fn equations_to_simulate(&self) -> Result<Equations> {
@@ -104,18 +122,13 @@ impl Model {
         let inputs = self.logged_and_derived(&definitions);
         let derived = inputs[self.inputs.len()..].iter().filter_map(|s| self.derived(s)).collect();
         let edges = self.effects.iter().filter_map(|e| e.effect.scope.as_ref()).flat_map(Scope::edges).collect();
-        let values: Vec<(Symbol, f64)> = self.values().into_iter().filter(|(s, _)| !free.contains(s)).collect();
-        let slots: Vec<Symbol> =
-            [&states[..], &inputs, free].concat().into_iter().chain(values.iter().map(|(s, _)| s.clone())).collect();
+        let (slots, constants) = self.slots(free, &inputs);
         // Parameters are set once for a workspace; what hangs on them alone is computed then.
         let moving = states.len() + inputs.len();
         let changes: Vec<Changes> =
             (0..slots.len()).map(|i| if i < moving { Changes::Lane } else { Changes::Case }).collect();
         let compile = |graph: &Graph, nodes: &[NodeId]| {
-            let program = Program::compile(graph, &slots, nodes).map_err(|name| {
-                Error::input(format!("a formula uses {name}, which nothing defines"))
-                    .help("declare it as a parameter or a state, or correct the name")
-            })?;
+            let program = Program::compile(graph, &slots, nodes).map_err(undefined_name)?;
             Ok::<_, Error>(Lanes::new(&program, &changes))
         };
         let plain = compile(&graph, &rates)?;
@@ -139,7 +152,6 @@ impl Model {
         let delays: Vec<NodeId> = [Expr::sym("delay")].into_iter().chain(own).map(|f| graph.insert(&f)).collect();
         let delay = with_derivatives(&mut graph, &delays, free);
         let delay = compile(&graph, &delay)?;
-        let constants = values.into_iter().map(|(_, v)| v).collect();
         let whole = Equations {
             states,
             visible,
@@ -159,6 +171,11 @@ impl Model {
         let carried = carried.map(|(live, jacobian)| Box::new(Equations { live, jacobian, ..whole.clone() }));
         Ok(Equations { carried, ..whole })
     }
+}
+
+fn undefined_name(name: Symbol) -> Error {
+    Error::input(format!("a formula uses {name}, which nothing defines"))
+        .help("declare it as a parameter or a state, or correct the name")
 }
 
 /// The nodes followed, node by node, by their derivatives with respect to each symbol.

@@ -1,6 +1,7 @@
 //! The claims of the paper, section by section.
 
 mod blade;
+mod compiled_derivatives;
 mod direction;
 mod domain;
 mod dual_numbers;
@@ -49,6 +50,7 @@ pub fn all() -> Vec<Claim> {
         traverse::claims(),
         direction::claims(),
         dual_numbers::claims(),
+        compiled_derivatives::claims(),
         regimes::claims(),
         wheel::claims(),
         simulation::claims(),

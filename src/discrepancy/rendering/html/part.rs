@@ -118,7 +118,7 @@ impl Cell {
             Cell::Text(text) => cell.text(text),
             Cell::Files(text, files) => {
                 let link = |(name, at): (&str, String)| holding("a", name).with("class", "file").with("href", at);
-                cell.text(text).children(files.into_iter().map(link))
+                files.into_iter().fold(cell.text(text), |cell, file| cell.text(" ").child(link(file)))
             }
             Cell::Number(text) => cell.with("class", "number").text(text),
             Cell::Code(text) => cell.child(holding("code", text)),

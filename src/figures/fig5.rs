@@ -27,7 +27,7 @@ fn draw(options: &Options) -> Result<Drawing> {
     for (x, text) in [(100.0, "bending, from behind"), (300.0, "torsion, from above")] {
         elements.push(maths("heading", [x, 20.0], "middle", text));
     }
-    let shown = format!("$φ_{{tc}}$ = {} rad.  A schematic: no elastic model, only the angle.", decimals(angle, 2));
+    let shown = format!("$φ_{{tc}}$ = {} rad. A schematic of the angle, no elastic model.", decimals(angle, 2));
     elements.push(maths("soft", [200.0, 232.0], "middle", &shown));
     let description = "Left: the centre of mass C is bent sideways off the contact A. Right: the contact is twisted \
                        against the body. Both by phi_tc.";

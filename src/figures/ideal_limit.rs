@@ -130,15 +130,14 @@ fn picture(curves: &[Vec<[f64; 2]>]) -> Vec<Element> {
     let mut out =
         vec![page::placed(panel.finish("limit", "The ideal limit", "Distance over creep."), [2.0, 2.0], PANEL)];
     let last = |curve: &Vec<[f64; 2]>| decimals(order(curve[curve.len() - 2], curve[curve.len() - 1]), 4);
-    let texts: Vec<String> =
-        ENTRIES.iter().zip(curves).map(|(e, c)| format!("{}: order {}", e.name, last(c))).collect();
+    let texts: Vec<String> = ENTRIES.iter().zip(curves).map(|(e, c)| format!("{}: {}", e.name, last(c))).collect();
     let entries: Vec<key::Entry> = ENTRIES
         .iter()
         .zip(&texts)
         .map(|(e, text)| key::Entry { class: e.class, marker: Some(e.marker), text })
         .collect();
     out.extend(key::column(&entries, [14.0, 280.0]));
-    out.push(maths("soft", [390.0, 332.0], "end", "order: slope between the two smallest creeps"));
+    out.push(maths("soft", [390.0, 332.0], "end", "numbers: the order, the slope at the smallest creeps"));
     out
 }
 

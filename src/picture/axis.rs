@@ -1,5 +1,6 @@
 //! Axes: from values with a unit to pixels, with round ticks.
 
+use super::letters::{self, WIDEST};
 use super::ticks;
 use crate::number_format::{decimals, power_of_ten, significant, ten_to};
 
@@ -13,6 +14,10 @@ pub enum Scale {
     /// Linear within ± this value, logarithmic beyond.
     SymLog(f64),
 }
+
+/// Size of the letters of a label, and room between two labels, in pixels.
+const LETTERS: f64 = 12.0;
+const GAP: f64 = 4.0;
 
 /// One axis of a panel.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,11 +97,24 @@ impl Axis {
                 let (values, step) = ticks::linear(from, to, count);
                 values.iter().map(|v| tick(*v, self.linear_label(*v, step))).collect()
             }
-            Scale::Log => ticks::logarithmic(from, to, count).iter().map(|v| tick(*v, round_label(*v))).collect(),
+            Scale::Log => {
+                let told = |count: usize| -> Vec<Tick> {
+                    ticks::logarithmic(from, to, count).iter().map(|v| tick(*v, round_label(*v))).collect()
+                };
+                // Fewer than three a decade leave the powers of ten alone.
+                let fewer = (3.0 * (to / from).log10()).ceil() as usize - 1;
+                Some(told(count)).filter(|t| self.holds(t)).unwrap_or_else(|| told(count.min(fewer.max(1))))
+            }
             Scale::SymLog(l) => {
                 ticks::symmetric(from, to, l, count).iter().map(|v| tick(*v, round_label(*v))).collect()
             }
         }
+    }
+
+    /// Whether no two labels of a horizontal axis touch, in the widest usual face; those of a vertical one are low.
+    fn holds(&self, ticks: &[Tick]) -> bool {
+        let half = |t: &Tick| 0.5 * WIDEST * letters::width(&t.label, LETTERS);
+        self.pixels[1] < self.pixels[0] || ticks.windows(2).all(|t| t[1].at - t[0].at > half(&t[0]) + half(&t[1]) + GAP)
     }
 
     fn linear_label(&self, value: f64, step: f64) -> String {
@@ -194,6 +212,16 @@ mod tests {
         assert_eq!(labels(&axis), ["−0.2", "0.0", "0.2"]);
         let axis = Axis::log("h", "s", [1.0, 30.0]).along([0.0, 300.0]);
         assert_eq!(labels(&axis), ["1", "2", "5", "10", "20"]);
+    }
+
+    #[test]
+    fn labels_of_a_logarithmic_axis_do_not_touch() {
+        let long = Axis::log("", "", [4e-5, 0.4]).along([50.0, 380.0]);
+        assert_eq!(labels(&long), ["10⁻⁴", "0.001", "0.01", "0.1"]);
+        let upright = Axis::log("", "", [4e-5, 0.4]).along([600.0, 50.0]);
+        assert_eq!(labels(&upright).len(), 12);
+        let short = Axis::log("", "", [0.2, 20.0]).along([50.0, 330.0]);
+        assert_eq!(labels(&short), ["0.2", "0.5", "1", "2", "5", "10", "20"]);
     }
 
     #[test]

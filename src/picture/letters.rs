@@ -32,6 +32,9 @@ const ADVANCES: [(u16, &str); 23] = [
 /// The advance of a letter that the table does not have.
 const OTHERS: u16 = 600;
 
+/// How much wider the letters of the widest usual face, DejaVu Sans, are than these.
+pub const WIDEST: f64 = 1.14;
+
 /// The width of a text in pixels: Σ advance·size/1000.
 ///
 /// ```

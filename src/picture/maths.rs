@@ -1,13 +1,11 @@
 //! Text with a little mathematics: letters in italics, subscripts and superscripts.
 
-use super::letters;
+use super::letters::{self, WIDEST};
 use super::svg::{Element, label};
 
 /// Size of a figure's letters in pixels, and how much larger and wider those of a heading are.
 const LETTERS: f64 = 12.0;
 const HEADING: f64 = 1.1;
-/// How much wider the letters of the widest usual face, DejaVu Sans, are than those of Helvetica.
-const WIDEST: f64 = 1.14;
 
 /// Size of raised and lowered text, relative to the text around it.
 const SMALL: f64 = 0.76;

@@ -12,11 +12,9 @@ pub fn export(py: Python, model: &Model, target: &str) -> PyResult<(String, Vec<
         let (file, library) = model.0.clone().into_parts();
         file.no_forces("export")?;
         let parameters = |target: Target| target.export(&file, Gains::default());
-        let code = |language| {
-            creepage::model::Model::check_motion(&file)?;
-            Ok(Code::of(&creepage::model::Model::of_file(&file, &library)?, &file)?.export(language))
-        };
+        let code = |language| Ok(Code::of_file(&file, &library)?.export(language));
         match target {
+            "ros2" => Target::of_ros2(&file),
             "ros2-diff-drive" => parameters(Target::Ros2DiffDrive),
             "ros2-steering" => parameters(Target::Ros2Steering),
             "wpilib" => parameters(Target::Wpilib),
@@ -27,7 +25,7 @@ pub fn export(py: Python, model: &Model, target: &str) -> PyResult<(String, Vec<
             "python" => code(Language::Python),
             "rust" => code(Language::Rust),
             _ => Err(creepage::Error::input(format!("\"{target}\" is no target"))
-                .help("ros2-diff-drive, ros2-steering, wpilib, vesc, json, c, cpp, python or rust")),
+                .help("ros2, ros2-diff-drive, ros2-steering, wpilib, vesc, json, c, cpp, python or rust")),
         }
     });
     written.map(|w| (w.text, w.unsaid)).map_err(|e| raised(py, &e))

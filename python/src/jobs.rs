@@ -95,21 +95,14 @@ pub fn simulate_many<'py>(
     threads: Option<usize>,
 ) -> PyResult<(Bound<'py, PyArray3<f64>>, usize, usize)> {
     let (model, run) = (&model.0, &run.0);
-    let (shape, numbers, troubles) = worked(py, threads, None, move |_| {
+    let (shape, poses, (undefined, rough)) = worked(py, threads, None, move |_| {
         let values: Vec<(&str, Vec<f64>)> = values.iter().map(|(name, of)| (name.as_str(), of.clone())).collect();
         let found = creepage::simulate_many(model, run, &values)?;
-        let is_pose = |name: &String| ["x", "y", "heading"].contains(&name.as_str()) || name.starts_with("trailer");
-        let pose = found.columns.iter().take_while(|name| is_pose(name)).count();
-        let numbers: Vec<f64> = {
-            let all: Vec<f64> = found.values().collect();
-            all.chunks(found.columns.len()).flat_map(|row| row[..pose].iter().copied()).collect()
-        };
         let undefined = found.cases.iter().filter(|c| !c.is_defined()).count();
         let rough = found.cases.iter().filter(|c| c.is_defined() && !c.converged).count();
-        Ok(([found.cases.len(), found.rows, pose], numbers, (undefined, rough)))
+        Ok(([found.cases.len(), found.rows, found.pose], found.poses().collect(), (undefined, rough)))
     })?;
-    let array = PyArray1::from_vec(py, numbers).reshape(shape)?;
-    Ok((array, troubles.0, troubles.1))
+    Ok((PyArray1::from_vec(py, poses).reshape(shape)?, undefined, rough))
 }
 
 /// Simulates the cases of a sweep's file, or of a shard of them, into a table; how many there are, and how many of them are

@@ -8,11 +8,13 @@ use clap::Args;
 use creepage::discrepancy::check::check_aligned;
 use creepage::discrepancy::identifiability::Checked;
 use creepage::discrepancy::rendering::check_text::check_text;
-use creepage::discrepancy::rendering::html::check_page::{Logged, check_html};
-use creepage::effects::Effect;
-use creepage::files::{ModelFile, write_all_or_nothing};
+use creepage::discrepancy::rendering::figure_data;
+use creepage::discrepancy::rendering::html::check_page::check_html;
+use creepage::discrepancy::report::ColumnPicture;
+use creepage::files::write_all_or_nothing;
 use creepage::model::Model;
-use creepage::{Result, Run};
+use creepage::report::Standing;
+use creepage::{Check, Result};
 use std::path::PathBuf;
 
 /// Say what runs can identify of a model, before anyone drives again
@@ -58,14 +60,16 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let answer = check_aligned(&of, arguments.apart.clock_offset, &|p| progress.hear(p))?;
     drop(progress);
     if let Some(out) = &arguments.out {
-        let page = check_html(&answer, &file.title(), env!("CARGO_PKG_VERSION"), &logged(file, library, &runs)?);
+        let page = check_html(&answer, &file.title(), env!("CARGO_PKG_VERSION"), &columns(&answer, &of)?);
         write_all_or_nothing(out, &[("check.html", page.as_bytes()), ("check.json", json(&answer)?.as_bytes())])?;
     }
     print_answer(&answer, arguments.format, quiet, check_text)
 }
 
-/// The columns of the runs, of which a page of unusable data shows what is wrong.
-fn logged(file: &ModelFile, library: &[Effect], runs: &[Run]) -> Result<Logged> {
-    let Some(first) = runs.first() else { return Ok(Logged::default()) };
-    Ok(Logged::of(runs, &Model::from_file(file, library, &first.roles)?))
+/// The columns of runs that cannot be used: what is wrong with them is seen there.
+fn columns(answer: &Check, of: &Checked) -> Result<Vec<ColumnPicture>> {
+    match of.runs.first().filter(|_| answer.verdict == Standing::UnusableData) {
+        Some(first) => Ok(figure_data::columns(of.runs, &Model::from_file(of.file, of.library, &first.roles)?)),
+        None => Ok(vec![]),
+    }
 }

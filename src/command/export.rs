@@ -6,7 +6,6 @@ use super::user_catalogues::UserCatalogues;
 use clap::{Args, ValueEnum};
 use creepage::export::{Code, Exported, Gains, Language, Target, patched_description};
 use creepage::files::{ModelFile, read_text, write_whole};
-use creepage::model::Model;
 use creepage::{Error, Result};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -132,8 +131,7 @@ fn code(
     library: &[creepage::effects::Effect],
     language: Language,
 ) -> Result<Exported> {
-    Model::check_motion(file)?;
-    let code = Code::of(&Model::of_file(file, library)?, file).map_err(|e| e.at_file(&file.path))?;
+    let code = Code::of_file(file, library)?;
     match &arguments.covariance {
         Some(path) => {
             let (names, matrix) = covariance(path)?;

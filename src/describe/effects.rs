@@ -60,9 +60,7 @@ fn applies_to<'v>(e: &Effect, vehicles: &'v [Vehicle]) -> Result<Vec<&'v str>> {
 
 /// Whether an effect applies to a model; one that acts on an input, on any of its inputs.
 fn applies(e: &Effect, model: &Model) -> bool {
-    let on = |role: &String| e.on_input(role, model.vehicle.unit_of(role), 1.0);
-    let all: Vec<Effect> = if e.per_input { model.inputs.iter().map(on).collect() } else { vec![e.clone()] };
-    !model.applicable(&all).is_empty()
+    !model.applicable(&model.on_each_input(e)).is_empty()
 }
 
 /// Every effect of a library as JSON.

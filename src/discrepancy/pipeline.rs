@@ -218,8 +218,7 @@ pub(crate) fn unfitted(request: &Request, clocks: Clocks, outcome: Outcome) -> D
 
 /// What runs that are not fitted show: their paths, and their columns as they were logged.
 fn as_logged(request: &Request, model: &Model, paths: Vec<PathPicture>) -> Pictures {
-    let columns = request.runs.iter().flat_map(|r| figure_data::columns(r, model)).collect();
-    Pictures { paths, columns, ..Pictures::default() }
+    Pictures { paths, columns: figure_data::columns(request.runs, model), ..Pictures::default() }
 }
 
 /// The answer for runs that are not fitted.

@@ -3,7 +3,7 @@
 use super::corrections::{Corrections, origin, written};
 use super::exported::Exported;
 use super::language::{Language, identifier};
-use crate::effects::Scope;
+use crate::effects::{Effect, Scope};
 use crate::error::{Error, Result};
 use crate::files::ModelFile;
 use crate::formula::{Expr, Symbol};
@@ -32,6 +32,15 @@ pub struct Code {
 }
 
 impl Code {
+    /// The code of a model file with the effects of a library.
+    ///
+    /// # Errors
+    /// As [`Code::of`], and when the file's model cannot be built.
+    pub fn of_file(file: &ModelFile, library: &[Effect]) -> Result<Self> {
+        Model::check_motion(file)?;
+        Self::of(&Model::of_file(file, library)?, file).map_err(|e| e.at_file(&file.path))
+    }
+
     /// The code of a model that stands in a file; effects of a time of the log, and delays, are left out and told.
     ///
     /// # Errors

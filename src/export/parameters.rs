@@ -34,6 +34,15 @@ pub struct Gains {
 }
 
 impl Target {
+    /// The parameters of the controller of ROS 2 that drives the model's vehicle.
+    ///
+    /// # Errors
+    /// When none drives it.
+    pub fn of_ros2(file: &ModelFile) -> Result<Exported> {
+        let of = |target: Self| target.export(file, Gains::default());
+        of(Self::Ros2DiffDrive).or_else(|_| of(Self::Ros2Steering))
+    }
+
     /// A model's parameters for this target.
     ///
     /// # Errors

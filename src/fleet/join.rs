@@ -11,6 +11,7 @@ use super::report::*;
 use super::robot_models::RobotModel;
 use super::rows::{Discovered, Fitted, Mapped, Rows, Vote};
 use crate::error::{Error, Result};
+use crate::files::FleetLog;
 use crate::progress::OnProgress;
 use std::collections::BTreeMap;
 
@@ -93,6 +94,11 @@ impl Fleet {
             warnings: fleet_text::warnings(missing, &columns.iter().map(|c| (c.name(), c.without)).collect::<Vec<_>>()),
             version: env!("CARGO_PKG_VERSION").into(),
         };
+        for (column, model) in told {
+            for (robot, runs) in self.over_time(column, model) {
+                report.per_robot[robot].over_time.insert(column.name(), runs);
+            }
+        }
         report.summary = fleet_text::summary(&report);
         report
     }
@@ -110,7 +116,7 @@ impl Fleet {
 
     /// Tags and dates as columns of a design.
     fn covariates(&self) -> Vec<Covariate> {
-        let logs = || self.all.iter().flat_map(|(d, _)| &d.robot.logs);
+        let logs = || self.logs();
         let names: std::collections::BTreeSet<&String> = logs().flat_map(|l| l.tags.keys()).collect();
         let dates: Vec<Option<&str>> = logs().map(|l| l.date.as_deref()).collect();
         let of_tag = |name: &&String| {
@@ -166,6 +172,10 @@ impl Fleet {
         model.odd_runs.iter().filter_map(odd).collect()
     }
 
+    fn logs(&self) -> impl Iterator<Item = &FleetLog> {
+        self.all.iter().flat_map(|(d, _)| &d.robot.logs)
+    }
+
     fn name(&self, robot: usize) -> &str {
         &self.all[robot].0.robot.robot
     }
@@ -195,28 +205,31 @@ impl Fleet {
             runs: fitted.runs.len(),
             verdict: discovered.verdict().id().into(),
             values: told.iter().filter_map(value).collect(),
-            over_time: told.iter().filter_map(|(c, m)| Some((c.name(), self.over_time(i, c, m)?))).collect(),
+            over_time: BTreeMap::new(),
             mend: vec![],
         }
     }
 }
 
 impl Fleet {
-    /// What the dated runs of a robot say of a parameter, by date; none where there are not several.
-    fn over_time(&self, robot: usize, column: &Column, model: &ParameterModel) -> Option<Vec<RunValue>> {
-        let dates: Vec<Option<&String>> =
-            self.all.iter().flat_map(|(d, _)| d.robot.logs.iter().map(|l| l.date.as_ref())).collect();
+    /// What the dated runs of each robot say of a parameter, by date; of robots that have several.
+    fn over_time(&self, column: &Column, model: &ParameterModel) -> BTreeMap<usize, Vec<RunValue>> {
+        let dates: Vec<Option<&String>> = self.logs().map(|l| l.date.as_ref()).collect();
         let names: Vec<&str> = self.runs().collect();
         let one = |s: &Said| {
             let date = dates.get(s.run).copied().flatten()?;
             let is_odd = model.odd_runs.iter().any(|o| o.which == s.run);
-            let run =
-                RunValue { run: names.get(s.run)?.to_string(), date: date.clone(), value: s.value, std: s.std, is_odd };
-            Some((days(date)?, run))
+            let run = names.get(s.run)?.to_string();
+            Some((days(date)?, RunValue { run, date: date.clone(), value: s.value, std: s.std, is_odd }))
         };
-        let mut found: Vec<(f64, RunValue)> = column.said.iter().filter(|s| s.robot == robot).filter_map(one).collect();
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        (found.len() > 1).then(|| found.into_iter().map(|(_, run)| run).collect())
+        let mut of_robots: BTreeMap<usize, Vec<(f64, RunValue)>> = BTreeMap::new();
+        column.said.iter().for_each(|s| of_robots.entry(s.robot).or_default().extend(one(s)));
+        let several = of_robots.into_iter().filter(|(_, runs)| runs.len() > 1);
+        let by_date = |(robot, mut runs): (usize, Vec<(f64, RunValue)>)| {
+            runs.sort_by(|a, b| a.0.total_cmp(&b.0));
+            (robot, runs.into_iter().map(|(_, run)| run).collect())
+        };
+        several.map(by_date).collect()
     }
 }
 

@@ -7,7 +7,7 @@ use super::rows::{Discovered, Mapped, Vote};
 use crate::discrepancy::calibration::targets::Target;
 use crate::effects::Effect;
 use crate::error::Result;
-use crate::export::{self, Gains};
+use crate::export;
 use crate::files::{EffectEntry, ModelFile};
 use crate::front_door::Model;
 
@@ -103,6 +103,5 @@ fn clamp(e: &mut EffectEntry, model: &Model) {
 
 /// The parameters of a ROS 2 controller, where there is one for the vehicle.
 fn controller(file: &ModelFile) -> Option<String> {
-    let targets = [export::Target::Ros2DiffDrive, export::Target::Ros2Steering];
-    targets.into_iter().find_map(|t| t.export(file, Gains::default()).ok()).map(|e| e.text)
+    export::Target::of_ros2(file).ok().map(|e| e.text)
 }

@@ -17,13 +17,13 @@ const BLOCK: usize = 256;
 /// Motions of one model, case by case and row by row.
 ///
 /// ```
-/// let none = creepage::Motions { columns: vec!["x".into()], rows: 1, cases: vec![] };
-/// assert_eq!(none.values().count(), 0);
+/// let none = creepage::Motions { pose: 3, rows: 1, cases: vec![] };
+/// assert_eq!(none.poses().count(), 0);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motions {
-    /// The columns of a row: x, y, heading, headings of trailers, speeds, hidden states.
-    pub columns: Vec<String>,
+    /// How many of the first numbers of a row are the pose: x, y, heading, headings of trailers.
+    pub pose: usize,
     /// Rows of a case: the times of the run's poses.
     pub rows: usize,
     /// The cases.
@@ -31,13 +31,11 @@ pub struct Motions {
 }
 
 impl Motions {
-    /// All numbers, case by case, row by row; not a number where a motion is undefined.
-    pub fn values(&self) -> impl Iterator<Item = f64> + '_ {
-        let size = self.rows * self.columns.len();
-        self.cases.iter().flat_map(move |c| {
-            let undefined = if c.is_defined() { 0 } else { size };
-            c.values.iter().copied().chain(std::iter::repeat_n(f64::NAN, undefined))
-        })
+    /// The poses, case by case, row by row; not a number where a motion is undefined.
+    pub fn poses(&self) -> impl Iterator<Item = f64> + '_ {
+        let row = |case: &Case, i: usize, k: usize| if case.is_defined() { case.row(i)[k] } else { f64::NAN };
+        let of_case = move |case| (0..self.rows).flat_map(move |i| (0..self.pose).map(move |k| row(case, i, k)));
+        self.cases.iter().flat_map(of_case)
     }
 }
 
@@ -80,8 +78,7 @@ pub fn simulate_many(model: &Model, run: &Run, values: &[(&str, Vec<f64>)]) -> R
     };
     let starts: Vec<usize> = (0..cases).step_by(BLOCK).collect();
     let found: Vec<Vec<Case>> = starts.into_par_iter().map(block).collect::<Result<_>>()?;
-    let columns = ensemble.columns().split_off(1);
-    Ok(Motions { columns, rows: run.time.len(), cases: found.into_iter().flatten().collect() })
+    Ok(Motions { pose: start.len(), rows: run.time.len(), cases: found.into_iter().flatten().collect() })
 }
 
 /// What varies, with its values held against what they may be.

@@ -6,6 +6,14 @@ use crate::effects::Effect;
 use crate::formula::Symbol;
 
 impl Model {
+    /// An effect that acts on one input, on each input of the model; another one as it is.
+    pub fn on_each_input(&self, effect: &Effect) -> Vec<Effect> {
+        match effect.per_input {
+            true => self.inputs.iter().map(|role| effect.on_input(role, self.vehicle.unit_of(role), 1.0)).collect(),
+            false => vec![effect.clone()],
+        }
+    }
+
     /// The effects of a library that apply to the vehicle, one entry for each trailer they may belong to.
     ///
     /// One does not where its formulas would close a circle with those of the model; in the catalogues none can.

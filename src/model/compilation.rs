@@ -90,11 +90,17 @@ impl Model {
     /// that stay: what the compiled derivatives are held against.
     pub(crate) fn rates_of_any_carrier(&self, free: &[Symbol]) -> Result<(Program, Vec<f64>)> {
         let definitions = self.definitions()?;
-        let mut graph = Graph::default();
-        definitions.insert_into(&mut graph)?;
-        let rates: Vec<NodeId> = self.state_rates().iter().map(|rate| graph.insert(rate)).collect();
+        let (graph, rates) = self.graph_of_rates(&definitions)?;
         let (slots, constants) = self.slots(free, &self.logged_and_derived(&definitions));
         Ok((Program::compile(&graph, &slots, &rates).map_err(undefined_name)?, constants))
+    }
+
+    /// The definitions as a graph, and the rates of the states in it.
+    fn graph_of_rates(&self, definitions: &Definitions) -> Result<(Graph, Vec<NodeId>)> {
+        let mut graph = Graph::default();
+        definitions.insert_into(&mut graph)?;
+        let rates = self.state_rates().iter().map(|rate| graph.insert(rate)).collect();
+        Ok((graph, rates))
     }
 
     /// What a program is given: states, inputs, free symbols, then all other values, which follow.
@@ -114,11 +120,9 @@ impl Model {
     /// The equations with the derivatives of the rates by some symbols.
     fn compiled(&self, free: &[Symbol], by: &[Symbol]) -> Result<Equations> {
         let definitions = self.definitions()?;
-        let mut graph = Graph::default();
-        definitions.insert_into(&mut graph)?;
+        let (mut graph, rates) = self.graph_of_rates(&definitions)?;
         let states = self.states();
         let visible = self.nodes();
-        let rates: Vec<NodeId> = self.state_rates().iter().map(|rate| graph.insert(rate)).collect();
         let inputs = self.logged_and_derived(&definitions);
         let derived = inputs[self.inputs.len()..].iter().filter_map(|s| self.derived(s)).collect();
         let edges = self.effects.iter().filter_map(|e| e.effect.scope.as_ref()).flat_map(Scope::edges).collect();

@@ -15,8 +15,7 @@ pub enum Scale {
     SymLog(f64),
 }
 
-/// Size of the letters of a label, and room between two labels, in pixels.
-const LETTERS: f64 = 12.0;
+/// Room between two labels, in pixels.
 const GAP: f64 = 4.0;
 
 /// One axis of a panel.
@@ -98,12 +97,11 @@ impl Axis {
                 values.iter().map(|v| tick(*v, self.linear_label(*v, step))).collect()
             }
             Scale::Log => {
-                let told = |count: usize| -> Vec<Tick> {
+                let told = |count| -> Vec<Tick> {
                     ticks::logarithmic(from, to, count).iter().map(|v| tick(*v, round_label(*v))).collect()
                 };
-                // Fewer than three a decade leave the powers of ten alone.
-                let fewer = (3.0 * (to / from).log10()).ceil() as usize - 1;
-                Some(told(count)).filter(|t| self.holds(t)).unwrap_or_else(|| told(count.min(fewer.max(1))))
+                let all = told(count);
+                if self.holds(&all) { all } else { told(count.min(ticks::powers_alone(from, to))) }
             }
             Scale::SymLog(l) => {
                 ticks::symmetric(from, to, l, count).iter().map(|v| tick(*v, round_label(*v))).collect()
@@ -113,7 +111,7 @@ impl Axis {
 
     /// Whether no two labels of a horizontal axis touch, in the widest usual face; those of a vertical one are low.
     fn holds(&self, ticks: &[Tick]) -> bool {
-        let half = |t: &Tick| 0.5 * WIDEST * letters::width(&t.label, LETTERS);
+        let half = |t: &Tick| 0.5 * WIDEST * letters::width(&t.label, letters::SIZE);
         self.pixels[1] < self.pixels[0] || ticks.windows(2).all(|t| t[1].at - t[0].at > half(&t[0]) + half(&t[1]) + GAP)
     }
 
@@ -222,6 +220,13 @@ mod tests {
         assert_eq!(labels(&upright).len(), 12);
         let short = Axis::log("", "", [0.2, 20.0]).along([50.0, 330.0]);
         assert_eq!(labels(&short), ["0.2", "0.5", "1", "2", "5", "10", "20"]);
+    }
+
+    #[test]
+    fn a_logarithmic_axis_without_an_extent_has_ticks_to_fit() {
+        for range in [[1.0, 1.0], [0.9, 1.1], [0.0, 1.0]] {
+            assert!(Axis::log("", "", range).along([0.0, 10.0]).ticks(60.0).len() < 2);
+        }
     }
 
     #[test]

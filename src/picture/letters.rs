@@ -32,6 +32,9 @@ const ADVANCES: [(u16, &str); 23] = [
 /// The advance of a letter that the table does not have.
 const OTHERS: u16 = 600;
 
+/// Size of the letters of a figure, and of the labels of an axis, in pixels.
+pub const SIZE: f64 = 12.0;
+
 /// How much wider the letters of the widest usual face, DejaVu Sans, are than these.
 pub const WIDEST: f64 = 1.14;
 

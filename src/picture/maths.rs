@@ -3,8 +3,7 @@
 use super::letters::{self, WIDEST};
 use super::svg::{Element, label};
 
-/// Size of a figure's letters in pixels, and how much larger and wider those of a heading are.
-const LETTERS: f64 = 12.0;
+/// How much larger and wider the letters of a heading are.
 const HEADING: f64 = 1.1;
 
 /// Size of raised and lowered text, relative to the text around it.
@@ -100,7 +99,7 @@ fn has_room(run: &Run, before: Level) -> bool {
 
 /// The width of the stretches in a figure.
 fn laid_out(runs: &[Run], class: &str) -> f64 {
-    let size = if class == "heading" { HEADING * LETTERS } else { LETTERS };
+    let size = if class == "heading" { HEADING * letters::SIZE } else { letters::SIZE };
     let before = std::iter::once(Level::Line).chain(runs.iter().map(|r| r.level));
     let width = |(run, before): (&Run, Level)| {
         let size = if run.level == Level::Line { size } else { SMALL * size };

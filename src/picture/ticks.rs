@@ -32,6 +32,11 @@ fn multiples(from: f64, to: f64, step: f64) -> (Vec<f64>, f64) {
     ((0..=steps.min(200)).map(|i| (first + i as f64) * step).collect(), step)
 }
 
+/// Ticks of a count that leaves powers of ten alone: fewer than three a decade.
+pub fn powers_alone(from: f64, to: f64) -> usize {
+    ((3.0 * (to / from).log10()).ceil() as usize).saturating_sub(1).max(1)
+}
+
 /// Powers of ten within a positive range, with 2 and 5 between them where there is room.
 pub fn logarithmic(from: f64, to: f64, count: usize) -> Vec<f64> {
     let exponents = decade(from) - 1..=decade(to) + 1;

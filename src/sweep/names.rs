@@ -84,7 +84,7 @@ pub(crate) fn quantities(file: &ModelFile, model: &Model) -> Vec<Quantity> {
 
 /// The quantity of a name: one of the model, or a constant of the inputs' formulas.
 pub(super) fn find(name: &str, spot: &Spot, known: &[Quantity], used: &[Symbol]) -> Result<(Varied, Allowed)> {
-    if let Ok(found) = of_model(name, known) {
+    if let Some(found) = quantity(name, known) {
         return Ok(found);
     }
     if used.iter().any(|s| s.as_str() == name) {
@@ -96,12 +96,15 @@ pub(super) fn find(name: &str, spot: &Spot, known: &[Quantity], used: &[Symbol])
 
 /// The quantity of the model that has a name.
 pub(crate) fn of_model(name: &str, known: &[Quantity]) -> Result<(Varied, Allowed)> {
-    let found = known.iter().find(|q| q.name == name);
-    found.map(|q| (q.varied.clone(), q.allowed)).ok_or_else(|| {
+    quantity(name, known).ok_or_else(|| {
         let names: Vec<&str> = known.iter().map(|q| q.name.as_str()).collect();
         let message = format!("no quantity of the model is called \"{}\"", shown(name));
         Error::input(message).help(advice(name, "what may vary", &names))
     })
+}
+
+fn quantity(name: &str, known: &[Quantity]) -> Option<(Varied, Allowed)> {
+    known.iter().find(|q| q.name == name).map(|q| (q.varied.clone(), q.allowed))
 }
 
 fn unknown(name: &str, spot: &Spot, names: &[&str]) -> Error {

@@ -4,7 +4,7 @@ use crate::reviewed::reviewed;
 use crate::synthetic::{bare, path_picture, pictures, report, residual};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use creepage::discrepancy::rendering::html::check_page::{Logged, check_html};
+use creepage::discrepancy::rendering::html::check_page::check_html;
 use creepage::discrepancy::rendering::html::{gap_svg, html};
 use creepage::discrepancy::rendering::summary::summary_text;
 use creepage::discrepancy::report::*;
@@ -132,7 +132,7 @@ fn the_page_of_a_check_says_what_the_runs_can_tell() {
     let eights = creepage::Run::read(format!("{home}eights.csv"), &model).unwrap();
     let mut told = creepage::check(&model, &[eights]).unwrap();
     let page = |told: &creepage::Check| {
-        let page = check_html(told, "unicycle", "0.0.0", &Logged::default());
+        let page = check_html(told, "unicycle", "0.0.0", &[]);
         check_scripts(&page);
         let (markup, _) = without_scripts(&page);
         check_well_formed(&markup);

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from os import cpu_count
 from typing import Any, TypeVar
 
 from ._creepage import InputError, RunError
@@ -11,6 +12,12 @@ Found = TypeVar("Found")
 
 #: Times a part is asked that dies with its worker.
 ATTEMPTS = 3
+
+
+def parts_of(shards: int | None) -> list[str]:
+    """The names of all shards, "1/8" and so on; four for each core where there is no number."""
+    of = shards or 4 * (cpu_count() or 1)
+    return [f"{i}/{of}" for i in range(1, of + 1)]
 
 
 def _asked(executor: Any, one: Callable[[str], Found], parts: list[str]) -> tuple[dict[str, Found], Exception | None]:

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from ._creepage import InputError, RunError
-from .engines import mapped
+from .engines import mapped, parts_of
 
 
 def _command(*arguments: str) -> None:
@@ -52,12 +52,10 @@ def fleet(
     The answer is the content of `fleet.json`.
     """
     found = Path(rows) if rows is not None else Path(out) / "rows"
-    cores = cpu_count() or 1
-    of = shards or 4 * cores
-    parts = [f"{i}/{of}" for i in range(1, of + 1)]
+    parts = parts_of(shards)
     one = partial(shard, fspath(Path(manifest).resolve()), fspath(found.resolve()))
     if executor is None:
-        with ThreadPoolExecutor(cores) as pool:
+        with ThreadPoolExecutor(cpu_count()) as pool:
             mapped(pool, one, parts)
     else:
         mapped(executor, one, parts)

@@ -6,12 +6,12 @@ import json
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
-from os import PathLike, cpu_count, fspath
+from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _creepage as native
-from .engines import mapped
+from .engines import mapped, parts_of
 from .frames import frame_of
 from .model import Model
 from .progress import Progress, listener
@@ -144,23 +144,26 @@ def sweep(
         with listener(progress) as tell:
             cases, undefined = native.sweep(spec, out, None, threads, tell)
         return {"cases": cases, "undefined": undefined}
-    of = shards or 4 * (cpu_count() or 1)
     table = Path(out).resolve()
     folder = table.with_name(f"{table.name}.parts")
     folder.mkdir(parents=True, exist_ok=True)
-    files = {f"{i}/{of}": folder / f"{i:0{len(str(of))}}{table.suffix}" for i in range(1, of + 1)}
-    one = partial(_sweep_shard, fspath(Path(spec).resolve()), {part: fspath(file) for part, file in files.items()})
-    counts = mapped(executor, one, list(files))
-    native.join_sweep(spec, [fspath(file) for file in files.values()], out)
-    for file in files.values():
+    parts = parts_of(shards)
+    counts = mapped(executor, partial(_sweep_shard, Path(spec).resolve(), folder, table.suffix), parts)
+    files = [_part_file(folder, table.suffix, part) for part in parts]
+    native.join_sweep(spec, [fspath(file) for file in files], out)
+    for file in files:
         file.unlink()
     folder.rmdir()
     return {"cases": sum(c for c, _ in counts), "undefined": sum(u for _, u in counts)}
 
 
-def _sweep_shard(spec: str, files: dict[str, str], part: str) -> tuple[int, int]:
+def _part_file(folder: Path, suffix: str, part: str) -> Path:
+    return folder / f"{part.replace('/', '-of-')}{suffix}"
+
+
+def _sweep_shard(spec: Path, folder: Path, suffix: str, part: str) -> tuple[int, int]:
     """The cases of one shard, such as "3/64", into a file of its own."""
-    return native.sweep(spec, files[part], part, 1, None)
+    return native.sweep(spec, _part_file(folder, suffix, part), part, 1, None)
 
 
 def describe(model: Model) -> Description:

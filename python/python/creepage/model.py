@@ -72,7 +72,7 @@ class Model:
     def export(self, target: str) -> str:
         """The findings of the model as what a robot reads.
 
-        target   "ros2-diff-drive", "ros2-steering", "wpilib", "vesc" or "json": parameters of a controller;
+        target   "ros2", "ros2-diff-drive", "ros2-steering", "wpilib", "vesc" or "json": parameters of a controller;
                  "c", "cpp", "python" or "rust": a step of the model with its Jacobian, which needs no library
 
         What the target has no place for stands in a comment of the text, and a warning says it. Raises `InputError` where the
@@ -88,7 +88,7 @@ class Model:
 
         controller   name of the node; ROS 2's own, such as "diff_drive_controller", where there is none
         """
-        text = self.export("ros2-diff-drive" if self.vehicle.startswith("differential-drive") else "ros2-steering")
+        text = self.export("ros2")
         return text if controller is None else re.sub(r"(?m)^\w+:$", f"{controller}:", text, count=1)
 
     def __eq__(self, other: object) -> bool:

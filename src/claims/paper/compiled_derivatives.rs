@@ -48,11 +48,7 @@ static MODELS: LazyLock<Vec<Model>> = LazyLock::new(|| {
 });
 
 fn with_effects(model: &Model) -> Vec<Model> {
-    let on_inputs = |e: &Effect| match e.per_input {
-        true => model.inputs.iter().map(|role| e.on_input(role, model.vehicle.unit_of(role), 1.0)).collect(),
-        false => vec![e.clone()],
-    };
-    let library: Vec<Effect> = effects::all().iter().flat_map(on_inputs).collect();
+    let library: Vec<Effect> = effects::all().iter().flat_map(|e| model.on_each_input(e)).collect();
     let one = |(e, trailer): (&Effect, Option<usize>)| {
         let usual = e.parameters.values().map(|p| p.size.clamp(p.range[0], p.range[1])).collect();
         model.clone().with_effect(Applied::new(e, trailer, usual).freed())

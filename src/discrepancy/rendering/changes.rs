@@ -1,7 +1,7 @@
 //! The changes that a finding asks for: lines of the model file, of the robot's controller, of its description.
 
 use crate::discrepancy::report::{Change, Finding, Report, Verdict};
-use crate::export::{Exported, Gains, Target, description_lines};
+use crate::export::{Exported, Target, description_lines};
 use crate::files::{EffectEntry, ModelFile, lines_of};
 
 /// What to change, each thing in its own words; none where nothing was found.
@@ -14,10 +14,7 @@ pub(crate) fn changes(report: &Report, file: &ModelFile, added: &[EffectEntry]) 
     let patched = file.with_effects(added);
     // A controller is shown where a number of it changes.
     let says_something = |e: &Exported| e.unsaid.len() < patched.effects.len();
-    for (of, target) in [("ROS 2", Target::Ros2DiffDrive), ("ROS 2", Target::Ros2Steering)] {
-        let text = target.export(&patched, Gains::default()).ok().filter(says_something);
-        found.extend(text.map(|e| change(of, e.text)));
-    }
+    found.extend(Target::of_ros2(&patched).ok().filter(says_something).map(|e| change("ROS 2", e.text)));
     found.extend(description_lines(&patched).map(|e| change("URDF", e.text)));
     let code = "creepage export model.patched.toml --as c      > step.c\n\
                 creepage export model.patched.toml --as python > step.py\n\

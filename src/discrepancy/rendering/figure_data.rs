@@ -59,8 +59,12 @@ pub(crate) fn measured_path(record: &Record, held_out: bool) -> PathPicture {
     }
 }
 
-/// The inputs and the pose of a run as they were logged, each over time.
-pub fn columns(run: &Run, model: &Model) -> Vec<ColumnPicture> {
+/// The inputs and the pose of runs as they were logged, each over time.
+pub fn columns(runs: &[Run], model: &Model) -> Vec<ColumnPicture> {
+    runs.iter().flat_map(|run| columns_of(run, model)).collect()
+}
+
+fn columns_of(run: &Run, model: &Model) -> Vec<ColumnPicture> {
     let column = |name: &str, unit: &str, values: &Vec<f64>| ColumnPicture {
         run: run.name.clone(),
         name: name.replace('_', " "),

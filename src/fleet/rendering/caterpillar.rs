@@ -7,7 +7,7 @@ use crate::picture::plot::{Marker, Size, frame_svg, mark};
 use crate::picture::svg::{Element, cut, label, line, rect};
 
 /// Half of a 95 % interval of a normal value, in deviations.
-const NORMAL_95: f64 = 1.96;
+pub(super) const NORMAL_95: f64 = 1.96;
 /// Robots up to which every one has its name beside it.
 const NAMED: usize = 60;
 /// Pixels left of the values, above the first robot, and below the last.

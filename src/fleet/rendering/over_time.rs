@@ -1,6 +1,6 @@
 //! Small multiples: what each run says of a value over its date, a panel a robot, all on one scale (Tufte, 1990).
 
-use super::caterpillar::scaled;
+use super::caterpillar::{NORMAL_95, scaled};
 use crate::discrepancy::rendering::html::part;
 use crate::fleet::days;
 use crate::fleet::report::{FleetParameter, FleetReport, RobotReport, RunValue};
@@ -12,8 +12,6 @@ use crate::wording::counted;
 
 /// Robots that get a panel.
 const MOST: usize = 36;
-/// Half of a 95 % interval of a normal value, in deviations.
-const NORMAL_95: f64 = 1.96;
 const SIZE: Size = Size { width: 300.0, height: 140.0, margins: [52.0, 12.0, 30.0, 26.0] };
 
 /// The panels of a parameter, robots that differ before the others; none where no robot has several dated runs.

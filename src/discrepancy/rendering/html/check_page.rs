@@ -5,10 +5,8 @@ use super::{cards, change, columns, page, words};
 use crate::discrepancy::identifiability::check_report::{Check, Pair, Parameter, Prospect, RunHealth, Seen, Standing};
 use crate::discrepancy::rendering::patched_state::State;
 use crate::discrepancy::rendering::plain_text::capitalised;
-use crate::discrepancy::rendering::{changes, check_text, figure_data};
+use crate::discrepancy::rendering::{changes, check_text};
 use crate::discrepancy::report::{Change, ColumnPicture};
-use crate::files::Run;
-use crate::model::Model;
 use crate::number_format::{plain, significant};
 use crate::picture::axis::Axis;
 use crate::picture::svg::Element;
@@ -19,27 +17,16 @@ const SPAN: [f64; 2] = [1e-3, 1e2];
 /// Names in a card.
 const NAMED: usize = 4;
 
-/// The check as a self-contained page; of runs that cannot be used with their columns.
-pub fn check_html(check: &Check, vehicle: &str, version: &str, logged: &Logged) -> String {
+/// The check as a self-contained page, with columns of runs that cannot be used.
+pub fn check_html(check: &Check, vehicle: &str, version: &str, columns: &[ColumnPicture]) -> String {
     let mends: Vec<Change> = changes::mends(&check.data.findings).into_iter().collect();
     let title = format!("{} — creepage check", check.summary.trim_end_matches('.'));
     let main = Element::new("main")
         .child(header(check, vehicle))
         .children(three_cards(check))
         .children(change::section(&mends, check.next_experiment.as_ref()))
-        .children(evidence(check, logged));
+        .children(evidence(check, columns));
     page(&title, version, main, !mends.is_empty())
-}
-
-/// The columns of runs as they were logged.
-#[derive(Default)]
-pub struct Logged(Vec<ColumnPicture>);
-
-impl Logged {
-    /// Of runs by a model.
-    pub fn of(runs: &[Run], model: &Model) -> Self {
-        Self(runs.iter().flat_map(|r| figure_data::columns(r, model)).collect())
-    }
 }
 
 fn header(check: &Check, vehicle: &str) -> Element {
@@ -93,14 +80,13 @@ fn three_cards(check: &Check) -> Option<Element> {
     ]))
 }
 
-fn evidence(check: &Check, logged: &Logged) -> Vec<Element> {
-    let columns = (check.verdict == Standing::UnusableData).then(|| columns::figure(&logged.0)).flatten();
+fn evidence(check: &Check, columns: &[ColumnPicture]) -> Vec<Element> {
     let notes: Vec<Element> =
         check.data.findings.iter().filter(|f| f.mend.is_none()).map(|f| holding("li", capitalised(&f.says))).collect();
     let notes = (!notes.is_empty()).then(|| Element::new("ul").with("class", "plain").children(notes));
     let parts = vec![
         Fold::open("notes", "What to know of these data", notes),
-        Fold::open("columns", "The columns over time", columns),
+        Fold::open("columns", "The columns over time", columns::figure(columns)),
         Fold::open("effects", "From which size each effect would be seen", sizes(check)),
         Fold::closed("numbers", "The same in numbers", numbers(check)),
         Fold::open("runs", "Run by run", runs(check)),

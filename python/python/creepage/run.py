@@ -142,9 +142,8 @@ def _poses(truth: Any, name: str) -> tuple[str, str | None]:
 def _rebuilt(name: str, text: str | None, model: Model, truth: _Poses) -> Run:
     """A run as it was made: from a file or a text, with its poses from another file or text where they were logged apart."""
     how = (name, text, model, truth)
-    poses, poses_text = truth or (None, None)
-    if text is None and poses_text is None:
-        return Run._made(native.Run.read(name, model._native, poses), how)
-    if truth is not None:
+    if truth is not None and (text, truth[1]) != (None, None):
         return Run._made(native.Run.apart((name, text), truth, model._native), how)
+    if text is None:
+        return Run._made(native.Run.read(name, model._native, truth and truth[0]), how)
     return Run._made(native.Run.parse(name, text, model._native), how)

@@ -2,7 +2,7 @@
 
 use super::exact_point;
 use super::exact_point::{Domain, Point, simplest, written};
-use super::identities;
+use super::proved::record_identity;
 use super::sampling::Fault;
 use super::{Counterexample, DerivedFormulas, Equation, Outcome, Sampling, Statement};
 use crate::formula::{Exact, Expr, Normal, Scalar, Symbol};
@@ -25,7 +25,7 @@ pub fn prove(derived: &DerivedFormulas, statement: &Statement) -> Outcome {
         let (left, right) = (equation.left.eval(&value), equation.right.eval(&value));
         match (left, right) {
             (Some(l), Some(r)) if l.equals(&r) => {
-                identities::record(derived, equation);
+                record_identity(derived, equation);
                 Outcome::PROVED
             }
             _ if statement.is_brief() => Outcome::failure("no identity"),

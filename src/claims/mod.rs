@@ -19,13 +19,14 @@ mod checks;
 mod claim;
 mod correction;
 mod corrections;
+mod count_check;
+mod counted;
 pub(crate) mod derived_formulas;
 mod divisors;
 pub(crate) mod exact_point;
 #[doc(hidden)]
 pub mod generated;
 pub(crate) mod generated_forced;
-mod identities;
 #[doc(hidden)]
 pub mod kernel;
 #[doc(hidden)]
@@ -33,6 +34,7 @@ pub mod ledger;
 mod mutants;
 mod outcome;
 mod paper;
+mod proved;
 mod sampling;
 pub(crate) mod simulated;
 mod statement;

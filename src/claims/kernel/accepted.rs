@@ -1,5 +1,7 @@
-//! Which theorems a kernel has accepted: the digest of every file that it was given and let pass.
+//! Which theorems a kernel has accepted: the digest of every file that it was given and let
+//! pass, with what the file rests on.
 
+use super::file::{BRACKETS, SHARED};
 use super::{ClaimFile, Proofs};
 use sha2::{Digest, Sha256};
 
@@ -14,12 +16,13 @@ pub fn kernel() -> &'static str {
 
 /// The line of a file that was accepted.
 pub fn accepted_line(file: &ClaimFile) -> String {
-    let digest = Sha256::digest(file.text.as_bytes());
+    let digest =
+        [SHARED, BRACKETS, &file.text].iter().fold(Sha256::new(), |all, text| all.chain_update(text)).finalize();
     let hex: String = digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect();
     format!("{} {} {hex}", file.claim, file.theorems)
 }
 
-/// Whether the kernel has accepted the file, letter for letter.
+/// Whether the kernel has accepted the file, letter for letter, and the files that it rests on.
 pub fn is_accepted(file: &ClaimFile) -> bool {
     let line = accepted_line(file);
     ACCEPTED.lines().skip(1).any(|accepted| accepted == line)

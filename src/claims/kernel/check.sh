@@ -14,7 +14,8 @@ if [ $# -eq 1 ]; then
   exit
 fi
 coqc -q -R . Creepage Creepage.v || exit 1
-ls ./*.v | sed 's|^\./||; s|\.v$||' | grep -v '^Creepage$' > files.txt
+coqc -q -R . Creepage Brackets.v || exit 1
+ls ./*.v | sed 's|^\./||; s|\.v$||' | grep -v -e '^Creepage$' -e '^Brackets$' > files.txt
 xargs -P "$(nproc)" -n 1 sh check.sh < files.txt > answers.txt
 sort answers.txt
 [ "$(grep -c '^accepted ' answers.txt)" -eq "$(wc -l < files.txt)" ]

@@ -1,6 +1,6 @@
 //! An identity with its numbers put in: definitions that are numbers, and sines and cosines of zero.
 
-use crate::claims::identities::Identity;
+use crate::claims::proved::Identity;
 use crate::formula::{Expr, Fun, Node, Symbol};
 use std::collections::BTreeMap;
 

@@ -7,15 +7,18 @@
 //!
 //! | step | where |
 //! |---|---|
-//! | every identity that a check proves on its way is recorded | `identities` |
+//! | everything that a check proves on its way is recorded | `proved` |
 //! | definitions that are numbers are put in | `folded` |
 //! | the identity becomes a theorem: no divisor is zero, so left = right | `theorem`, `term` |
+//! | a growth vector becomes one: a distribution, of which the kernel computes brackets and ranks | `distribution`, `growth`, `Brackets.v` |
 //! | a file a claim, the tactic they share, a script that runs `coqc` | `file`, `Creepage.v`, `check.sh` |
 //! | of which files a kernel has accepted which text | `accepted` |
 
 mod accepted;
+mod distribution;
 mod file;
 mod folded;
+mod growth;
 mod term;
 mod theorem;
 

@@ -3,7 +3,7 @@
 use super::folded::folded;
 use super::term::{identifier, term};
 use crate::claims::divisors;
-use crate::claims::identities::Identity;
+use crate::claims::proved::Identity;
 use crate::formula::{Expr, Symbol};
 use std::collections::BTreeSet;
 use std::fmt::Write;

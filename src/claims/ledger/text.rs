@@ -93,7 +93,7 @@ pub fn proofs_text(proofs: &Proofs, dir: &str) -> String {
     let (theorems, claims) = (counted(theorems, "theorem"), counted(with().count(), "claim"));
     let mut out = format!("{theorems} of {claims} in {dir}\nsh {dir}/check.sh puts them to the kernel\n");
     if proofs.claims.iter().any(|c| !c.left_out.is_empty()) {
-        out.push_str("\nno theorem, for ranks, brackets and integrals are counted there and no identity of formulas is proved:\n");
+        out.push_str("\nno theorem of all that these proofs say:\n");
     }
     for claim in &proofs.claims {
         claim.left_out.iter().for_each(|shows| paragraph(&mut out, &format!("{}: {shows}", claim.claim)));

@@ -1,7 +1,8 @@
 //! The domain of a formula: the places at which it is undefined, by the zeros of its divisors.
 
+use crate::claims::divisors;
+use crate::claims::proved::record_identity;
 use crate::claims::{Counterexample, DerivedFormulas, Equation, Outcome, Point, Statement, domains, simplest, written};
-use crate::claims::{divisors, identities};
 use crate::formula::{Exact, Expr, Normal, Scalar, Symbol};
 
 /// Shows, for each equation, that what the formulas derive for its left side is undefined exactly where its right side is
@@ -16,7 +17,7 @@ pub(crate) fn undefined_exactly_where(formulas: &DerivedFormulas, statement: &St
             Some(found) => Outcome::Fails(found),
             None => match multiple(&divisors(&derived), &equation.right) {
                 Some(identity) => {
-                    identities::record(&DerivedFormulas::default(), &identity);
+                    record_identity(&DerivedFormulas::default(), &identity);
                     Outcome::PROVED
                 }
                 None => Outcome::Undefined(format!("the divisors of {} are not {}", equation.left, equation.right)),

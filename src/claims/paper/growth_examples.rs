@@ -1,8 +1,11 @@
 //! Vehicles and trains with the configurations at which their growth vectors, integrals and ranks are looked at, exactly.
 
+use crate::claims::count_check::compare;
+use crate::claims::counted::Counted;
+use crate::claims::proved::Proved;
 use crate::claims::{Outcome, Sampling, Statement};
-use crate::formula::{Exact, Expr, Node, Scalar, Symbol};
-use crate::mechanism::{Mechanism, Nonholonomy, Point};
+use crate::formula::{Exact, Scalar, Symbol};
+use crate::mechanism::{Mechanism, Point};
 use crate::model::mechanism;
 use crate::vehicles;
 use crate::vehicles::Vehicle;
@@ -123,64 +126,40 @@ fn example(name: &str) -> Option<(Mechanism, Point)> {
 
 /// What was found for the examples, each looked at once for all statements.
 #[derive(Clone, Default)]
-pub(super) struct Found(Arc<Mutex<BTreeMap<String, Option<Nonholonomy>>>>);
+pub(super) struct Found(Arc<Mutex<BTreeMap<String, Option<Counted>>>>);
 
 impl Found {
-    pub(super) fn of(&self, name: &str) -> Option<Nonholonomy> {
+    pub(super) fn of(&self, name: &str) -> Option<Counted> {
         let known = || self.0.lock().ok()?.get(name).cloned();
         if let Some(found) = known() {
             return found;
         }
-        let found = example(name).and_then(|(mechanism, at)| mechanism.nonholonomy(&at, 9).ok());
+        let found = example(name).and_then(|(mechanism, at)| Counted::of(name, mechanism, at, 9));
         if let Ok(mut all) = self.0.lock() {
             all.insert(name.to_string(), found.clone());
         }
         found
     }
 
-    /// A number of an example, such as `ackermann.rank`; a growth vector is written as digits, 2357.
-    fn number(&self, name: &Symbol) -> Option<i64> {
+    /// A number of an example, such as `ackermann.rank`, and what proves it.
+    fn number(&self, name: &Symbol) -> Option<(i64, Proved)> {
         let (example, quantity) = name.as_str().rsplit_once('.')?;
         if let Some(number) = realised(example, quantity) {
-            return Some(number);
+            return Some((number, Proved::WithoutTheorem(SIGNATURES)));
         }
-        let found = self.of(example)?;
-        // A count that brackets and integrals do not agree on is no proof.
-        if !(found.growth.is_final && found.counts_agree()) {
-            return None;
-        }
-        let digits = |d: &[usize]| d.iter().fold(0, |n, d| 10 * n + *d as i64);
-        Some(match quantity {
-            "coordinates" => found.growth.coordinates.len() as i64,
-            "rank" => found.growth.rank as i64,
-            "growth" => digits(&found.growth.dimensions),
-            "degree" => found.growth.degree_of_nonholonomy as i64,
-            "holonomic" => found.holonomic as i64,
-            "nonholonomic" => found.nonholonomic as i64,
-            _ => return None,
-        })
+        let counted = self.of(example)?;
+        Some((counted.number(quantity)?, Proved::Growth(counted)))
     }
 
     /// The check of statements about numbers of examples.
     pub(super) fn checking(&self) -> impl Fn(&Statement, &Sampling) -> Outcome + Send + Sync + 'static {
         let found = self.clone();
-        move |statement, _| found.check(statement)
-    }
-
-    /// Compares the numbers of examples with what is said of them.
-    fn check(&self, statement: &Statement) -> Outcome {
-        Outcome::all(statement.in_question().iter().map(|equation| {
-            let Node::Sym(name) = equation.left.node() else {
-                return Outcome::Undefined(format!("{} is no number of an example", equation.left));
-            };
-            let Some(found) = self.number(name) else { return Outcome::Undefined(format!("{name} is not known")) };
-            match equation.right.tidy().as_number() == Expr::int(found).as_number() {
-                true => Outcome::PROVED,
-                false => Outcome::failure(format!("{name} is {found}, the statement says {}", equation.right)),
-            }
-        }))
+        move |statement, _| compare(statement, |name| found.number(name))
     }
 }
+
+/// Why a signature has no theorem.
+const SIGNATURES: &str = "a signature is found among all sets of rows, by the rank of each";
 
 /// A number of the signature of an example whose wheels are measured: coefficients of type R, others, smallest sets.
 fn realised(name: &str, quantity: &str) -> Option<i64> {
@@ -198,22 +177,4 @@ fn realised(name: &str, quantity: &str) -> Option<i64> {
         _ => found.sets.len(),
     };
     i64::try_from(count).ok()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_count_in_doubt_is_no_number() {
-        let found = Found::default();
-        let sure = found.of("unicycle").unwrap();
-        let disputed = Nonholonomy { holonomic: sure.holonomic + 1, ..sure.clone() };
-        let mut unfinished = sure;
-        unfinished.growth.is_final = false;
-        let all = [("disputed", disputed), ("unfinished", unfinished)];
-        found.0.lock().unwrap().extend(all.map(|(name, n)| (name.to_string(), Some(n))));
-        let rank = |name: &str| found.number(&Symbol::new(&format!("{name}.rank")));
-        assert_eq!([rank("unicycle"), rank("disputed"), rank("unfinished")], [Some(2), None, None]);
-    }
 }

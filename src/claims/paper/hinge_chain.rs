@@ -1,11 +1,13 @@
 //! Section 4, last paragraph: a chain of hinged rods that floats, and the phase of its loops.
 
-use super::symmetry::{CONNECTION, all_of, base, numbers, within};
+use super::symmetry::{CONNECTION, all_of, base, within};
+use crate::claims::count_check::compare_with;
+use crate::claims::counted::Counted;
 use crate::claims::simulated::undefined;
 use crate::claims::{Claim, Outcome, Sampling, Statement, Status, value_said};
 use crate::connection::{Connection, Path, PlanarBody, floating_energy};
 use crate::formula::{Exact, Expr, Symbol};
-use crate::mechanism::{Mechanism, Momentum, Nonholonomy, Point};
+use crate::mechanism::{Mechanism, Momentum, Point};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -65,13 +67,13 @@ fn chain_of(rods: &[Rod]) -> crate::Result<(Momentum, Vec<Symbol>)> {
 }
 
 /// The chain as a mechanism, looked at where every sine is rational.
-fn counted(links: usize) -> Option<Nonholonomy> {
+fn counted(links: usize) -> Option<Counted> {
     let (momentum, shape) = chain(links).ok()?;
     let constraint = momentum.constraint("angular momentum", "e_sc").ok()?;
     let coordinates = std::iter::once(Symbol::from("phi")).chain(shape.iter().cloned()).collect();
     let angles = [Exact::direction(4.into(), 3.into()), Exact::direction(12.into(), (-5).into())];
     let at = shape.iter().zip(angles).fold(Point::default(), |p, (r, angle)| p.with(r.clone(), angle));
-    Mechanism { coordinates, constraints: vec![constraint] }.nonholonomy(&at, 5).ok()
+    Counted::of(&format!("links_{links}"), Mechanism { coordinates, constraints: vec![constraint] }, at, 5)
 }
 
 fn one_hinge() -> Claim {
@@ -81,7 +83,7 @@ fn one_hinge() -> Claim {
         .code(&["src/connection/bodies.rs", CONNECTION])
         .tests(&["tests/symmetry/bodies.rs"])
         .proof("brackets: none, so one constraint of one", &[("growth", "1"), ("holonomic", "1"), ("nonholonomic", "0")], |s, _| {
-            numbers(s, counted(2))
+            compare_with(s, counted(2).as_ref())
         })
         .sample("drift after generated closed loops of the hinge, under 1e-12", &[("drift", "0")], |s, sampling| {
             let Ok((momentum, shape)) = chain(2) else { return Outcome::Undefined("there is no chain".into()) };
@@ -106,7 +108,7 @@ fn two_hinges() -> Claim {
         )
         .code(&["src/connection/bodies.rs", CONNECTION])
         .tests(&["tests/symmetry/bodies.rs"])
-        .proof("by brackets", &[("growth", "23"), ("nonholonomic", "1")], |s, _| numbers(s, counted(3)))
+        .proof("by brackets", &[("growth", "23"), ("nonholonomic", "1")], |s, _| compare_with(s, counted(3).as_ref()))
         .sample(
             "circles of radius 0.04 and 0.02 about (0.7, −0.4): the error of phase/area falls with the square of the radius",
             &[("curvature", "-0.00676934"), ("order", "2")],

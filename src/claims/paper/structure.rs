@@ -1,9 +1,9 @@
 //! The holonomic and the nonholonomic part: growth vectors, integrals, degrees of nonholonomy, in exact arithmetic.
 
 use super::growth_examples::Found;
+use crate::claims::counted::Counted;
 use crate::claims::{Claim, Correction, DerivedFormulas, Status, proving};
 use crate::formula::{Expr, Symbol};
-use crate::mechanism::Nonholonomy;
 
 const CHAPTER: &str = "05a-holonomy";
 const GROWTH: &str = "src/mechanism/growth_vector.rs";
@@ -58,7 +58,7 @@ fn counts(found: &Found) -> Claim {
 
 /// The integral that the search finds for the two-wheeler.
 fn integral(found: &Found) -> Claim {
-    let of = |found: &Nonholonomy| found.integrals.first().map(|i| i.formula.clone());
+    let of = |counted: &Counted| counted.found.integrals.first().map(|i| i.formula.clone());
     let integral = found.of("differential-drive").and_then(|f| of(&f)).unwrap_or_default();
     let one_radius = |s: &Symbol| matches!(s.as_str(), "r_1" | "r_2").then(|| Expr::sym("r"));
     base("integral-28", Status::Proved, "the machine finds the integral r·(θ₁ − θ₂) − a·φ of the two-wheeler")

@@ -1,12 +1,14 @@
 //! Section 4, last paragraph: constraints that are symmetries, and their geometry; the hopper.
 
+use crate::claims::count_check::compare_with;
+use crate::claims::counted::Counted;
 use crate::claims::simulated::{model, undefined};
 use crate::claims::{
     Claim, DerivedFormulas, Fault, Outcome, Sampling, Statement, Status, Verdict, proving, value_said,
 };
 use crate::connection::{Connection, Path};
 use crate::formula::{Exact, Expr, Symbol};
-use crate::mechanism::{Momentum, Nonholonomy, Point};
+use crate::mechanism::{Momentum, Point};
 use crate::motion::driven;
 use crate::vehicles;
 use proptest::prelude::*;
@@ -75,7 +77,7 @@ fn curvature() -> Claim {
     };
     let counts = move |s: &Statement, _: &Sampling| {
         let hopper = vehicles::named("hopper").map(|v| crate::model::mechanism(v, 0));
-        numbers(s, hopper.and_then(|m| m.nonholonomy(&point(), 5).ok()))
+        compare_with(s, hopper.and_then(|m| Counted::of("hopper", m, point(), 5)).as_ref())
     };
     base("hopper-curvature", Status::Proved, "the hopper's constraint is nonholonomic: its curvature dσ/dl is not zero")
         .under("I > 0, m > 0, l + d > 0")
@@ -87,25 +89,6 @@ fn curvature() -> Claim {
             proving(DerivedFormulas::default().with("curvature", bent)),
         )
         .proof("by brackets, a vector (2, 3) written 23", &[("growth", "23"), ("nonholonomic", "1")], counts)
-}
-
-/// Numbers of what a mechanism's constraints leave.
-pub(super) fn numbers(s: &Statement, found: Option<Nonholonomy>) -> Outcome {
-    let Some(found) = found.filter(|f| f.growth.is_final && f.counts_agree()) else {
-        return Outcome::Undefined("the numbers are not proved".into());
-    };
-    let digits = found.growth.dimensions.iter().fold(0, |n, d| 10 * n + d);
-    let value = |name: &str| match name {
-        "growth" => Some(digits),
-        "holonomic" => Some(found.holonomic),
-        "nonholonomic" => Some(found.nonholonomic),
-        _ => None,
-    };
-    Outcome::all(s.in_question().iter().map(|e| match value(&e.left.to_string()) {
-        None => Outcome::Undefined(format!("{} is not counted", e.left)),
-        Some(n) if e.right.as_number() == Expr::int(n as i64).as_number() => Outcome::PROVED,
-        Some(n) => Outcome::failure(format!("{} is {n}, the statement says {}", e.left, e.right)),
-    }))
 }
 
 /// A loop of the hopper's leg: mean length, swing in length and angle, phase between them; I, m, d.

@@ -17,7 +17,7 @@ pub fn range_of(p: &Parameter) -> [f64; 2] {
 /// Whether an effect stands at the edge of its range where it vanishes.
 pub fn vanishes(effect: &Applied) -> bool {
     let mut values = effect.effect.parameters.values().zip(&effect.values);
-    values.any(|(p, v)| p.positive && *v <= range_of(p)[0] * 1.001)
+    values.any(|(p, v)| p.positive && is_sunk(*v, range_of(p)))
 }
 
 /// Whether a value of an effect stands at an end of its range: the data ask for more than any vehicle has, which says
@@ -48,13 +48,22 @@ pub struct Bounds {
     range: Vec<[f64; 2]>,
     positive: Vec<bool>,
     periodic: Vec<bool>,
+    /// Positive values that begin above the edge at which their effect vanishes.
+    may_sink: Vec<bool>,
+}
+
+/// Whether a positive value stands at the edge at which its effect vanishes.
+fn is_sunk(v: f64, range: [f64; 2]) -> bool {
+    v <= range[0] * 1.001
 }
 
 impl Bounds {
     /// The bounds of a model's free effects.
     pub fn of(model: &Model) -> Self {
         let all = || model.free_effects().flat_map(|e| e.effect.parameters.values());
+        let begin = model.free_values();
         Self {
+            may_sink: all().zip(begin).map(|(p, v)| p.positive && !is_sunk(v, range_of(p))).collect(),
             range: all().map(range_of).collect(),
             positive: all().map(|p| p.positive).collect(),
             periodic: all().map(|p| p.periodic).collect(),
@@ -71,6 +80,11 @@ impl Bounds {
             let target = if self.positive[i] { target.clamp(p[i] / 5.0, p[i] * 5.0) } else { target };
             target.clamp(self.range[i][0], self.range[i][1]) - p[i]
         })
+    }
+
+    /// Whether a value has sunk to the edge at which its effect vanishes, and a step leads no way back.
+    pub fn has_sunk(&self, p: &DVector<f64>, step: &DVector<f64>) -> bool {
+        (0..p.len()).any(|i| self.may_sink[i] && is_sunk(p[i], self.range[i]) && step[i] <= 0.0)
     }
 
     /// The point a step leads to, held inside; a periodic value loses its whole turns.
@@ -120,6 +134,21 @@ mod tests {
         assert!((bounds.step(&p, &step) - &step).norm() < 1e-15);
         let there = bounds.within(&p, &step);
         assert!((there[0] - (3.2 - 2.0 * PI)).abs() < 1e-12 && (there[1] - 0.06).abs() < 1e-15, "{there}");
+    }
+
+    /// Sunk and pressed further down it is lost; on its way back, or where it began at the edge, it is not.
+    #[test]
+    fn a_value_that_sinks_to_where_it_vanishes_is_lost() {
+        let bounds = |v: f64| {
+            let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+            Bounds::of(&model.with_effect(with("traction-creep", &[v]).freed()))
+        };
+        let sunk = |begin: f64, p: f64, step: f64| {
+            bounds(begin).has_sunk(&DVector::from_vec(vec![p]), &DVector::from_vec(vec![step]))
+        };
+        let edge = 0.05 * LEAST_SHARE;
+        assert!(sunk(0.05, edge, -0.1) && sunk(0.05, edge * 1.0005, 0.0));
+        assert!(!sunk(0.05, edge, 0.001) && !sunk(0.05, 2.0 * edge, -0.1) && !sunk(edge, edge, -0.1));
     }
 
     #[test]

@@ -21,13 +21,17 @@ pub struct Effort {
     pub enough: f64,
     /// Whether the variances are estimated anew.
     pub variances: bool,
+    /// Whether it ends where a positive value has sunk to the edge at which its effect vanishes and wants further down.
+    pub ends_where_lost: bool,
 }
 
 impl Effort {
     /// The effort of a fit whose values are reported: variances are estimated with the parameters.
-    pub const FULL: Self = Self { passes: 15, enough: 1e-4, variances: true };
+    pub const FULL: Self = Self { passes: 15, enough: 1e-4, variances: true, ends_where_lost: false };
     /// The effort of a fit by which candidates are compared: at the variances of the fit they begin with.
-    pub const SCREENING: Self = Self { passes: 5, enough: 0.05, variances: false };
+    pub const SCREENING: Self = Self { passes: 5, enough: 0.05, variances: false, ends_where_lost: false };
+    /// The same of a candidate that is lost where it vanishes: there states are stiff, and nothing is left to compare.
+    pub const CANDIDATE: Self = Self { ends_where_lost: true, ..Self::SCREENING };
 }
 
 /// The windows of some runs, and what they are linearised by.
@@ -140,6 +144,9 @@ impl LeastSquares for Descent<'_> {
     }
 
     fn is_small(&self, here: &Point, step: &DVector<f64>, last_gain: Option<f64>) -> bool {
+        if self.effort.ends_where_lost && self.bounds.has_sunk(&here.p, step) {
+            return true;
+        }
         let is_near = last_gain.map_or(self.is_near, |gain| gain < self.effort.enough.max(NEAR));
         // What lies beyond a bound promises nothing.
         is_near && promised(&here.eliminated, &self.bounds.step(&here.p, step)) < self.effort.enough

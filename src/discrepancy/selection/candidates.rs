@@ -61,7 +61,7 @@ impl Search<'_> {
         let settled = |(i, p): (usize, ScoreTest)| -> Result<_> {
             let worthwhile = i < SHORTLIST && gain(&p) >= wanted;
             let fit = if worthwhile {
-                score_test::settled(self.problem, base, model, &[&p], Effort::SCREENING)?
+                score_test::settled(self.problem, base, model, &[&p], Effort::CANDIDATE)?
             } else {
                 None
             };
@@ -123,7 +123,7 @@ impl Search<'_> {
             if a.deviance + k as f64 * n.ln() > bar {
                 continue;
             }
-            let Some(rough) = score_test::settled(self.problem, base, &base.model, &[a, b], Effort::SCREENING)? else {
+            let Some(rough) = score_test::settled(self.problem, base, &base.model, &[a, b], Effort::CANDIDATE)? else {
                 continue;
             };
             if rough.model.free_effects().any(vanishes) {

@@ -113,6 +113,8 @@ pub mod report;
 pub mod scaffold;
 pub mod sweep;
 pub mod theory;
+#[doc(hidden)]
+pub mod tracking;
 pub mod vehicles;
 mod wording;
 

@@ -62,6 +62,8 @@ pub enum Stage {
         /// Cases that were there from an earlier run.
         found: usize,
     },
+    /// Plans are driven with feedback, drive by drive.
+    Drives,
     /// First guesses from which a plan is sought.
     FirstGuesses,
     /// Robots of a fleet.

@@ -13,12 +13,14 @@ mod lists;
 mod man;
 mod output;
 mod plan;
+mod plan_task;
 mod progress;
 mod runs;
 mod simulate;
 mod stage_text;
 mod sweep;
 mod terminal;
+mod track;
 mod user_catalogues;
 mod verify;
 
@@ -57,6 +59,7 @@ enum Command {
     Fit(fit::Arguments),
     Export(export::Arguments),
     Plan(plan::Arguments),
+    Track(track::Arguments),
     Fleet(fleet::Arguments),
     Simulate(simulate::Arguments),
     Sweep(sweep::Arguments),
@@ -97,6 +100,7 @@ impl Cli {
             Command::Fit(arguments) => fit::run(&arguments, self.common.quiet),
             Command::Export(arguments) => export::run(&arguments, self.common.quiet),
             Command::Plan(arguments) => plan::run(&arguments, self.common.quiet),
+            Command::Track(arguments) => track::run(&arguments, self.common.quiet),
             Command::Fleet(arguments) => fleet::run(&arguments, self.common.quiet),
             Command::Simulate(arguments) => simulate::run(&arguments, self.common.quiet),
             Command::Sweep(arguments) => sweep::run(&arguments, self.common.quiet),

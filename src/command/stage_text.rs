@@ -21,6 +21,7 @@ pub fn stage_text(stage: &Stage) -> String {
         Stage::Experiment => "thinking manoeuvres through".into(),
         Stage::Cases { found: 0 } => "cases".into(),
         Stage::Cases { found } => format!("cases, {found} of them from a run that was stopped"),
+        Stage::Drives => "drives with feedback".into(),
         Stage::FirstGuesses => "first guesses; looking for a plan from each".into(),
         Stage::Robots => "robots; finding what each misses".into(),
         Stage::FleetFits => "robots; fitting their runs with what the fleet needs".into(),

@@ -31,12 +31,14 @@ mod plane;
 mod planning;
 pub mod readings;
 mod rig;
+mod tracking_picture;
 mod understeer;
 
 pub use data::{Data, fixed, scientific};
 pub use figure::{Drawing, Figure};
 pub use options::Options;
 pub use rig::{Rig, RigWheel};
+pub use tracking_picture::tracking_picture;
 
 use crate::error::{Error, Result};
 use crate::progress::{OnProgress, Stage, tell};

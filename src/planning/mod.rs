@@ -28,12 +28,16 @@ mod shooting;
 mod tracked_point;
 mod transcription;
 
+pub(crate) use b_spline::BSpline;
 pub use execution::{Executed, execute, plan_rows, spread};
+pub(crate) use initial_guess::nearest;
 pub use job::{Covariance, Planned, planned};
 pub use limits::{Limit, Said, with_said};
 pub use path::Path;
 pub use plan_table::plan_table;
 pub use plan_text::{infeasible, plan_text};
 pub use planner::{BEND, Infeasible, Plan, Task, plan};
+pub(crate) use quadratic_program::QuadraticProgram;
 pub use report::{Ideal, PlanReport, Reached, Spread};
+pub(crate) use shooting::Shooting;
 pub use transcription::Weights;

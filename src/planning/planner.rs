@@ -198,7 +198,8 @@ impl Planner {
         (duration, usual): ([f64; 2], f64),
         (guess, spans): (&[[f64; 3]], &[usize]),
     ) -> Program<'a> {
-        let shooting = Shooting { equations: &self.equations, spline, integrator: Integrator::default() };
+        let integrator = Integrator::default();
+        let shooting = Shooting { equations: &self.equations, parameters: &[], begins: 0.0, spline, integrator };
         let mut at = 0;
         let waypoints = task.poses.iter().zip(spans).map(|((x, y, heading), spans)| {
             at += spans;

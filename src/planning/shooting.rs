@@ -11,6 +11,10 @@ use nalgebra::DMatrix;
 pub struct Shooting<'a> {
     /// The equations of motion.
     pub equations: &'a Equations,
+    /// The values of their free parameters.
+    pub parameters: &'a [f64],
+    /// When the splines begin, s.
+    pub begins: f64,
     /// The splines of all inputs.
     pub spline: BSpline,
     /// Steps of the integration.
@@ -38,7 +42,7 @@ impl Shooting<'_> {
         let mut value: Vec<f64> = coefficients.iter().map(|c| of(c, &weights)).collect();
         let share = (span as f64 + s) / self.spline.spans as f64;
         value.extend(self.equations.derived.iter().map(|derived| match derived {
-            Derived::Time => share * duration,
+            Derived::Time => self.begins + share * duration,
             Derived::Rate(c) => of(&coefficients[*c], &slopes) * per_second,
         }));
         Inputs { value, weights, slopes: slopes.iter().map(|w| w * per_second).collect(), share }
@@ -49,7 +53,7 @@ impl Shooting<'_> {
     /// # Errors
     /// When the motion is undefined on the way.
     pub fn end(&self, start: &[f64], coefficients: &[Vec<f64>], span: usize, duration: f64) -> Result<Vec<f64>> {
-        let mut w = self.equations.workspace(&[]);
+        let mut w = self.equations.workspace(self.parameters);
         let length = duration / self.spline.spans as f64;
         let rates = |s: f64, z: &[f64], rates: &mut [f64]| {
             self.equations.rates(&mut w, z, &self.inputs(coefficients, span, s, duration).value, rates);
@@ -69,14 +73,14 @@ impl Shooting<'_> {
         let width = n + channels * acting + 1;
         let inputs = self.equations.inputs.len();
         let length = duration / self.spline.spans as f64;
-        let mut w = self.equations.workspace(&[]);
+        let mut w = self.equations.workspace(self.parameters);
         let rates = |s: f64, y: &[f64], rates: &mut [f64]| {
             let u = self.inputs(coefficients, span, s, duration);
             let (z, by) = y.split_at(n);
             let (f, jacobian) = self.equations.rates_and_jacobian(&mut w, z, &u.value).split_at(n);
             let (rates, slopes) = rates.split_at_mut(n);
             rates.iter_mut().zip(f).for_each(|(r, f)| *r = length * f);
-            for (i, row) in jacobian.chunks_exact(n + inputs).enumerate() {
+            for (i, row) in jacobian.chunks_exact(n + inputs + self.parameters.len()).enumerate() {
                 let (by_z, by_u) = row.split_at(n);
                 for (c, column) in by.chunks_exact(n).enumerate() {
                     let carried: f64 = by_z.iter().zip(column).map(|(a, b)| a * b).sum();
@@ -143,7 +147,8 @@ mod tests {
         let model = model.with_effect(Applied::new(named("relaxation-length").unwrap(), None, vec![0.4, 0.1]));
         let equations = model.equations(&[]).unwrap();
         let spline = BSpline { degree: 3, spans: 4 };
-        let shooting = Shooting { equations: &equations, spline, integrator: Integrator::default() };
+        let integrator = Integrator::default();
+        let shooting = Shooting { equations: &equations, parameters: &[], begins: 0.0, spline, integrator };
         let c: Vec<Vec<f64>> = (0..2)
             .map(|ch| (0..7).map(|j| 0.4 + 0.2 * ((ch * 7 + j) as f64).sin() + 2.0 * (1 - ch) as f64).collect())
             .collect();

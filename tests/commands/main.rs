@@ -30,3 +30,4 @@ mod simulator;
 #[path = "../support/slips.rs"]
 mod slips;
 mod sweep;
+mod track;

@@ -30,6 +30,7 @@ mod symmetry;
 mod symmetry_creep;
 mod theorems;
 mod towing;
+mod tracked_vehicles;
 mod trailers;
 mod traverse;
 mod viscous;
@@ -66,6 +67,7 @@ pub fn all() -> Vec<Claim> {
         ideal_limit::claims(),
         planning::claims(),
         planned_vehicles::claims(),
+        tracked_vehicles::claims(),
         symmetry::claims(),
         hinge_chain::claims(),
         falling_cat::claims(),

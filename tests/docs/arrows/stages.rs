@@ -1,7 +1,7 @@
 //! The stages of the crate in their order, and the stage of a file.
 
 /// The stages in their order, folders and files below `src`. Stages of one line are level: none of them imports another.
-const STAGES: [&[&str]; 51] = [
+const STAGES: [&[&str]; 52] = [
     &["error"],
     &["provenance", "wording", "number_format", "progress", "numerics"],
     &["formula"],
@@ -22,6 +22,7 @@ const STAGES: [&[&str]; 51] = [
     &["scaffold"],
     &["sweep"],
     &["picture"],
+    &["tracking"],
     &["claims"],
     &["discrepancy/report"],
     &["discrepancy/calibration_report"],

@@ -1,31 +1,41 @@
-//! A model as code without dependencies: rates with their exact derivatives, and a step with its Jacobian.
+//! A model as code without dependencies: rates with their exact derivatives, a step with its Jacobian, an observer, and inputs for
+//! a wanted motion.
 
 use super::corrections::{Corrections, origin, written};
 use super::exported::Exported;
-use super::language::{Language, identifier};
+use super::function::Function;
+use super::language::Language;
 use crate::effects::{Effect, Scope};
 use crate::error::{Error, Result};
 use crate::files::ModelFile;
 use crate::formula::{Expr, Symbol};
-use crate::model::Model;
-use std::collections::{BTreeMap, BTreeSet};
+use crate::model::{Model, observation};
+use std::collections::BTreeMap;
+
+/// What an observer lets each measured state wander beside the model in a second of a random walk, m and rad.
+const WALK: f64 = 0.01;
+/// Deviations of a measured position, m, and heading, rad, where the model file says nothing of them.
+const NOISE: [f64; 2] = [0.005, 0.01];
 
 /// A model as code.
 ///
 /// z′ = f(z, u) is written out definition by definition, each with its derivatives by (z, u) by the chain rule; a step is the
-/// classical Runge–Kutta scheme of order four with inputs that are held, W′ = f_z·W + [0 | f_u] beside it.
+/// classical Runge–Kutta scheme of order four with inputs that are held, W′ = f_z·W + [0 | f_u] beside it. The observer is an
+/// extended Kalman filter on that step; inputs for a wanted motion are found by Newton's method, hidden states at rest.
 #[derive(Clone, Debug)]
 pub struct Code {
     states: Vec<Symbol>,
     inputs: Vec<Symbol>,
     /// Values that the model fixes.
     constants: Vec<(Symbol, f64)>,
-    /// Definitions in an order in which each uses earlier ones.
-    definitions: Vec<(Symbol, Expr)>,
-    /// A formula for each state.
-    rates: Vec<Expr>,
-    /// The names that stand in definitions and rates.
-    used: BTreeSet<Symbol>,
+    /// The rate of each state.
+    rates: Function,
+    /// What the sensor measures, one after another.
+    measured: Function,
+    /// Their deviations.
+    noise: Vec<f64>,
+    /// How many inputs are commanded; others follow from these.
+    commanded: usize,
     unsaid: Vec<String>,
     covariance: (Vec<String>, Vec<Vec<f64>>),
     head: Vec<String>,
@@ -65,17 +75,19 @@ impl Code {
         let rates = equations.states.iter().map(rate).collect::<Result<Vec<_>>>()?;
         let sorted: Vec<(Symbol, Expr)> =
             definitions.sorted()?.into_iter().map(|(n, f)| (n.clone(), f.clone())).collect();
-        let definitions = needed(&rates, sorted);
-        let used: BTreeSet<Symbol> =
-            rates.iter().chain(definitions.iter().map(|(_, f)| f)).flat_map(Expr::symbols).collect();
-        let constants = model.values().into_iter().filter(|(name, _)| used.contains(name)).collect();
+        let outputs: Vec<_> = observation::outputs(model.trailer_count()).collect();
+        let deviation = |heading: bool| match heading {
+            false => file.noise.position.unwrap_or(NOISE[0]),
+            true => file.noise.heading.unwrap_or(NOISE[1]),
+        };
         Ok(Self {
             states: equations.states.clone(),
             inputs: equations.inputs.clone(),
-            constants,
-            definitions,
-            rates,
-            used,
+            constants: model.values().into_iter().collect(),
+            rates: Function::of(rates, &sorted),
+            measured: Function::of(outputs.iter().map(|y| Expr::sym(y.symbol())).collect(), &sorted),
+            noise: outputs.iter().map(|y| deviation(y.is_angle)).collect(),
+            commanded: equations.logged(),
             unsaid: left.iter().map(|e| written(&e.entry())).collect(),
             covariance: (vec![], vec![]),
             head: head(file),
@@ -95,15 +107,16 @@ impl Code {
         let head: Vec<String> =
             self.head.iter().cloned().chain(left_out).map(|line| format!("{comment} {line}")).collect();
         let list = |names: &[Symbol]| names.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
-        let read = |array: &str, names: &[Symbol]| -> String {
-            let line = |(i, name): (usize, &Symbol)| language.constant(name, &format!("{array}[{i}]"));
-            names.iter().enumerate().filter(|(_, name)| self.used.contains(*name)).map(line).collect()
+        let (rates, measured) = (&self.rates, &self.measured);
+        let variables: Vec<&Symbol> = self.states.iter().chain(&self.inputs).collect();
+        let read = |function: &Function| {
+            let inputs = function.read(language, "u", &self.inputs);
+            let constants = function.constants(language, &self.constants);
+            format!("{}{inputs}{constants}", function.read(language, "z", &self.states))
         };
-        let constants: String = self.constants.iter().map(|(n, v)| language.constant(n, &number(v))).collect();
-        let values: String =
-            self.definitions.iter().map(|(n, f)| language.constant(n, &language.expression(f))).collect();
-        let end = language.end();
-        let rate = |(i, f): (usize, &Expr)| format!("    rate[{i}] = {}{end}\n", language.expression(f));
+        let numbers = |values: Vec<f64>| language.list(&values.iter().map(number).collect::<Vec<_>>());
+        let walk = (0..self.states.len()).map(|i| if i < self.noise.len() { WALK * WALK } else { 0.0 });
+        let twist = self.commanded.clamp(1, 3);
         // C has no lists of no length.
         let (mut names, mut matrix) = (self.covariance.0.clone(), self.covariance.1.clone());
         let p = names.len();
@@ -124,62 +137,24 @@ impl Code {
             ("@P@", p.to_string()),
             ("@NAMES@", language.list(&names)),
             ("@COVARIANCE@", language.list(&rows)),
-            ("@READ@", format!("{}{}{constants}", read("z", &self.states), read("u", &self.inputs))),
-            ("@VALUES@", values),
-            ("@RATES@", self.rates.iter().enumerate().map(rate).collect()),
-            ("@SLOPES@", self.slopes(language)),
+            ("@READ@", read(rates)),
+            ("@VALUES@", rates.values(language)),
+            ("@RATES@", rates.results(language, "rate")),
+            ("@SLOPES@", rates.slopes(language, &variables)),
+            ("@K@", self.noise.len().to_string()),
+            ("@COMMANDED@", self.commanded.to_string()),
+            ("@T@", twist.to_string()),
+            ("@TWIST@", ["ahead", "ahead, turning", "ahead, to the left, turning"][twist - 1].to_string()),
+            ("@WALK@", numbers(walk.collect())),
+            ("@NOISE@", numbers(self.noise.iter().map(|d| d * d).collect())),
+            ("@READ_MEASURED@", read(measured)),
+            ("@VALUES_MEASURED@", measured.values(language)),
+            ("@MEASURED@", measured.results(language, "y")),
+            ("@SLOPES_MEASURED@", measured.slopes(language, &self.states.iter().collect::<Vec<_>>())),
         ];
         let text = parts.into_iter().fold(language.template(), |t, (mark, part)| t.replace(mark, &part));
         Exported { text, unsaid: self.unsaid.clone() }
     }
-
-    /// Derivatives of definitions and rates by states and inputs, by the chain rule; those that are zero, or that no rate
-    /// hangs on, are left out.
-    fn slopes(&self, language: Language) -> String {
-        let variables: Vec<&Symbol> = self.states.iter().chain(&self.inputs).collect();
-        let mut known: BTreeSet<Symbol> = BTreeSet::new();
-        let mut of_definitions: Vec<(Symbol, Expr)> = Vec::new();
-        for (name, formula) in &self.definitions {
-            for (j, variable) in variables.iter().enumerate() {
-                let slope = chained(formula, variable, j, &known);
-                if !slope.is_zero() {
-                    let name = slope_name(name, j);
-                    known.insert(name.clone());
-                    of_definitions.push((name, slope));
-                }
-            }
-        }
-        let places = (0..self.rates.len()).flat_map(|i| (0..variables.len()).map(move |j| (i, j)));
-        let of_rates: Vec<((usize, usize), Expr)> =
-            places.map(|(i, j)| ((i, j), chained(&self.rates[i], variables[j], j, &known))).collect();
-        let formulas: Vec<Expr> = of_rates.iter().map(|(_, slope)| slope.clone()).collect();
-        let mut text = String::new();
-        for (name, slope) in needed(&formulas, of_definitions) {
-            text += &language.constant(&name, &language.expression(&slope));
-        }
-        for ((i, j), slope) in of_rates.iter().filter(|(_, slope)| !slope.is_zero()) {
-            text += &format!("    by[{i}][{j}] = {}{}\n", language.expression(slope), language.end());
-        }
-        text
-    }
-}
-
-/// The name of the derivative of a definition by the j-th of states and inputs.
-fn slope_name(name: &Symbol, j: usize) -> Symbol {
-    Symbol::new(&format!("d_{}_{j}", identifier(name).trim_end_matches('_')))
-}
-
-/// The derivative of a formula by the j-th of states and inputs, `variable`, where derivatives of definitions have names.
-fn chained(formula: &Expr, variable: &Symbol, j: usize, known: &BTreeSet<Symbol>) -> Expr {
-    formula.symbols().into_iter().fold(Expr::int(0), |sum, s| {
-        let inner = slope_name(&s, j);
-        let term = match (s == *variable, known.contains(&inner)) {
-            (true, _) => formula.derivative(&s),
-            (false, true) => &formula.derivative(&s) * &Expr::sym(inner),
-            (false, false) => return sum,
-        };
-        if term.is_zero() { sum } else { &sum + &term }
-    })
 }
 
 /// Where code comes from, and what its state is of.
@@ -191,15 +166,4 @@ fn head(file: &ModelFile) -> Vec<String> {
         "The state is that of the reference point; the tracked frame is at x {x} m, y {y} m, yaw {yaw} rad on it."
     );
     if found.is_at_reference() { vec![from] } else { vec![from, tracked] }
-}
-
-/// The definitions that formulas use, directly or through others, in their order.
-fn needed(formulas: &[Expr], sorted: Vec<(Symbol, Expr)>) -> Vec<(Symbol, Expr)> {
-    let mut wanted: BTreeSet<Symbol> = formulas.iter().flat_map(Expr::symbols).collect();
-    for (name, formula) in sorted.iter().rev() {
-        if wanted.contains(name) {
-            wanted.extend(formula.symbols());
-        }
-    }
-    sorted.into_iter().filter(|(name, _)| wanted.contains(name)).collect()
 }

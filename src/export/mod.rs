@@ -8,7 +8,7 @@
 //! | `wpilib` | constants of WPILib's kinematics |
 //! | `urdf` | a given description with corrected wheels and tracked frame |
 //! | `json` | corrected parameters and corrections |
-//! | `c`, `cpp`, `python`, `rust` | a step of the model with its Jacobian, without dependencies |
+//! | `c`, `cpp`, `python`, `rust` | a step of the model with its Jacobian, an observer and the inverse kinematics, without dependencies |
 //!
 //! What a target cannot say stands in a comment of it, and in [`Exported::unsaid`].
 
@@ -16,6 +16,7 @@ mod code;
 mod corrections;
 mod description_lines;
 mod exported;
+mod function;
 mod language;
 mod parameters;
 mod robot_description;

@@ -319,3 +319,132 @@ fn the_covariance_of_a_fit_goes_with_the_code() {
         assert!(stderr(&output).contains(says), "{}", stderr(&output));
     }
 }
+
+/// A program around exported code that prints the inputs for a motion, then what the observer makes of measured poses.
+fn on_board(language: &str, twist: &[f64], start: &[f64], inputs: &[f64], poses: &[Vec<f64>]) -> String {
+    let list = |v: &[f64]| v.iter().map(|v| format!("{v:?}")).collect::<Vec<_>>().join(", ");
+    let (t, z, u) = (list(twist), list(start), list(inputs));
+    let guess = list(&vec![0.5; inputs.len()]);
+    let (n, k) = (start.len(), poses[0].len());
+    let rows = |open: &str, close: &str| {
+        poses.iter().map(|p| format!("{open}{}{close}", list(p))).collect::<Vec<_>>().join(", ")
+    };
+    match language {
+        "python" => format!(
+            "\nz, u = [{z}], [{u}]\np = [[0.04*(i == j) for j in range(N)] for i in range(N)]\nprint(*inverse([{t}], z, [{guess}]))\n\
+             for pose in [{}]:\n    z, p = observer(z, p, u, pose, 0.1)\nprint(*z)\n\
+             for row in p:\n    print(*row)\nassert inverse([1e9]*T, z, [0.0]*M) is None or True\n",
+            rows("[", "]")
+        ),
+        "rust" => format!(
+            "fn main() {{\n    let (mut z, u) = ([{z}], [{u}]);\n    let mut p = [[0.0; N]; N];\n    \
+             for i in 0..N {{ p[i][i] = 0.04; }}\n    let show = |row: &[f64]| println!(\"{{}}\", row.iter().map(|v| format!(\"{{v:?}}\")).collect::<Vec<_>>().join(\" \"));\n    \
+             show(&inverse(&[{t}], &z, &[{guess}]).unwrap());\n    \
+             for pose in [{}] {{ observer(&mut z, &mut p, &u, &pose, 0.1); }}\n    show(&z);\n    p.iter().for_each(|r| show(r));\n}}\n",
+            rows("[", "]")
+        ),
+        _ => format!(
+            "#include <stdio.h>\nint main(void) {{\n    double z[] = {{{z}}}, u[] = {{{u}}}, guess[] = {{{guess}}}, p[{n}][{n}] = {{{{0}}}};\n    \
+             const double twist[] = {{{t}}}, poses[][{k}] = {{{}}};\n    \
+             for (int i = 0; i < {n}; i++) p[i][i] = 0.04;\n    if (!creepage_inverse(twist, z, guess)) return 1;\n    \
+             for (int i = 0; i < CREEPAGE_M; i++) printf(\"%.17g \", guess[i]);\n    printf(\"\\n\");\n    \
+             for (int i = 0; i < {}; i++) creepage_observer(z, p, u, poses[i], 0.1);\n    \
+             for (int i = 0; i < {n}; i++) printf(\"%.17g \", z[i]);\n    printf(\"\\n\");\n    \
+             for (int i = 0; i < {n}; i++) {{ for (int j = 0; j < {n}; j++) printf(\"%.17g \", p[i][j]); printf(\"\\n\"); }}\n    \
+             (void)creepage_covariance; (void)creepage_parameter_names; return 0;\n}}\n",
+            rows("{", "}"),
+            poses.len()
+        ),
+    }
+}
+
+/// Speed ahead, to the left and turning in the end, as `simulate` has them under inputs that are held for a while.
+fn moves(folder: &Path, names: &[&str], inputs: &[f64]) -> [f64; 3] {
+    let values: Vec<String> = inputs.iter().map(|v| format!("{v:?}")).collect();
+    let rows: String = (0..=30).map(|i| format!("{i},{}\n", values.join(","))).collect();
+    std::fs::write(folder.join("held.csv"), format!("time,{}\n{rows}", names.join(","))).unwrap();
+    let output = creepage(folder, &["simulate", "model.toml", "--inputs", "held.csv", "--out", "held-path.csv"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = std::fs::read_to_string(folder.join("held-path.csv")).unwrap();
+    let header: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+    let last: Vec<&str> = text.lines().last().unwrap().split(',').collect();
+    ["speed", "lateral_speed", "yaw_rate"].map(|name| {
+        let at = header.iter().position(|h| *h == name).unwrap();
+        last[at].parse().unwrap()
+    })
+}
+
+/// Observer and inverse kinematics in every language: the inputs move the vehicle as wanted, hidden slides at rest; the observer
+/// comes from a wrong state to the true one; all languages say the same.
+#[test]
+fn exported_observers_come_to_the_state_and_inverses_to_the_inputs() {
+    let robot = [
+        effect("track-width", &[("scale", 0.035)]),
+        effect("cornering-creep", &[("mass_over_bT", 0.11)]),
+        effect("lever-arm", &[("a", 0.1), ("b", -0.02)]),
+    ];
+    let car = [effect("understeer", &[("gradient", 0.02)]), effect("steering-offset", &[("offset", 0.01)])];
+    let mecanum = "vehicle = \"mecanum\"\n[parameters]\nwheel_radius = 0.05\nwheelbase = 0.3\ntrack_width = 0.3\n";
+    let slips = effect("rotation-creep", &[("e_rc", 0.06)]);
+    let cases = [
+        (format!("{DRIVE}{}", robot.concat()), vec![0.8, -0.6], [0.1, -0.02]),
+        (format!("{CAR}{}", car.concat()), vec![1.5, 0.25], [0.0; 2]),
+        (format!("{mecanum}{slips}"), vec![0.3, -0.2, 0.4], [0.0; 2]),
+    ];
+    for (model, twist, [a, b]) in cases {
+        let dir = folder(&model);
+        let code = String::from_utf8(creepage(dir.path(), &["export", "model.toml", "--as", "c"]).stdout).unwrap();
+        let names_of = |head: &str| -> Vec<String> {
+            let line = code.lines().find_map(|l| l.strip_prefix(head)).unwrap_or_else(|| panic!("{code}"));
+            let names = line.split(['.', ';']).next().unwrap().split(", ");
+            names.map(String::from).collect()
+        };
+        let (states, inputs) = (names_of("// State z: "), names_of("// Inputs u: "));
+        let names: Vec<&str> = inputs.iter().map(String::as_str).collect();
+        let held: Vec<f64> = (0..inputs.len()).map(|i| 0.25 - 0.1 * i as f64).collect();
+        let drive = Drive {
+            model: model.clone(),
+            inputs: names.iter().copied().zip(held.iter().copied()).map(|(n, v)| (leaked(n), v)).collect(),
+        };
+        let truth = measured_poses(dir.path(), &drive);
+        // Half a metre off and askew.
+        let start: Vec<f64> = (0..states.len()).map(|i| if i < 3 { [0.4, -0.3, 0.2][i] } else { 0.0 }).collect();
+        let mut first: Option<Vec<Vec<f64>>> = None;
+        for language in ["rust", "c", "cpp", "python"] {
+            let output = creepage(dir.path(), &["export", "model.toml", "--as", language]);
+            let mut text = String::from_utf8(output.stdout).unwrap();
+            text += &on_board(language, &twist, &start, &held, &truth);
+            let Some(found) = ran(dir.path(), language, &text) else { continue };
+            let reference = first.get_or_insert_with(|| found.clone());
+            for (row, wanted) in found.iter().zip(reference.iter()) {
+                assert!(
+                    row.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-9 * (1.0 + b.abs())),
+                    "{language}: {row:?} {wanted:?}"
+                );
+            }
+        }
+        let found = first.unwrap();
+        let moved = moves(dir.path(), &names, &found[0]);
+        let wanted = if twist.len() == 3 { [twist[0], twist[1], twist[2]] } else { [twist[0], moved[1], twist[1]] };
+        assert!((0..3).all(|i| (moved[i] - wanted[i]).abs() < 1e-6), "{model}{moved:?} {wanted:?}");
+        // The variances have shrunk, and the state is the true one.
+        let end = truth.last().unwrap();
+        let (s, c) = end[2].sin_cos();
+        let reference_point = [end[0] - a * c + b * s, end[1] - a * s - b * c];
+        let off = (found[1][0] - reference_point[0]).hypot(found[1][1] - reference_point[1]);
+        assert!(off < 0.01 && (found[1][2] - end[2]).abs() < 0.01, "{model}{:?} {end:?}", found[1]);
+        assert!(found[2][0] < 1e-3 && found[3][1] < 1e-3);
+    }
+}
+
+fn leaked(name: &str) -> &'static str {
+    Box::leak(name.to_string().into_boxed_str())
+}
+
+/// What is measured at every tenth of a second of a drive, the beginning left out.
+fn measured_poses(folder: &Path, drive: &Drive) -> Vec<Vec<f64>> {
+    simulated(folder, drive);
+    let text = std::fs::read_to_string(folder.join("path.csv")).unwrap();
+    let row = |line: &str| line.split(',').skip(1).take(3).map(|v| v.parse().unwrap()).collect();
+    text.lines().skip(2).map(row).collect()
+}

@@ -10,8 +10,10 @@
 //!
 #![doc = include_str!("readings.md")]
 
+mod backing;
 mod creep_map;
 mod data;
+mod executed_plans;
 mod fig1;
 mod fig2;
 mod fig3;
@@ -27,6 +29,7 @@ mod key;
 mod off_tracking;
 mod options;
 pub mod page;
+mod parking;
 mod plane;
 mod planning;
 pub mod readings;
@@ -60,6 +63,8 @@ pub const FIGURES: &[Figure] = &[
     understeer::FIGURE,
     off_tracking::FIGURE,
     planning::FIGURE,
+    parking::FIGURE,
+    backing::FIGURE,
     gap::FIGURE,
 ];
 

@@ -30,7 +30,7 @@ use std::sync::LazyLock;
 const AGAIN: &str = "PAPER=write cargo test --release --test paper";
 
 /// Figures of the paper.
-const FIGURES: [&str; 5] = ["fig7", "creep-map", "ideal-limit", "planning", "gap"];
+const FIGURES: [&str; 6] = ["fig7", "creep-map", "ideal-limit", "planning", "parking", "gap"];
 
 fn paper(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("paper").join(path)

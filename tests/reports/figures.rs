@@ -176,7 +176,19 @@ fn another_reading_is_another_picture() {
 #[test]
 fn coefficients_change_the_picture() {
     let rolls = ["fig2", "fig3", "fig6", "fig8", "creep-map", "planning"];
-    let directs = ["fig1", "fig4", "fig5", "fig6", "fig8", "creep-map", "understeer", "off-tracking", "planning"];
+    let directs = [
+        "fig1",
+        "fig4",
+        "fig5",
+        "fig6",
+        "fig8",
+        "creep-map",
+        "understeer",
+        "off-tracking",
+        "planning",
+        "parking",
+        "backing",
+    ];
     for name in rolls {
         assert!(one(name, &with(Some(-0.13), None)).svg != DRAWN[name].svg, "{name} does not show e_rc");
     }

@@ -1,7 +1,9 @@
 //! The paper's plea on vehicles whose heading creeps as well: plans by direct multiple shooting, with creep and without.
 
 use crate::claims::simulated::{model, undefined};
-use crate::claims::{Claim, Fault, Outcome, Sampling, Statement, Status, Verdict, near, value_said};
+use crate::claims::{
+    Claim, DerivedFormulas, Fault, Outcome, Sampling, Statement, Status, Verdict, near, proving, value_said,
+};
 use crate::model::Model;
 use crate::motion::Timing;
 use crate::planning::{Limit, Path, Plan, Task, Weights, execute, plan};
@@ -24,7 +26,33 @@ pub(crate) fn claims() -> Vec<Claim> {
             &[("hit", "0"), ("order", "2")],
             plans,
         ),
+        scaling(),
     ]
+}
+
+/// What one factor on the inputs undoes, and what none does.
+fn scaling() -> Claim {
+    let wheel = DerivedFormulas::of("unicycle").with_text("e_tc", "tan(alpha)").with_text("phi", "psi - alpha");
+    let car = DerivedFormulas::of("car").with_text("e_f", "0").with_text("delta", "0");
+    let trailer = DerivedFormulas::train("unicycle", 1).with_text("c_1", "0").with_text("e_tc", "0");
+    Claim::new(
+        "uniform-scaling",
+        Status::Proved,
+        "one factor on the wheel rate and a turn at the start undo the creep of one wheel; no factor undoes that of a car's rear axle or of a trailer, which turn where nothing is commanded to turn",
+    )
+    .at("sections 1 and 5: existing algorithms for planning and control should be modified")
+    .under("constant coefficients, e_rc ≠ 1, e_tc = tan α; yaw rates where steering and hitch are straight")
+    .remark("A factor leaves zero zero: the yaw rate of the ideal car at δ = 0, and of the ideal trailer in line, is zero at any speed.")
+    .chapter("09-planning")
+    .code(&["src/model/build.rs"])
+    .tests(&["tests/commands/plan.rs"])
+    .proof(
+        "one wheel, its rate times cos α/(1 − e_rc), its heading less α: the velocity of the ideal wheel",
+        &[("v_l*cos(phi) - v_t*sin(phi)", "r*plan*cos(psi)"), ("v_l*sin(phi) + v_t*cos(phi)", "r*plan*sin(psi)")],
+        proving(wheel.with_text("theta'", "plan*cos(alpha)/(1 - e_rc)")),
+    )
+    .proof("a car with its wheels straight", &[("phi'", "-e_tc*v_l/L")], proving(car))
+    .proof("a trailer in line", &[("phi_1'", "-e_tc_1*v_l/d_1")], proving(trailer.with_text("phi_1", "phi")))
 }
 
 /// The vehicle, two coefficients, the goal.

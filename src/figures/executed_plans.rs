@@ -6,7 +6,6 @@ use crate::model::Model;
 use crate::motion::Timing;
 use crate::picture::maths::maths;
 use crate::picture::plot::{Marker, Size};
-use crate::picture::sketch::{rounded, turned};
 use crate::planning::{Plan, Task, execute, plan};
 use crate::progress::unheard;
 
@@ -53,23 +52,8 @@ fn driven(plan: &Plan, task: &Task, model: &Model) -> Result<DrivenPlan> {
     Ok(DrivenPlan { rigs, miss: executed.miss, duration: plan.duration })
 }
 
-/// Bodies and drawbars of a train: a car of a wheelbase, its trailers behind.
-pub fn outlines(rig: &Rig, wheelbase: f64) -> Vec<Vec<[f64; 2]>> {
-    let mut found = Vec::new();
-    for (i, (at, heading)) in rig.bodies.iter().enumerate() {
-        let [from, to] = if i == 0 { [-0.6, wheelbase + 0.6] } else { [-0.7, 1.6] };
-        let middle = turned([0.5 * (from + to), 0.0], *at, *heading);
-        let mut outline = rounded(middle, *heading, [to - from, WIDTH], 0.25);
-        outline.push(outline[0]);
-        found.push(outline);
-        if i > 0 {
-            found.push(vec![rig.hitches[i - 1], *at]);
-        }
-    }
-    found
-}
-
-/// Width of the bodies, m.
+/// How far a trailer's body goes ahead of its axle, and how wide bodies are, m.
+const AHEAD: f64 = 1.6;
 const WIDTH: f64 = 1.6;
 
 /// How a figure shows its drives.
@@ -91,7 +75,7 @@ pub fn drawing(drives: &[DrivenPlan; 3], shown: &Shown) -> Drawing {
     let [_, missed, reached] = drives;
     let paths = drives.each_ref().map(|d| d.path(shown.body));
     let ends = [&reached.rigs[0], &reached.rigs[reached.rigs.len() - 1], &missed.rigs[missed.rigs.len() - 1]];
-    let bodies = ends.map(|rig| outlines(rig, shown.wheelbase));
+    let bodies = ends.map(|rig| rig.outlines(shown.wheelbase, AHEAD, WIDTH));
     let all = bodies.iter().flatten().chain(&paths).flatten();
     let mut panel = plane::plane(shown.size, plane::ranges(all, 0.04));
     panel.pieces("hair", &bodies[0], 4 * plane::MAX_POINTS);

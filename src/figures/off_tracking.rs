@@ -8,7 +8,6 @@ use crate::number_format::decimals;
 use crate::picture::axis::Axis;
 use crate::picture::maths::maths;
 use crate::picture::plot::{Marker, Size};
-use crate::picture::sketch::{rounded, turned};
 use crate::picture::svg::Element;
 
 /// The figure.
@@ -30,8 +29,9 @@ const TIME: f64 = 40.0;
 const STEPS: usize = 200;
 /// The step at which the train is shown; what comes after goes round in circles.
 const SHOWN: usize = 92;
-/// Width of the bodies, m.
+/// Width of the bodies, m, and how far those of trailers go ahead of their axles.
 const WIDTH: f64 = 1.5;
+const AHEAD: f64 = 1.4;
 
 /// A train after the drive.
 struct Train {
@@ -96,22 +96,6 @@ fn radii_of(rig: &Rig) -> Result<Vec<f64>> {
     Ok(speeds.map(|v| v / turn).collect())
 }
 
-/// Bodies and drawbars of a train.
-fn outlines(rig: &Rig) -> Vec<Vec<[f64; 2]>> {
-    let mut found = Vec::new();
-    for (i, (at, heading)) in rig.bodies.iter().enumerate() {
-        let [from, to] = if i == 0 { [-0.6, CAR[1].1 + 0.6] } else { [-0.7, 1.4] };
-        let middle = turned([0.5 * (from + to), 0.0], *at, *heading);
-        let mut outline = rounded(middle, *heading, [to - from, WIDTH], 0.25);
-        outline.push(outline[0]);
-        found.push(outline);
-        if i > 0 {
-            found.push(vec![rig.hitches[i - 1], *at]);
-        }
-    }
-    found
-}
-
 fn above(ideal: &Train, crept: &Train) -> Element {
     // The circles that follow would hide the corner.
     let shown = |path: &Vec<[f64; 2]>| path[..=SHOWN].to_vec();
@@ -124,7 +108,7 @@ fn above(ideal: &Train, crept: &Train) -> Element {
     for (class, marker, train) in [("kept", Marker::Circle, crept), ("ideal", Marker::Ring, ideal)] {
         panel.markers(class, marker, &train.paths[TRAILERS][SHOWN..=SHOWN]);
     }
-    let bodies = outlines(&crept.shown);
+    let bodies = crept.shown.outlines(CAR[1].1, AHEAD, WIDTH);
     panel.pieces("hair", &bodies, 4 * plane::MAX_POINTS);
     plane::name(&mut panel, PATHS, "rear axle of the car, and axle of the fifth trailer");
     panel.finish("paths", "Paths", "Paths of the car's rear axle and of the fifth trailer.")

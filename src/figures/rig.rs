@@ -4,7 +4,7 @@ use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::Definitions;
 use crate::model::{Model, trailer_heading};
-use crate::picture::sketch::turned;
+use crate::picture::sketch::{rounded, turned};
 use std::collections::BTreeMap;
 
 /// A wheel, or an axle's worth of aligned wheels, where the model has it.
@@ -92,6 +92,22 @@ impl Rig {
         }
         (1..=model.trailer_count()).try_for_each(|i| rig.trailer(i))?;
         Ok(rig)
+    }
+
+    /// Bodies and drawbars of a train: a car of a wheelbase, and trailers whose bodies go so far ahead of their axles.
+    pub(super) fn outlines(&self, wheelbase: f64, ahead: f64, width: f64) -> Vec<Vec<[f64; 2]>> {
+        let mut found = Vec::new();
+        for (i, (at, heading)) in self.bodies.iter().enumerate() {
+            let [from, to] = if i == 0 { [-0.6, wheelbase + 0.6] } else { [-0.7, ahead] };
+            let middle = turned([0.5 * (from + to), 0.0], *at, *heading);
+            let mut outline = rounded(middle, *heading, [to - from, width], 0.25);
+            outline.push(outline[0]);
+            found.push(outline);
+            if i > 0 {
+                found.push(vec![self.hitches[i - 1], *at]);
+            }
+        }
+        found
     }
 
     /// The value of a definition.

@@ -19,7 +19,7 @@ pub fn tracking_text(report: &TrackingReport) -> String {
         let _ = writeln!(
             out,
             "{:<44} {:>12} {:>12} {:>12} {:>12}",
-            way_in_words(way),
+            way_in_words(way, report.effects.is_empty()),
             length(way.off_plan_m),
             length(way.end_m),
             length(way.worst_end_m),
@@ -45,9 +45,11 @@ pub fn tracking_text(report: &TrackingReport) -> String {
     out
 }
 
-/// A way to drive.
-pub fn way_in_words(way: &WayReport) -> &'static str {
+/// A way to drive, of a model with or without effects.
+fn way_in_words(way: &WayReport, is_bare: bool) -> &'static str {
     match way.id.as_str() {
+        "model-plan" if is_bare => "plan, no feedback",
+        "model" if is_bare => "plan, with feedback",
         "ideal-plan" => "ideal plan, no feedback",
         "ideal" => "ideal plan, feedback on the ideal model",
         "observer" => "ideal plan, feedback with creep observed",

@@ -44,7 +44,7 @@ def figures(tmp_path_factory: pytest.TempPathFactory) -> list[pathlib.Path]:
 def test_every_text_of_every_figure_is_seen(figures: list[pathlib.Path], render: Renderer) -> None:
     if render in NEEDED and shutil.which(NEEDED[render]) is None:
         pytest.skip(f"{NEEDED[render]} is not installed")
-    assert len(figures) == 14
+    assert len(figures) == 16
     for figure in figures:
         svg = figure.read_text()
         texts = re.findall(r"<text (?![^>]*aria-hidden)[^>]*>.*?</text>", svg, re.S)

@@ -164,6 +164,8 @@ def test_a_link_unfolds_the_part_it_leads_to(look: Open) -> None:
     page = look("found")
     assert not page.is_visible("#words dl")
     page.click("nav a[href='#words']")
+    # The browser tells of a new place a moment after the click.
+    page.locator("#words dl").wait_for(state="visible", timeout=2000)
     assert page.is_visible("#words dl") and page.is_visible("text=Kass and Raftery")
 
 

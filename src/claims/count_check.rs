@@ -4,6 +4,7 @@ use super::counted::Counted;
 use super::proved::{Proved, record};
 use super::{Outcome, Statement};
 use crate::formula::{Expr, Node, Symbol};
+use std::sync::Arc;
 
 /// Compares numbers with what is said of them; what proves one is recorded.
 pub(super) fn compare(statement: &Statement, number: impl Fn(&Symbol) -> Option<(i64, Proved)>) -> Outcome {
@@ -21,8 +22,8 @@ pub(super) fn compare(statement: &Statement, number: impl Fn(&Symbol) -> Option<
 }
 
 /// Compares the numbers of one mechanism with what is said of them.
-pub(super) fn compare_with(statement: &Statement, counted: Option<&Counted>) -> Outcome {
-    let Some(counted) = counted.filter(|c| c.number("rank").is_some()) else {
+pub(super) fn compare_with(statement: &Statement, counted: Option<Counted>) -> Outcome {
+    let Some(counted) = counted.map(Arc::new).filter(|c| c.number("rank").is_some()) else {
         return Outcome::Undefined("the numbers are not proved".into());
     };
     compare(statement, |name| Some((counted.number(name.as_str())?, Proved::Growth(counted.clone()))))

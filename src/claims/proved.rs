@@ -4,6 +4,7 @@ use super::counted::Counted;
 use super::{DerivedFormulas, Equation};
 use crate::formula::{Expr, Symbol};
 use std::cell::RefCell;
+use std::sync::Arc;
 
 /// left = right for all values of the free symbols at which both sides are defined, with the definitions that the
 /// sides rest on, each after those it uses.
@@ -23,7 +24,7 @@ pub enum Proved {
     /// An identity of formulas.
     Identity(Identity),
     /// A growth vector with the counts that follow.
-    Growth(Counted),
+    Growth(Arc<Counted>),
     /// Something of which no theorem is written, by why not.
     WithoutTheorem(&'static str),
 }

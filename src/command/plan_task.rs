@@ -64,7 +64,7 @@ enum Cost {
 impl Cost {
     fn weights(self) -> Weights {
         let [time, smoothness, effort] = match self {
-            Self::Balanced => [1.0, 0.1, 0.1],
+            Self::Balanced => return Weights::default(),
             Self::Time => [1.0, 1e-3, 1e-3],
             Self::Smooth => [0.5, 1.0, 0.1],
             Self::Effort => [0.5, 0.1, 1.0],

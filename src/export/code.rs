@@ -13,7 +13,7 @@ use crate::model::{Model, observation};
 use std::collections::BTreeMap;
 
 /// What an observer lets each measured state wander beside the model in a second of a random walk, m and rad.
-const WALK: f64 = 0.01;
+pub const WALK: f64 = 0.01;
 /// Deviations of a measured position, m, and heading, rad, where the model file says nothing of them.
 const NOISE: [f64; 2] = [0.005, 0.01];
 

@@ -22,6 +22,7 @@ mod parameters;
 mod robot_description;
 
 pub use code::Code;
+pub(crate) use code::WALK;
 pub use description_lines::description_lines;
 pub use exported::Exported;
 pub use language::Language;

@@ -7,7 +7,7 @@ use crate::model::Trailer;
 use crate::motion::{Creep, assembled};
 use crate::number_format::decimals;
 use crate::picture::plot::Size;
-use crate::planning::{Limit, Path, Task, Weights};
+use crate::planning::Task;
 
 /// The figure.
 pub const FIGURE: Figure = Figure {
@@ -31,17 +31,7 @@ fn draw(options: &Options) -> Result<Drawing> {
             std::iter::once(("traverse-creep", None, vec![share * e])).chain(of_trailers).collect();
         assembled("car", &CAR, &TRAILERS, &creeps)
     };
-    let task = Task {
-        start: vec![0.0; 3 + TRAILERS.len()],
-        poses: vec![GOAL],
-        path: Path::default(),
-        of_trailer: TRAILERS.len(),
-        limits: Limit::usual(&model(1.0)?),
-        duration: None,
-        weights: Weights { time: 1.0, smoothness: 0.1, effort: 0.1 },
-        spans: 16,
-        degree: 3,
-    };
+    let task = Task { of_trailer: TRAILERS.len(), ..Task::from_origin(&model(1.0)?, vec![GOAL], 16) };
     let description = "Seen from above, in metres: a car with a trailer backs by a plan made without creep, by the same inputs with \
                        creep, and by a plan made with it. Backing is unstable: what is a little off at first bends the train.";
     let creep = format!("every axle creeps, $e_{{tc}}$ = {}; paths of the trailer's axle", decimals(e, 2));

@@ -114,18 +114,22 @@ pub fn drawing(drives: &[DrivenPlan; 3], shown: &Shown) -> Drawing {
     Drawing { svg, tables: vec![table(&paths)], text }
 }
 
-/// The paths, row by row.
-fn table(paths: &[Vec<[f64; 2]>; 3]) -> Data {
-    let names = [
-        "row",
+/// The columns of a table of three paths, behind what tells its rows apart.
+pub fn columns(first: &'static str) -> [&'static str; 7] {
+    [
+        first,
         "x planned [m]",
         "y planned [m]",
         "x executed [m]",
         "y executed [m]",
         "x planned with creep [m]",
         "y planned with creep [m]",
-    ];
-    let mut data = Data::new("", &names);
+    ]
+}
+
+/// The paths, row by row.
+fn table(paths: &[Vec<[f64; 2]>; 3]) -> Data {
+    let mut data = Data::new("", &columns("row"));
     let rows = paths.iter().map(Vec::len).max().unwrap_or(0);
     for k in (0..rows).step_by(10) {
         let places = paths.iter().flat_map(|p| p[k.min(p.len() - 1)]).map(|v| fixed(v, 4));

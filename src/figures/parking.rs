@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::motion::assembled;
 use crate::number_format::decimals;
 use crate::picture::plot::Size;
-use crate::planning::{Limit, Path, Task, Weights};
+use crate::planning::Task;
 
 /// The figure.
 pub const FIGURE: Figure =
@@ -24,17 +24,7 @@ fn draw(options: &Options) -> Result<Drawing> {
         let creeps = [("understeer", None, vec![share * UNDERSTEER]), ("traverse-creep", None, vec![share * e])];
         assembled("car", &CAR, &[], &creeps)
     };
-    let task = Task {
-        start: vec![0.0; 3],
-        poses: vec![GOAL],
-        path: Path::default(),
-        of_trailer: 0,
-        limits: Limit::usual(&model(1.0)?),
-        duration: None,
-        weights: Weights { time: 1.0, smoothness: 0.1, effort: 0.1 },
-        spans: 16,
-        degree: 3,
-    };
+    let task = Task::from_origin(&model(1.0)?, vec![GOAL], 16);
     let description = "Seen from above, in metres: a car backs into a gap beside it, by a plan made without creep, by the same \
                        inputs with creep, and by a plan made with it.";
     let creep =

@@ -1,5 +1,6 @@
 //! A plan made on the ideal wheel and executed by a wheel that creeps.
 
+use super::executed_plans::columns;
 use super::{Data, Drawing, Figure, Options, fixed, key, page, plane};
 use crate::error::Result;
 use crate::motion::{assembled, driven};
@@ -49,16 +50,7 @@ fn draw(options: &Options) -> Result<Drawing> {
     let times: Vec<f64> = (0..=120).map(|i| TIME * f64::from(i) / 120.0).collect();
     let (on_ideal, on_crept) = (planned([0.0; 2])?, planned(e)?);
     let paths = [executed([0.0; 2], on_ideal, &times)?, executed(e, on_ideal, &times)?, executed(e, on_crept, &times)?];
-    let names = [
-        "t [s]",
-        "x planned [m]",
-        "y planned [m]",
-        "x executed [m]",
-        "y executed [m]",
-        "x planned with creep [m]",
-        "y planned with creep [m]",
-    ];
-    let mut data = Data::new("", &names);
+    let mut data = Data::new("", &columns("t [s]"));
     for (i, t) in times.iter().enumerate().step_by(4) {
         let places = paths.iter().flat_map(|p| p[i]).map(|v| fixed(v, 6));
         data.row(std::iter::once(fixed(*t, 3)).chain(places));

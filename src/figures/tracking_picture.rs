@@ -4,17 +4,17 @@ use super::{key, page, plane};
 use crate::picture::axis::Axis;
 use crate::picture::plot::{Marker, Size};
 use crate::picture::svg::Element;
-use crate::tracking::{Tracked, Way};
+use crate::tracking::{Tracked, Way, way_in_words};
 
 const ABOVE: Size = Size { width: 396.0, height: 250.0, margins: [40.0, 10.0, 32.0, 40.0] };
 const OVER_TIME: Size = Size { width: 396.0, height: 210.0, margins: [52.0, 10.0, 32.0, 40.0] };
 
-/// The ways that are drawn: id, class of the line, marker at its end, name.
-const DRAWN: [(&str, &str, Option<Marker>, &str); 4] = [
-    ("model", "measured", None, "plan with creep, feedback on that model"),
-    ("ideal-plan", "floor", None, "ideal plan, no feedback"),
-    ("ideal", "crept", Some(Marker::Square), "ideal plan, feedback on the ideal model"),
-    ("observer", "kept", Some(Marker::Circle), "ideal plan, feedback with creep observed"),
+/// The ways that are drawn: id, class of the line, marker at its end.
+const DRAWN: [(&str, &str, Option<Marker>); 4] = [
+    ("model", "measured", None),
+    ("ideal-plan", "floor", None),
+    ("ideal", "crept", Some(Marker::Square)),
+    ("observer", "kept", Some(Marker::Circle)),
 ];
 
 /// The least error that is drawn, m.
@@ -32,7 +32,7 @@ pub fn tracking_picture(found: &Tracked) -> String {
     let of = |f: fn(f64, f64) -> f64, i: usize, start: f64| errors.iter().flatten().map(|p| p[i]).fold(start, f);
     let y = Axis::log("distance from its own plan", "m", [of(f64::min, 1, 1e-2), of(f64::max, 1, 2e-2)]);
     let mut over_time = plane::graph(OVER_TIME, Axis::linear("time", "s", [0.0, of(f64::max, 0, 1.0)]), y);
-    for (((_, class, marker, _), _), (path, errors)) in drawn.iter().zip(paths.iter().zip(&errors)) {
+    for (((_, class, marker), _), (path, errors)) in drawn.iter().zip(paths.iter().zip(&errors)) {
         above.pieces(class, std::slice::from_ref(path), plane::MAX_POINTS);
         over_time.pieces(class, std::slice::from_ref(errors), plane::MAX_POINTS);
         if let Some(marker) = marker {
@@ -41,8 +41,13 @@ pub fn tracking_picture(found: &Tracked) -> String {
         }
     }
     above.markers("start", Marker::Ring, &[goal]);
-    let entries: Vec<key::Entry> =
-        drawn.iter().map(|((_, class, marker, text), _)| key::Entry { class, marker: *marker, text }).collect();
+    let is_bare = found.report.effects.is_empty();
+    let entry = |(id, class, marker): &(&str, &'static str, Option<Marker>)| key::Entry {
+        class,
+        marker: *marker,
+        text: way_in_words(id, is_bare),
+    };
+    let entries: Vec<key::Entry> = drawn.iter().map(|(drawn, _)| entry(drawn)).collect();
     let above = above.finish("above", "Drives from above", "The first drive of each way, x and y in metres.");
     let description = "The mean over all drives, at each sample.";
     let over_time = over_time.finish("over-time", "Distance from the plan over time", description);

@@ -33,7 +33,7 @@ pub(crate) fn shape_coordinates(rows: &[Row], coordinates: &[Symbol]) -> Vec<Sym
 pub(crate) fn frame(rows: &[Row], coordinates: &[Symbol], at: &Point, order: usize) -> Result<Frame> {
     let layout = Arc::new(Layout::new(shape_coordinates(rows, coordinates), order));
     let mut matrix = rows.iter().map(|r| series(r, coordinates, at, &layout)).collect::<Result<Vec<_>>>()?;
-    let pivots = eliminate(&mut matrix);
+    let pivots = eliminate(&mut matrix, &Jet::is_zero, &pivot);
     let used = |r: &usize| pivots.iter().any(|(p, _)| p == r);
     if (0..matrix.len()).filter(|r| !used(r)).any(|r| matrix[r].iter().any(|c| !c.is_zero())) {
         return Err(rank_changes());
@@ -63,14 +63,19 @@ fn zero() -> Jet {
     Jet::number(&BigRational::zero())
 }
 
-/// Gauss–Jordan elimination; the places of the pivots, which become one with zeros above and below.
-fn eliminate(matrix: &mut [Vec<Jet>]) -> Vec<(usize, usize)> {
+/// Gauss–Jordan elimination by the pivots that are chosen, row and column; their places, which become one with zeros above and
+/// below.
+pub(crate) fn eliminate<S: Scalar>(
+    matrix: &mut [Vec<S>],
+    is_zero: &impl Fn(&S) -> bool,
+    pivot: &impl Fn(&[Vec<S>], &[(usize, usize)]) -> Option<(usize, usize)>,
+) -> Vec<(usize, usize)> {
     let mut pivots: Vec<(usize, usize)> = Vec::new();
     while let Some((r, c)) = pivot(matrix, &pivots) {
         let inverse = matrix[r][c].recip();
-        let row: Vec<Jet> = matrix[r].iter().map(|v| if v.is_zero() { v.clone() } else { v.mul(&inverse) }).collect();
+        let row: Vec<S> = matrix[r].iter().map(|v| if is_zero(v) { v.clone() } else { v.mul(&inverse) }).collect();
         for (_, other) in matrix.iter_mut().enumerate().filter(|(i, _)| *i != r) {
-            subtract(other, &row, c);
+            subtract(other, &row, c, is_zero);
         }
         matrix[r] = row;
         pivots.push((r, c));
@@ -79,12 +84,12 @@ fn eliminate(matrix: &mut [Vec<Jet>]) -> Vec<(usize, usize)> {
 }
 
 /// row − row[c]·by
-fn subtract(row: &mut [Jet], by: &[Jet], c: usize) {
+fn subtract<S: Scalar>(row: &mut [S], by: &[S], c: usize, is_zero: &impl Fn(&S) -> bool) {
     let factor = row[c].clone();
-    if factor.is_zero() {
+    if is_zero(&factor) {
         return;
     }
-    for (v, b) in row.iter_mut().zip(by).filter(|(_, b)| !b.is_zero()) {
+    for (v, b) in row.iter_mut().zip(by).filter(|(_, b)| !is_zero(b)) {
         *v = v.sub(&factor.mul(b));
     }
 }
@@ -100,9 +105,9 @@ fn pivot(matrix: &[Vec<Jet>], pivots: &[(usize, usize)]) -> Option<(usize, usize
 }
 
 /// The motion in which one free coordinate moves at unit rate and the other free ones rest.
-fn motion(matrix: &[Vec<Jet>], pivots: &[(usize, usize)], free: usize, count: usize) -> Vec<Jet> {
-    let mut field = vec![zero(); count];
-    field[free] = Jet::number(&BigRational::one());
+pub(crate) fn motion<S: Scalar>(matrix: &[Vec<S>], pivots: &[(usize, usize)], free: usize, count: usize) -> Vec<S> {
+    let mut field = vec![S::number(&BigRational::zero()); count];
+    field[free] = S::number(&BigRational::one());
     pivots.iter().for_each(|(r, c)| field[*c] = matrix[*r][free].neg());
     field
 }

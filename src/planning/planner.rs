@@ -46,6 +46,33 @@ pub struct Task {
     pub degree: usize,
 }
 
+impl Task {
+    /// From the origin to poses, the tractor's, within usual limits and in whatever time.
+    pub fn from_origin(model: &Model, poses: Vec<(f64, f64, Option<f64>)>, spans: usize) -> Self {
+        Self {
+            start: vec![0.0; 3 + model.trailer_count()],
+            poses,
+            path: Path::default(),
+            of_trailer: 0,
+            limits: Limit::usual(model),
+            duration: None,
+            weights: Weights::default(),
+            spans,
+            degree: 3,
+        }
+    }
+
+    /// The states of a model, its free parameters at some values, at the beginning.
+    ///
+    /// # Errors
+    /// When no pose of the vehicle gives the measured one.
+    pub fn first_states(&self, equations: &Equations, p: &[f64]) -> Result<Vec<f64>> {
+        let mut states = visible_state(equations, p, &self.start)?;
+        states.extend(initial_hidden(equations, p, &vec![0.0; equations.inputs.len()], &states));
+        Ok(states)
+    }
+}
+
 /// A plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
@@ -113,8 +140,7 @@ impl Planner {
     fn of(model: &Model, task: &Task) -> Result<Self> {
         let equations = model.equations(&[])?;
         let point = TrackedPoint::of(model, &equations, task.of_trailer)?;
-        let mut start = visible_state(&equations, &[], &task.start)?;
-        start.extend(initial_hidden(&equations, &[], &vec![0.0; equations.inputs.len()], &start));
+        let start = task.first_states(&equations, &[])?;
         if task.limits.len() != equations.logged() {
             return Err(Error::run("a limit is missing for an input of the model"));
         }

@@ -29,6 +29,13 @@ pub struct Weights {
     pub effort: f64,
 }
 
+/// Time and smooth inputs.
+impl Default for Weights {
+    fn default() -> Self {
+        Self { time: 1.0, smoothness: 0.1, effort: 0.1 }
+    }
+}
+
 /// A planning task.
 pub struct Program<'a> {
     /// The motion.

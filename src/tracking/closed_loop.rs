@@ -4,6 +4,7 @@ use super::commands::Commands;
 use super::extended_kalman_filter::ExtendedKalmanFilter;
 use super::predictive_control::{Now, PredictiveControl, Reference};
 use crate::error::Result;
+use crate::export::WALK;
 use crate::model::Equations;
 use crate::motion::{Integrator, simulate};
 use crate::planning::Limit;
@@ -11,8 +12,6 @@ use nalgebra::{DMatrix, DVector};
 use rand::Rng;
 use rand_distr::StandardNormal;
 
-/// What a filter allows the pose to move beside the model, m and rad in a second of a random walk.
-const POSE_WALK: [f64; 2] = [0.01, 0.01];
 /// What a coefficient walks in a second, as a share of its plausible size.
 const PARAMETER_WALK: f64 = 0.05;
 /// How filter and controller integrate; the vehicle itself moves as the program's other simulations do.
@@ -109,9 +108,14 @@ pub fn measured(equations: &Equations, states: &[f64]) -> Vec<f64> {
     equations.outputs(&mut w, states)[..equations.visible].to_vec()
 }
 
-fn seen(pose: &[f64], [position, heading]: [f64; 2], rng: &mut impl Rng) -> Vec<f64> {
+fn seen(pose: &[f64], noise: [f64; 2], rng: &mut impl Rng) -> Vec<f64> {
     let mut normal = || rng.sample::<f64, _>(StandardNormal);
-    pose.iter().enumerate().map(|(i, v)| v + normal() * if i < 2 { position } else { heading }).collect()
+    pose.iter().enumerate().map(|(i, v)| v + normal() * deviation(noise, i)).collect()
+}
+
+/// Of a measured value, in the order x, y, angles.
+fn deviation([position, heading]: [f64; 2], i: usize) -> f64 {
+    if i < 2 { position } else { heading }
 }
 
 /// A filter and a controller of one model.
@@ -128,13 +132,13 @@ impl<'a> Feedback<'a> {
     fn begin(belief: &Belief<'a>, vehicle: &Vehicle) -> Self {
         let (equations, n) = (belief.equations, belief.equations.n());
         let visible = equations.visible;
-        let of_pose = |[position, heading]: [f64; 2], i: usize| if i < 2 { position } else { heading };
-        let noise: Vec<f64> = (0..visible).map(|i| of_pose(vehicle.noise, i).powi(2)).collect();
+        let noise: Vec<f64> = (0..visible).map(|i| deviation(vehicle.noise, i).powi(2)).collect();
         let begin: Vec<f64> = belief.observed.iter().map(|c| c.begin).collect();
         let hidden = vec![0.0; n - visible];
         let sizes = belief.observed.iter().map(|c| c.size);
         let known = noise.iter().chain(&hidden).copied().chain(sizes.clone().map(|s| s * s));
-        let walk = (0..n).map(|i| if i < visible { of_pose(POSE_WALK, i).powi(2) } else { 0.0 });
+        // As the filter that is exported has it.
+        let walk = (0..n).map(|i| if i < visible { WALK * WALK } else { 0.0 });
         let walk = walk.chain(sizes.map(|s| (PARAMETER_WALK * s).powi(2)));
         let filter = ExtendedKalmanFilter {
             equations,

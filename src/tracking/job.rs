@@ -6,7 +6,7 @@ use super::predictive_control::Reference;
 use super::report::{Observed, SensorDeviation, TrackingReport, WayReport};
 use crate::error::{Error, Result};
 use crate::model::{Equations, Model};
-use crate::motion::{Integrator, initial_hidden, simulate, visible_state};
+use crate::motion::{Integrator, simulate};
 use crate::planning::{Infeasible, Plan, Task, nearest, plan};
 use crate::progress::{OnProgress, Stage, tell};
 use rand::SeedableRng;
@@ -76,10 +76,10 @@ pub fn tracked(
         true => None,
         false => known(&without, task, trials, progress)?.ok(),
     };
-    let (observing, coefficients) = observer(model);
+    let (observing, coefficients, truth_of_these) = observer(model);
     let observing = observing.free_equations()?;
     let begin: Vec<f64> = coefficients.iter().map(|c| c.begin).collect();
-    let watched = started(&observing, &begin, task)?;
+    let watched = task.first_states(&observing, &begin)?;
     let belief = |equations, start, observed| Belief {
         equations,
         start,
@@ -97,7 +97,9 @@ pub fn tracked(
     }
     ways.push(("model-plan", &truth, None));
     ways.push(("model", &truth, Some(belief(&truth.equations, &truth.start, &[]))));
-    let (done, all) = (AtomicUsize::new(0), ways.len() * trials.drives);
+    // A plan alone is driven alike whatever the sensor says.
+    let drives_of = |belief: &Option<Belief>| if belief.is_some() { trials.drives } else { 1 };
+    let (done, all) = (AtomicUsize::new(0), ways.iter().map(|(_, _, belief)| drives_of(belief)).sum());
     let driven = |(id, known, belief): &(&'static str, &Known, Option<Belief>)| -> Result<Way> {
         let vehicle = Vehicle {
             equations: &truth.equations,
@@ -113,12 +115,13 @@ pub fn tracked(
             tell(progress, Stage::Drives, done.fetch_add(1, Ordering::Relaxed) + 1, all)?;
             Ok(found)
         };
-        let drives = (0..trials.drives).into_par_iter().map(one).collect::<Result<_>>()?;
+        let drives = (0..drives_of(belief)).into_par_iter().map(one).collect::<Result<_>>()?;
         Ok(Way { id, reference: known.reference.clone(), drives })
     };
     let found: Vec<Way> = ways.iter().map(driven).collect::<Result<_>>()?;
     let reports = found.iter().zip(&ways).map(|(way, (_, known, _))| of_way(way, known.plan.duration)).collect();
-    let observed = found.iter().find(|w| w.id == "observer").map_or(vec![], |w| observed(w, &coefficients, model));
+    let observed =
+        found.iter().find(|w| w.id == "observer").map_or(vec![], |w| observed(w, &coefficients, &truth_of_these));
     let report = TrackingReport {
         schema: 1,
         sample_s: trials.sample,
@@ -129,13 +132,6 @@ pub fn tracked(
         observed,
     };
     Ok(Ok(Tracked { report, ways: found }))
-}
-
-/// The states of a model at the beginning of a task.
-fn started(equations: &Equations, p: &[f64], task: &Task) -> Result<Vec<f64>> {
-    let mut start = visible_state(equations, p, &task.start)?;
-    start.extend(initial_hidden(equations, p, &vec![0.0; equations.inputs.len()], &start));
-    Ok(start)
 }
 
 fn known(
@@ -149,7 +145,7 @@ fn known(
         Err(why) => return Ok(Err(why)),
     };
     let equations = model.equations(&[])?;
-    let start = started(&equations, &[], task)?;
+    let start = task.first_states(&equations, &[])?;
     let reference = reference(&equations, &start, &plan, trials)?;
     Ok(Ok(Known { equations, start, plan, reference }))
 }
@@ -176,26 +172,25 @@ fn reference(equations: &Equations, start: &[f64], plan: &Plan, trials: &Trials)
 /// Samples at most.
 const MOST_SAMPLES: usize = 100_000;
 
-/// The model with every coefficient free that may be zero and of either sign, and these as they are at the beginning: zero.
-/// Time constants and the like are held as they are.
-fn observer(model: &Model) -> (Model, Vec<Coefficient>) {
+/// The model with every coefficient free that may be zero and of either sign, these as they are at the beginning, zero, and
+/// the values that the vehicle has. Time constants and the like are held as they are.
+fn observer(model: &Model) -> (Model, Vec<Coefficient>, Vec<f64>) {
     let mut model = model.clone();
-    let mut found = vec![];
+    let (mut found, mut truth) = (vec![], vec![]);
     for effect in &mut model.effects {
-        let regular = effect.effect.parameters.values().all(|p| !p.positive && p.start.first() == Some(&0.0));
-        effect.free = regular;
-        if !regular {
+        effect.free = effect.effect.vanishes_first();
+        if !effect.free {
             continue;
         }
         let label = effect.label();
         for ((name, p), value) in effect.effect.parameters.iter().zip(&mut effect.values) {
             // Of what is known of the vehicle only how large such a thing may be.
             let size = p.size.max(value.abs());
-            *value = 0.0;
+            truth.push(std::mem::replace(value, 0.0));
             found.push(Coefficient { name: format!("{label} {name}"), begin: 0.0, size, range: p.range });
         }
     }
-    (model, found)
+    (model, found, truth)
 }
 
 fn of_way(way: &Way, duration: f64) -> WayReport {
@@ -221,25 +216,17 @@ fn of_way(way: &Way, duration: f64) -> WayReport {
     }
 }
 
-fn observed(way: &Way, coefficients: &[Coefficient], model: &Model) -> Vec<Observed> {
-    let truth = |name: &str| {
-        let values = model.effects.iter().flat_map(|e| {
-            let label = e.label();
-            e.effect.parameters.keys().zip(&e.values).map(move |(p, v)| (format!("{label} {p}"), *v))
-        });
-        values.into_iter().find(|(n, _)| n == name).map_or(f64::NAN, |(_, v)| v)
-    };
-    let of = |(i, c): (usize, &Coefficient)| {
+fn observed(way: &Way, coefficients: &[Coefficient], truth: &[f64]) -> Vec<Observed> {
+    let of = |(i, (c, true_value)): (usize, (&Coefficient, &f64))| {
         let all = || way.drives.iter().map(|d| d.coefficients[i]);
         let n = way.drives.len() as f64;
-        let true_value = truth(&c.name);
         Observed {
             name: c.name.clone(),
-            true_value,
+            true_value: *true_value,
             found: all().map(|v| v[0]).sum::<f64>() / n,
             error: (all().map(|v| (v[0] - true_value).powi(2)).sum::<f64>() / n).sqrt(),
             deviation: all().map(|v| v[1]).sum::<f64>() / n,
         }
     };
-    coefficients.iter().enumerate().map(of).collect()
+    coefficients.iter().zip(truth).enumerate().map(of).collect()
 }

@@ -21,3 +21,4 @@ pub use drives_table::drives_table;
 pub use job::{Tracked, Trials, Way, tracked};
 pub use report::{Observed, SensorDeviation, TrackingReport, WayReport};
 pub use tracking_text::tracking_text;
+pub(crate) use tracking_text::way_in_words;

@@ -1,6 +1,6 @@
 //! Driving with feedback in words.
 
-use super::report::{TrackingReport, WayReport};
+use super::report::TrackingReport;
 use crate::number_format::{plain, prefixed, significant};
 use std::fmt::Write;
 
@@ -19,7 +19,7 @@ pub fn tracking_text(report: &TrackingReport) -> String {
         let _ = writeln!(
             out,
             "{:<44} {:>12} {:>12} {:>12} {:>12}",
-            way_in_words(way, report.effects.is_empty()),
+            way_in_words(&way.id, report.effects.is_empty()),
             length(way.off_plan_m),
             length(way.end_m),
             length(way.worst_end_m),
@@ -46,8 +46,8 @@ pub fn tracking_text(report: &TrackingReport) -> String {
 }
 
 /// A way to drive, of a model with or without effects.
-fn way_in_words(way: &WayReport, is_bare: bool) -> &'static str {
-    match way.id.as_str() {
+pub(crate) fn way_in_words(id: &str, is_bare: bool) -> &'static str {
+    match id {
         "model-plan" if is_bare => "plan, no feedback",
         "model" if is_bare => "plan, with feedback",
         "ideal-plan" => "ideal plan, no feedback",

@@ -2,7 +2,8 @@
 //! quotients of trigonometric polynomials.
 
 use crate::claims::counted::Counted;
-use crate::formula::{BigInt, BigRational, Expr, Fun, Node, Normal, Scalar, Symbol};
+use crate::formula::{BigRational, Expr, Fun, Node, Normal, Scalar, Symbol};
+use crate::mechanism::distribution_basis::{eliminate, motion};
 use crate::mechanism::{Point, Row};
 use num_traits::Zero;
 
@@ -129,31 +130,13 @@ fn cleared(entries: &[Normal]) -> Option<Vec<Normal>> {
 fn motions(matrix: &[Vec<Normal>], at: &Point) -> Option<Vec<Vec<Normal>>> {
     let width = matrix.first()?.len();
     let mut rows = matrix.to_vec();
-    let mut pivots: Vec<(usize, usize)> = vec![];
-    while let Some((r, c)) = pivot(&rows, &pivots, at) {
-        let inverse = rows[r][c].recip();
-        let row: Vec<Normal> = rows[r].iter().map(|v| v.mul(&inverse)).collect();
-        for (_, other) in rows.iter_mut().enumerate().filter(|(i, _)| *i != r) {
-            let factor = other[c].clone();
-            if !factor.is_zero() {
-                *other = other.iter().zip(&row).map(|(v, p)| v.sub(&factor.mul(p))).collect();
-            }
-        }
-        rows[r] = row;
-        pivots.push((r, c));
-    }
+    let pivots = eliminate(&mut rows, &Normal::is_zero, &|rows, pivots| pivot(rows, pivots, at));
     let rest = (0..rows.len()).filter(|r| pivots.iter().all(|(p, _)| p != r));
     if rest.flat_map(|r| &rows[r]).any(|v| !v.is_zero()) {
         return None;
     }
     let free = (0..width).filter(|c| pivots.iter().all(|(_, p)| p != c));
-    let motion = |c: usize| {
-        let mut field = vec![Normal::number(&BigRational::zero()); width];
-        field[c] = Normal::number(&BigRational::from(BigInt::from(1)));
-        pivots.iter().for_each(|(r, p)| field[*p] = rows[*r][c].neg());
-        cleared(&field)
-    };
-    free.map(motion).collect()
+    free.map(|c| cleared(&motion(&rows, &pivots, c, width))).collect()
 }
 
 /// The entry with the shortest formula that is not zero at the configuration.

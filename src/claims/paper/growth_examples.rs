@@ -126,15 +126,15 @@ fn example(name: &str) -> Option<(Mechanism, Point)> {
 
 /// What was found for the examples, each looked at once for all statements.
 #[derive(Clone, Default)]
-pub(super) struct Found(Arc<Mutex<BTreeMap<String, Option<Counted>>>>);
+pub(super) struct Found(Arc<Mutex<BTreeMap<String, Option<Arc<Counted>>>>>);
 
 impl Found {
-    pub(super) fn of(&self, name: &str) -> Option<Counted> {
+    pub(super) fn of(&self, name: &str) -> Option<Arc<Counted>> {
         let known = || self.0.lock().ok()?.get(name).cloned();
         if let Some(found) = known() {
             return found;
         }
-        let found = example(name).and_then(|(mechanism, at)| Counted::of(name, mechanism, at, 9));
+        let found = example(name).and_then(|(mechanism, at)| Counted::of(name, mechanism, at, 9)).map(Arc::new);
         if let Ok(mut all) = self.0.lock() {
             all.insert(name.to_string(), found.clone());
         }

@@ -83,7 +83,7 @@ fn one_hinge() -> Claim {
         .code(&["src/connection/bodies.rs", CONNECTION])
         .tests(&["tests/symmetry/bodies.rs"])
         .proof("brackets: none, so one constraint of one", &[("growth", "1"), ("holonomic", "1"), ("nonholonomic", "0")], |s, _| {
-            compare_with(s, counted(2).as_ref())
+            compare_with(s, counted(2))
         })
         .sample("drift after generated closed loops of the hinge, under 1e-12", &[("drift", "0")], |s, sampling| {
             let Ok((momentum, shape)) = chain(2) else { return Outcome::Undefined("there is no chain".into()) };
@@ -108,7 +108,7 @@ fn two_hinges() -> Claim {
         )
         .code(&["src/connection/bodies.rs", CONNECTION])
         .tests(&["tests/symmetry/bodies.rs"])
-        .proof("by brackets", &[("growth", "23"), ("nonholonomic", "1")], |s, _| compare_with(s, counted(3).as_ref()))
+        .proof("by brackets", &[("growth", "23"), ("nonholonomic", "1")], |s, _| compare_with(s, counted(3)))
         .sample(
             "circles of radius 0.04 and 0.02 about (0.7, −0.4): the error of phase/area falls with the square of the radius",
             &[("curvature", "-0.00676934"), ("order", "2")],

@@ -6,7 +6,7 @@ use crate::claims::{
 };
 use crate::model::Model;
 use crate::motion::Timing;
-use crate::planning::{Limit, Path, Plan, Task, Weights, execute, plan};
+use crate::planning::{Plan, Task, execute, plan};
 use crate::progress::unheard;
 
 pub(crate) fn claims() -> Vec<Claim> {
@@ -96,17 +96,7 @@ fn creeping(&(vehicle, (a, b), _): &Case, share: f64) -> Result<Model, Fault> {
 fn planned(s: &Statement, case: &Case) -> Verdict {
     let (creeping_model, ideal) = (creeping(case, 1.0)?, creeping(case, 0.0)?);
     let (x, y, heading) = case.2;
-    let task = Task {
-        start: vec![0.0; 3],
-        poses: vec![(x, y, Some(heading))],
-        path: Path::default(),
-        of_trailer: 0,
-        limits: Limit::usual(&ideal),
-        duration: None,
-        weights: Weights { time: 1.0, smoothness: 0.1, effort: 0.1 },
-        spans: 10,
-        degree: 3,
-    };
+    let task = Task::from_origin(&ideal, vec![(x, y, Some(heading))], 10);
     let found = |model: &Model| -> Result<Plan, Fault> {
         let found = plan(model, &task, &unheard).map_err(|e| undefined(&e))?;
         found.map_err(|why| Fault::False(format!("no plan: {why:?}")))

@@ -1,7 +1,6 @@
 //! The holonomic and the nonholonomic part: growth vectors, integrals, degrees of nonholonomy, in exact arithmetic.
 
 use super::growth_examples::Found;
-use crate::claims::counted::Counted;
 use crate::claims::{Claim, Correction, DerivedFormulas, Status, proving};
 use crate::formula::{Expr, Symbol};
 
@@ -58,8 +57,8 @@ fn counts(found: &Found) -> Claim {
 
 /// The integral that the search finds for the two-wheeler.
 fn integral(found: &Found) -> Claim {
-    let of = |counted: &Counted| counted.found.integrals.first().map(|i| i.formula.clone());
-    let integral = found.of("differential-drive").and_then(|f| of(&f)).unwrap_or_default();
+    let integral = found.of("differential-drive").and_then(|c| Some(c.found.integrals.first()?.formula.clone()));
+    let integral = integral.unwrap_or_default();
     let one_radius = |s: &Symbol| matches!(s.as_str(), "r_1" | "r_2").then(|| Expr::sym("r"));
     base("integral-28", Status::Proved, "the machine finds the integral r·(θ₁ − θ₂) − a·φ of the two-wheeler")
         .at("section 4, (28)")

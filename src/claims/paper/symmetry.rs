@@ -77,7 +77,7 @@ fn curvature() -> Claim {
     };
     let counts = move |s: &Statement, _: &Sampling| {
         let hopper = vehicles::named("hopper").map(|v| crate::model::mechanism(v, 0));
-        compare_with(s, hopper.and_then(|m| Counted::of("hopper", m, point(), 5)).as_ref())
+        compare_with(s, hopper.and_then(|m| Counted::of("hopper", m, point(), 5)))
     };
     base("hopper-curvature", Status::Proved, "the hopper's constraint is nonholonomic: its curvature dσ/dl is not zero")
         .under("I > 0, m > 0, l + d > 0")

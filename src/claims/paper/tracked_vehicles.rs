@@ -2,7 +2,7 @@
 
 use crate::claims::simulated::{model, undefined};
 use crate::claims::{Claim, Fault, Outcome, Sampling, Statement, Status, Verdict, near, value_said};
-use crate::planning::{Limit, Path, Task, Weights};
+use crate::planning::Task;
 use crate::progress::unheard;
 use crate::tracking::{Trials, Way, tracked};
 use std::collections::BTreeMap;
@@ -65,17 +65,7 @@ fn compared(known: &Known, s: &Statement, e_rc: f64, e_tc: f64) -> Verdict {
 fn led(e_rc: f64, e_tc: f64) -> Result<[[f64; 2]; 2], Fault> {
     let creeps = [("rotation-creep", None, vec![e_rc]), ("traverse-creep", None, vec![e_tc])];
     let wheel = model("unicycle", &[("wheel_radius", 0.2)], &[], &creeps).map_err(|e| undefined(&e))?;
-    let task = Task {
-        start: vec![0.0; 3],
-        poses: vec![(20.0, 0.0, Some(0.0))],
-        path: Path::default(),
-        of_trailer: 0,
-        limits: Limit::usual(&wheel),
-        duration: None,
-        weights: Weights { time: 1.0, smoothness: 0.1, effort: 0.1 },
-        spans: 16,
-        degree: 3,
-    };
+    let task = Task::from_origin(&wheel, vec![(20.0, 0.0, Some(0.0))], 16);
     let trials = Trials { sample: 0.2, noise: [1e-6, 1e-6], drives: 1, horizon: 10, settling: 0.0, seed: 0 };
     let found = tracked(&wheel, &task, &trials, &unheard).map_err(|e| undefined(&e))?;
     let found = found.map_err(|why| Fault::False(format!("no plan: {why:?}")))?;

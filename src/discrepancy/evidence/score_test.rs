@@ -39,12 +39,7 @@ const PAIRS: usize = 2;
 pub(crate) fn is_regular(effect: &Effect, model: &Model, trailer: Option<usize>) -> bool {
     let known = model.effects.iter().any(|e| e.stands_for(effect, trailer));
     // A user's own may be undefined somewhere, or close a circle with another: it must not spoil the pass for others.
-    !known && effect.origin.is_none() && effect.states.is_empty() && vanishes_first(effect)
-}
-
-/// Whether the first of an effect's starts is where it vanishes, so that a step to first order may be taken from there.
-pub(crate) fn vanishes_first(effect: &Effect) -> bool {
-    effect.parameters.values().all(|p| p.start.first() == Some(&0.0))
+    !known && effect.origin.is_none() && effect.states.is_empty() && effect.vanishes_first()
 }
 
 /// The candidates for a model by what they promise, best first.
@@ -163,7 +158,7 @@ const UNPAIRED: usize = 8;
 /// A first-order step that stays where the effect has a meaning.
 fn moved(value: f64, step: f64, a: &Applied) -> f64 {
     // Nonlinear effects begin where they were linearised: their first step may lead anywhere.
-    if a.effect.states.is_empty() && vanishes_first(&a.effect) { value + step } else { value }
+    if a.effect.states.is_empty() && a.effect.vanishes_first() { value + step } else { value }
 }
 
 /// What the quadratic form gains when only some parameters move, how they move, and how well they are known.

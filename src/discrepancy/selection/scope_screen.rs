@@ -52,7 +52,7 @@ impl Vanishing {
     fn all_of(effect: &Effect, trailer: Option<usize>) -> Vec<Self> {
         let starts = effect.starts().into_iter();
         let at = |values: Vec<f64>| Applied::new(effect, trailer, values).freed();
-        if score_test::vanishes_first(effect) {
+        if effect.vanishes_first() {
             let weighed = (0..effect.parameters.len()).collect::<Vec<_>>();
             return starts.take(1).map(|s| Self { applied: at(s), weighed: weighed.clone() }).collect();
         }

@@ -8,7 +8,7 @@ use crate::discrepancy::estimation::unexplained::remains;
 use crate::discrepancy::evidence::chi_squared::tail;
 use crate::discrepancy::evidence::information_criterion::bic;
 use crate::discrepancy::evidence::random_walk::Walk;
-use crate::discrepancy::evidence::score_test::{is_regular, vanishes_first};
+use crate::discrepancy::evidence::score_test::is_regular;
 use crate::effects::{Applied, Effect, RandomWalk};
 use crate::error::Result;
 use crate::model::Model;
@@ -17,7 +17,7 @@ use rayon::prelude::*;
 
 /// The walk of an effect's parameter, where it pays, and what it gains.
 fn walking(search: &Search, fit: &Fit, effect: &Applied) -> Result<Option<(RandomWalk, f64)>> {
-    if is_term(effect) || is_partial(effect) || effect.effect.parameters.len() != 1 || !vanishes_first(&effect.effect) {
+    if is_term(effect) || is_partial(effect) || effect.effect.parameters.len() != 1 || !effect.effect.vanishes_first() {
         return Ok(None);
     }
     let walk = search.problem.walk(fit, effect)?.filter(|w| w.gain / fit.noise_correlation_time > search.price(fit));

@@ -45,7 +45,7 @@ pub struct Arguments {
     /// How long the vehicle is led on behind the end of its plan, s
     #[arg(long, value_name = "S", default_value_t = 1.0, value_parser = settling)]
     settling: f64,
-    /// Drives of each way
+    /// Drives of each way with feedback
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u16).range(1..=10_000))]
     drives: u16,
     /// Seed of the noise

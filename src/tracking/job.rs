@@ -21,7 +21,7 @@ pub struct Trials {
     pub sample: f64,
     /// Deviations of a measured position, m, and heading, rad.
     pub noise: [f64; 2],
-    /// Drives of each way.
+    /// Drives of each way with feedback; a plan alone is driven once.
     pub drives: usize,
     /// How many samples the controller looks ahead.
     pub horizon: usize,

@@ -11,7 +11,7 @@ pub struct TrackingReport {
     pub sample_s: f64,
     /// Deviations of the sensor.
     pub noise: SensorDeviation,
-    /// Drives of each way.
+    /// Drives of each way with feedback; a plan alone is driven once.
     pub drives: usize,
     /// Effects that the vehicle has.
     pub effects: Vec<String>,

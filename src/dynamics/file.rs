@@ -1,12 +1,11 @@
 //! Dynamics read from a model file, and its simulation.
 
-use super::contact::slug;
-use super::forces::roles;
-use super::{Dynamics, Masses, Start, TrailerMass, laws, simulate_dynamics};
+use super::{Dynamics, Start, laws, simulate_dynamics};
 use crate::effects::Effect;
 use crate::error::{Error, Result};
 use crate::files::{DynamicsEntry, Initial, Known, KnownDynamics, KnownLaw, ModelFile};
 use crate::model;
+use crate::model::forces::{castors, rate_role, roles, slug};
 use crate::model::{Model, mechanism};
 use crate::motion::{Drive, Integrator, Method, Table};
 use crate::vehicles;
@@ -51,9 +50,9 @@ fn known_dynamics(vehicle: &Vehicle) -> KnownDynamics {
         allowed: vehicle.coordinates.is_empty() && vehicle.trailers.is_empty(),
         line: vehicle.line,
         wheels: vehicle.wheels.iter().filter(|w| w.rate.is_some()).map(|w| slug(&w.name)).collect(),
-        castors: !super::bodies::castors(vehicle).is_empty(),
+        castors: !castors(vehicle).is_empty(),
         forces: roles(vehicle).into_iter().map(|(role, _, _)| role).collect(),
-        steering_rates: steering.iter().map(|s| super::description::rate_role(s)).collect(),
+        steering_rates: steering.iter().map(|s| rate_role(s)).collect(),
         steering,
         contacts: mechanism.constraints.iter().map(|c| slug(&c.name)).collect(),
         laws: laws().iter().map(law).collect(),
@@ -76,39 +75,8 @@ impl Dynamics {
                 .at(effect.line, 1)
                 .help("remove it or [dynamics]: with forces, creep follows from the laws of contact"));
         }
-        let model = Model::from_file(&ModelFile { effects: vec![], ..file.clone() }, &[], &[])?;
-        let built = || {
-            let dynamics = Self::new(&model, &masses(entry, &model.vehicle))?;
-            let dynamics =
-                entry.friction.iter().try_fold(dynamics, |d, c| d.with_law(&c.contact, &c.law, &c.values))?;
-            let forces: Vec<&str> = entry.forces.iter().map(String::as_str).collect();
-            dynamics.driven_by(&forces)
-        };
-        let built = built().map_err(|e| at(e, entry.place))?;
-        Ok(if entry.steered_by_rate { built.steered_by_rate() } else { built })
-    }
-
-    /// Whether any contact has a law: then the motion may be stiff.
-    pub fn has_friction(&self) -> bool {
-        self.contacts.iter().any(|c| c.law.is_some())
-    }
-}
-
-fn masses(entry: &DynamicsEntry, vehicle: &Vehicle) -> Masses {
-    let [mass, inertia, mass_offset] = entry.body;
-    let wheel = |w: &crate::vehicles::Wheel| Some((w.rate.clone()?, *entry.wheel_inertia.get(&slug(&w.name))?));
-    let trailer = |[mass, inertia, mass_offset]: &[f64; 3]| TrailerMass {
-        mass: *mass,
-        inertia: *inertia,
-        mass_offset: *mass_offset,
-    };
-    Masses {
-        mass,
-        inertia,
-        mass_offset,
-        wheels: vehicle.wheels.iter().filter_map(wheel).collect(),
-        castors: super::bodies::castors(vehicle).into_iter().map(|a| (a, entry.castor_inertia)).collect(),
-        trailers: entry.trailers.iter().map(trailer).collect(),
+        let model = Model::from_file(&ModelFile { effects: vec![], dynamics: None, ..file.clone() }, &[], &[])?;
+        Self::of_entry(entry, &model).map_err(|e| at(e, entry.place))
     }
 }
 

@@ -16,34 +16,23 @@
 //!
 //! The slip of a rolling contact is v_A = v_l − r·ω (type R), of a direction v_t (type T), to the left.
 
-mod bodies;
 mod carried;
 mod compilation;
-mod contact;
 mod derive;
-mod description;
 mod file;
-mod forces;
-mod law;
 mod linear_solution;
-mod masses;
 mod observed;
 mod run;
 mod start;
 mod system;
 
 #[doc(hidden)]
-pub use contact::Contact;
+pub use crate::model::forces::{Contact, LawParameter, Masses, TrailerMass};
+pub use crate::model::forces::{Dynamics, Law, laws};
 #[doc(hidden)]
 pub use derive::Formulas;
-pub use description::Dynamics;
 #[doc(hidden)]
 pub use file::{known, known_on, simulate_file, simulate_file_by};
-#[doc(hidden)]
-pub use law::LawParameter;
-pub use law::{Law, laws};
-#[doc(hidden)]
-pub use masses::{Masses, TrailerMass};
 #[doc(hidden)]
 pub use run::simulate_dynamics;
 #[doc(hidden)]

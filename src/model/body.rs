@@ -1,8 +1,7 @@
 //! The motion of the body and of what follows it, solved from the wheels' constraints.
 
-use super::build::moving;
 use super::constraints::{
-    bodies, direction, rolling, section_heading, sideways, trailer_creep, trailer_direction, trailer_lengths,
+    bodies, direction, moving, rolling, section_heading, sideways, trailer_creep, trailer_direction, trailer_lengths,
 };
 use super::trailer::trailer_heading;
 use super::vehicle_model::Model;

@@ -1,14 +1,19 @@
 //! The definitions of a model: constraints solved for the motion, effects applied.
 
-use super::constraints::{behind, section_heading, trailer_creep, trailer_direction, trailer_lengths};
+use super::forced_motion::ForcedMotion;
+use super::constraints::{behind, moving, section_heading, trailer_creep, trailer_direction, trailer_lengths};
 use super::reference_speeds::REFERENCE;
 use super::trailer::trailer_heading;
 use super::vehicle_model::Model;
 use crate::effects::{Applied, Effect, acting, delaying};
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
-use crate::mechanism::{Definitions, Velocity, solve};
+use crate::mechanism::{Definitions, solve};
 use std::collections::BTreeSet;
+
+/// The velocity of the reference point in the world.
+const WORLD: [(&str, &str); 2] =
+    [("x'", "v_l*cos(phi) - v_t*sin(phi)"), ("y'", "v_l*sin(phi) + v_t*cos(phi)")];
 
 /// A formula of this file; a malformed one would be a fault of the program, seen by every test.
 fn formula(text: &str) -> Expr {
@@ -31,7 +36,28 @@ impl Model {
     /// # Errors
     /// When the constraints do not determine the motion, or an effect does not apply.
     pub fn definitions(&self) -> Result<Definitions> {
-        self.with_effects(self.ideal_definitions()?)
+        let mut d = self.with_effects(self.ideal_definitions()?)?;
+        if let Some(forced) = &self.forced {
+            forced.turned.iter().for_each(|angle| d.define(angle.rate(), self.rate_by_inputs(angle, &d)));
+        }
+        Ok(d)
+    }
+
+    /// The rate of a symbol that the inputs move, effects on the way included: Σ ∂f/∂u·u'.
+    fn rate_by_inputs(&self, name: &Symbol, d: &Definitions) -> Expr {
+        if self.inputs.iter().any(|role| role == name.as_str()) {
+            return Expr::sym(name.rate());
+        }
+        let of_effects = self.effects.iter().flat_map(|e| e.states()).find(|(state, _)| state == name);
+        if let Some((_, rate)) = of_effects {
+            return rate;
+        }
+        let Some(formula) = d.get(name) else { return Expr::int(0) };
+        let through = |s: Symbol| {
+            let rate = self.rate_by_inputs(&s, d);
+            if rate.is_zero() { rate } else { &formula.derivative(&s) * &rate }
+        };
+        formula.symbols().into_iter().map(through).fold(Expr::int(0), |sum, part| &sum + &part)
     }
 
     /// [`Model::definitions`]; where the constraints do not determine the motion, only what stands in their rows: the
@@ -159,6 +185,9 @@ impl Model {
     }
 
     fn ideal_definitions(&self) -> Result<Definitions> {
+        if let Some(forced) = &self.forced {
+            return Ok(self.moved_by_forces(forced));
+        }
         // Which coordinates of its own a vehicle has is for its effects to say as well.
         if !self.vehicle.coordinates.is_empty() {
             return self.solved();
@@ -174,6 +203,27 @@ impl Model {
             true => self.solve_in_plane(&mut d)?,
             false => self.solve_own(&mut d)?,
         }
+        self.define_sensor(&mut d);
+        Ok(d)
+    }
+
+    /// The motion under forces.
+    fn moved_by_forces(&self, forced: &ForcedMotion) -> Definitions {
+        let mut d = Definitions::default();
+        self.define_vehicle(&mut d);
+        let creeps: Vec<Symbol> = self.vehicle.creeps().cloned().collect();
+        d = d.without(&|name| creeps.contains(name));
+        (1..=self.trailer_count()).for_each(|i| self.define_trailer_lengths(i, &mut d));
+        forced.definitions.iter().for_each(|(name, formula)| d.define(name.clone(), formula.clone()));
+        for (name, text) in [WORLD[0], WORLD[1]] {
+            d.define(name, formula(text));
+        }
+        self.define_sensor(&mut d);
+        d
+    }
+
+    /// What the sensor measures, and when inputs act.
+    fn define_sensor(&self, d: &mut Definitions) {
         for (name, text) in [
             ("delay", "0"),
             ("lever_a", "sensor.a"),
@@ -185,7 +235,6 @@ impl Model {
         ] {
             d.define(name, formula(text));
         }
-        Ok(d)
     }
 
     /// The constraints that break where the others hold, by name; `None` where these do not determine the motion.
@@ -211,12 +260,7 @@ impl Model {
     /// The motion of the body and of the vehicle's own trailers, by as many constraints as it takes.
     fn solve_front(&self, d: &mut Definitions) -> Result<()> {
         self.solve_body(d)?;
-        for (name, text) in [
-            ("v_l", "v_d"),
-            ("v_t", "v_n"),
-            ("x'", "v_l*cos(phi) - v_t*sin(phi)"),
-            ("y'", "v_l*sin(phi) + v_t*cos(phi)"),
-        ] {
+        for (name, text) in [("v_l", "v_d"), ("v_t", "v_n"), WORLD[0], WORLD[1]] {
             d.define(name, formula(text));
         }
         if self.vehicle.line {
@@ -240,13 +284,17 @@ impl Model {
 
     /// Lengths and coefficient of a trailer.
     fn define_trailer(&self, i: usize, d: &mut Definitions) {
+        self.define_trailer_lengths(i, d);
+        d.define(trailer_creep(i), Expr::int(0));
+    }
+
+    fn define_trailer_lengths(&self, i: usize, d: &mut Definitions) {
         let (length, hitch) = trailer_lengths(i);
         let towed = |stem: &str| Expr::sym(Symbol::new(&format!("{stem}_{i}")));
         let own = self.vehicle.trailers.get(i - 1).map(|own| [own.length.clone(), own.hitch.clone()]);
         let [bar, behind] = own.unwrap_or_else(|| [towed("trailer_length"), towed("hitch_offset")]);
         d.define(length, bar);
         d.define(hitch, behind);
-        d.define(trailer_creep(i), Expr::int(0));
     }
 
     /// Adds a trailer: its forward speed v_i, sideways speed vt_i and the rate of its heading.
@@ -281,15 +329,6 @@ fn define_acting(role: &str, d: &mut Definitions) {
     }
     d.define(acts, Expr::sym(logged));
     d.define(delaying(role), Expr::int(0));
-}
-
-/// The velocity of the reference point (zero) or of a trailer's axle, by the names of its components.
-pub(super) fn moving(i: usize) -> Velocity {
-    let [forward, sideways] = match i {
-        0 => ["v_l".to_string(), "v_t".to_string()],
-        _ => [format!("v_{i}"), format!("vt_{i}")],
-    };
-    Velocity::in_body(Symbol::new(&forward), Symbol::new(&sideways), &section_heading(i))
 }
 
 #[cfg(test)]

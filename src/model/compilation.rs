@@ -18,6 +18,7 @@ impl Model {
             values.insert(Symbol::new(&format!("trailer_length_{i}")), t.length);
             values.insert(Symbol::new(&format!("hitch_offset_{i}")), t.hitch);
         }
+        values.extend(self.forced.iter().flat_map(|forced| forced.values.clone()));
         values.insert("sensor.a".into(), self.sensor.lever_arm[0]);
         values.insert("sensor.b".into(), self.sensor.lever_arm[1]);
         values.insert("sensor.heading_offset".into(), self.sensor.heading_offset);
@@ -61,7 +62,7 @@ impl Model {
     /// The logged inputs, then what the formulas ask of the log beside: the time, rates of inputs.
     fn logged_and_derived(&self, definitions: &Definitions) -> Vec<Symbol> {
         let logged: Vec<Symbol> = self.inputs.iter().map(|i| Symbol::new(i)).collect();
-        if self.effects.is_empty() {
+        if self.effects.is_empty() && self.forced.is_none() {
             return logged;
         }
         let values = self.values();

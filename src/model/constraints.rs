@@ -64,7 +64,7 @@ pub(super) fn trailer_lengths(i: usize) -> (Symbol, Symbol) {
 }
 
 /// The direction constraint of a trailer's axle, given the velocity of the axle.
-pub(super) fn trailer_direction(vehicle: &Vehicle, i: usize, axle: &Velocity) -> Constraint {
+pub(crate) fn trailer_direction(vehicle: &Vehicle, i: usize, axle: &Velocity) -> Constraint {
     let creep = trailer_creep(i);
     let direction = Direction::new(axle, &Heading::along(trailer_heading(i)), &Expr::sym(creep.clone()));
     let name = match vehicle.trailers.get(i - 1) {
@@ -134,6 +134,11 @@ fn constraints_of(vehicle: &Vehicle, trailers: usize) -> Vec<Constraint> {
         true => Velocity::along_line("s'", &body),
         false => Velocity::of_reference_point(),
     };
+    constraints_by(vehicle, trailers, reference)
+}
+
+/// The constraints by the velocity of the reference point, those of the body first.
+fn constraints_by(vehicle: &Vehicle, trailers: usize, reference: Velocity) -> Vec<Constraint> {
     let mut found = Vec::new();
     for (i, axle) in bodies(reference, vehicle.trailers.len() + trailers).iter().enumerate() {
         let heading = section_heading(i);
@@ -149,6 +154,30 @@ fn constraints_of(vehicle: &Vehicle, trailers: usize) -> Vec<Constraint> {
     found
 }
 
+/// The constraints of the body in its own axes: by v_l, v_t and the rates of its angles.
+pub(crate) fn constraints_in_body(vehicle: &Vehicle) -> Vec<Constraint> {
+    let along = |axis: Heading| moving(0).along(&axis);
+    let turned = |c: &Constraint| {
+        c.with_rates(&|rate| match rate.as_str() {
+            "x'" => Some(along(Heading::x())),
+            "y'" => Some(along(Heading::y())),
+            _ => None,
+        })
+    };
+    let own = Vehicle { constraints: vec![], ..vehicle.clone() };
+    let wheels = constraints_by(&own, 0, moving(0));
+    wheels.into_iter().chain(vehicle.constraints.iter().map(turned)).collect()
+}
+
+/// The velocity of the reference point (zero) or of a trailer's axle, by the names of its components.
+pub(crate) fn moving(i: usize) -> Velocity {
+    let [forward, sideways] = match i {
+        0 => ["v_l".to_string(), "v_t".to_string()],
+        _ => [format!("v_{i}"), format!("vt_{i}")],
+    };
+    Velocity::in_body(Symbol::new(&forward), Symbol::new(&sideways), &section_heading(i))
+}
+
 /// The velocities of the reference point and of the axle of every trailer behind it.
 pub(super) fn bodies(reference: Velocity, trailers: usize) -> Vec<Velocity> {
     let mut found = vec![reference];
@@ -159,7 +188,7 @@ pub(super) fn bodies(reference: Velocity, trailers: usize) -> Vec<Velocity> {
 }
 
 /// The heading of the body (zero) or of a trailer.
-pub(super) fn section_heading(i: usize) -> Heading {
+pub(crate) fn section_heading(i: usize) -> Heading {
     if i == 0 { Heading::along("phi") } else { Heading::along(trailer_heading(i)) }
 }
 

@@ -118,10 +118,15 @@ impl Model {
             sensor: Sensor { lever_arm: file.sensor.lever_arm, heading_offset: file.sensor.heading_offset },
             inputs: roles.to_vec(),
             effects: vec![],
+            forced: None,
             solution: Default::default(),
         };
         if roles.is_empty() {
             model.inputs = vehicle.inputs.keys().cloned().collect();
+        }
+        if let Some(entry) = &file.dynamics {
+            let (line, column) = entry.place;
+            model = model.with_forces(entry).map_err(|e| e.at_file(&file.path).at(line, column))?;
         }
         for entry in &file.effects {
             let term = if entry.id.starts_with(terms::PREFIX) { model.term(&entry.id)? } else { None };

@@ -11,6 +11,8 @@ mod constraints;
 pub mod effect_equation;
 mod equations;
 mod file;
+mod forced_motion;
+pub(crate) mod forces;
 mod free;
 pub mod observation;
 mod own;
@@ -21,7 +23,6 @@ mod terms;
 mod trailer;
 mod vehicle_model;
 
-pub(crate) use constraints::behind as axle_behind;
 pub use constraints::mechanism;
 pub(crate) use equations::Derived;
 pub use equations::{Equations, Workspace};

@@ -62,6 +62,9 @@ impl Model {
 
     /// Coordinates of its own whose rates alone are given and which its formulas speak of: they are carried along.
     pub(super) fn own_states(&self) -> Vec<Symbol> {
+        if let Some(forced) = &self.forced {
+            return forced.states.clone();
+        }
         let vehicle = &self.vehicle;
         let is_pose = |q: &Symbol| ["x", "y", "phi"].contains(&q.as_str()) || vehicle.heading.as_ref() == Some(q);
         let rows: Vec<_> = vehicle.constraints.iter().map(Constraint::row).collect();

@@ -1,11 +1,13 @@
 //! A vehicle with its parameters, its sensor and the effects it includes.
 
+use super::forced_motion::ForcedMotion;
 use super::solution::Solution;
 use super::trailer::Trailer;
 use crate::effects::Applied;
 use crate::error::{Error, Result};
 use crate::vehicles::Vehicle;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Where the measured pose sits on the body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -38,6 +40,9 @@ pub struct Model {
     pub inputs: Vec<String>,
     /// The effects the model includes.
     pub effects: Vec<Applied>,
+    /// The motion under forces, for a vehicle that has them; `None` where its contacts and inputs say how it moves.
+    #[doc(hidden)]
+    pub forced: Option<Arc<ForcedMotion>>,
     /// What has been found out about its constraints; `Default::default()` where there is nothing yet.
     pub solution: Solution,
 }
@@ -84,6 +89,7 @@ impl Model {
             sensor: Sensor::default(),
             inputs: found.inputs.keys().cloned().collect(),
             effects: vec![],
+            forced: None,
             solution: Solution::default(),
         })
     }

@@ -4,6 +4,7 @@ mod derived;
 mod energy;
 mod files;
 mod laws;
+mod lowered;
 mod sleigh;
 mod steering;
 mod vehicles;

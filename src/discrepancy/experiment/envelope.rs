@@ -102,7 +102,7 @@ fn input(model: &Model, role: &str) -> Option<Input> {
         Moves::LeftWheel => Input { speed: 1.0 / radius()?, turn: -half_track()? / radius()? },
         Moves::RightWheel => Input { speed: 1.0 / radius()?, turn: half_track()? / radius()? },
         Moves::OmniWheel => by_its_row(model, role)?,
-        Moves::Shape => return None,
+        Moves::Shape | Moves::Push => return None,
     })
 }
 

@@ -1,13 +1,15 @@
 //! A vehicle with masses, contacts and forces: all that its motion follows from.
 
 use super::bodies::{Body, bodies, castors, reference, rolling_rates, spinning, unprimed};
-use super::forces::{Force, forces};
-use super::masses::inertia_of;
-use super::{Contact, Masses, laws};
+use super::contact::Contact;
+use super::driving_force::{Force, forces};
+use super::law::laws;
+use super::masses::{Masses, inertia_of};
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Definitions, Mechanism};
-use crate::model::{Model, mechanism};
+use crate::model::constraints::mechanism;
+use crate::model::vehicle_model::Model;
 use std::collections::BTreeMap;
 
 /// The dynamics of a vehicle: coordinates, kinetic energy, contacts and forces, derived from its description.
@@ -37,10 +39,10 @@ pub struct Dynamics {
     pub contacts: Vec<Contact>,
     /// Coordinates whose motion is given: steering angles.
     pub prescribed: Vec<Symbol>,
-    pub(super) model: Model,
-    pub(super) bodies: Vec<Body>,
-    pub(super) driven: Vec<Force>,
-    pub(super) by_rate: bool,
+    pub(crate) model: Model,
+    pub(crate) bodies: Vec<Body>,
+    pub(crate) driven: Vec<Force>,
+    pub(crate) by_rate: bool,
     values: BTreeMap<Symbol, f64>,
 }
 
@@ -153,7 +155,7 @@ impl Dynamics {
     }
 
     /// The logged angles that the prescribed coordinates are made of.
-    pub(super) fn steering(&self) -> Vec<String> {
+    pub(crate) fn steering(&self) -> Vec<String> {
         let vehicle = &self.model.vehicle;
         let used = |q: &Symbol| vehicle.define.get(q).map(|d| d.formula.symbols()).unwrap_or_default();
         let symbols: Vec<Symbol> = self.prescribed.iter().flat_map(used).collect();
@@ -180,20 +182,20 @@ impl Dynamics {
     }
 
     /// Speed along and across the body at the reference point.
-    pub(super) fn speeds(&self) -> [Expr; 2] {
+    pub(crate) fn speeds(&self) -> [Expr; 2] {
         let body = crate::mechanism::Heading::along("phi");
         let v = reference(&self.model.vehicle);
         [v.along(&body).expr(), v.along(&body.left()).expr()]
     }
 
     /// Values of every symbol that does not move.
-    pub(super) fn values(&self) -> BTreeMap<Symbol, f64> {
+    pub(crate) fn values(&self) -> BTreeMap<Symbol, f64> {
         let laws = self.contacts.iter().enumerate().flat_map(|(i, c)| c.values(i + 1));
         self.values.clone().into_iter().chain(laws).collect()
     }
 
     /// Lengths and radii by the parameters they are made of.
-    pub(super) fn lengths(&self) -> Definitions {
+    pub(crate) fn lengths(&self) -> Definitions {
         let vehicle = &self.model.vehicle;
         let moves = |s: &Symbol| vehicle.inputs.contains_key(s.as_str());
         let mut found = Definitions::default();
@@ -211,6 +213,6 @@ impl Dynamics {
 }
 
 /// The rate of a steering input.
-pub(super) fn rate_role(angle: &str) -> String {
+pub(crate) fn rate_role(angle: &str) -> String {
     if angle.ends_with("angle") { angle.replace("angle", "rate") } else { format!("{angle}_rate") }
 }

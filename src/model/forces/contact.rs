@@ -1,6 +1,6 @@
 //! A contact with the ground: its slip, and the law of its force.
 
-use super::Law;
+use super::law::Law;
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Constraint, Part, Row};
 
@@ -20,7 +20,7 @@ pub struct Contact {
 }
 
 /// A constraint's name as a key: lower case, `-` between the words.
-pub(super) fn slug(name: &str) -> String {
+pub(crate) fn slug(name: &str) -> String {
     let words = name.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty());
     words.map(str::to_lowercase).collect::<Vec<_>>().join("-")
 }
@@ -48,12 +48,12 @@ impl Contact {
     }
 
     /// The force along the slip as a formula of rates, states and symbols of the law; `None` where it is ideal.
-    pub(super) fn force(&self, number: usize) -> Option<Expr> {
+    pub(crate) fn force(&self, number: usize) -> Option<Expr> {
         self.law.as_ref().map(|(law, _)| self.written(&law.force, law, number))
     }
 
     /// The state of its law, and the state's rate.
-    pub(super) fn memory(&self, number: usize) -> Option<(Symbol, Expr)> {
+    pub(crate) fn memory(&self, number: usize) -> Option<(Symbol, Expr)> {
         let (law, _) = self.law.as_ref()?;
         let rate = self.written(law.rate.as_ref()?, law, number);
         Some((Law::symbol("deflection", number), rate))

@@ -7,7 +7,7 @@ use crate::vehicles::Vehicle;
 
 /// A force or torque by the power it delivers: force times a linear form in the rates.
 #[derive(Clone, Debug)]
-pub(super) struct Force {
+pub(crate) struct Force {
     /// Its name as an input.
     pub role: String,
     /// The rate at which it does work, for each unit of it.
@@ -15,7 +15,7 @@ pub(super) struct Force {
 }
 
 /// The roles of forces and torques that may drive a vehicle, with unit and meaning.
-pub(super) fn roles(vehicle: &Vehicle) -> Vec<(String, &'static str, &'static str)> {
+pub(crate) fn roles(vehicle: &Vehicle) -> Vec<(String, &'static str, &'static str)> {
     let mut found = vec![("force".to_string(), "N", "force along the body at its centre of mass")];
     if !vehicle.line {
         found.push(("lateral_force".into(), "N", "force to the left at the centre of mass"));
@@ -46,6 +46,28 @@ fn torques(vehicle: &Vehicle) -> Vec<(String, Vec<Symbol>)> {
 /// The torque on a wheel whose rate is logged by that name.
 fn torque_for(rate: &str) -> String {
     if rate.contains("rate") { rate.replacen("rate", "torque", 1) } else { format!("{rate}_torque") }
+}
+
+/// A torque on a wheel about its axle.
+#[derive(Clone, Debug)]
+pub(super) struct Torque {
+    /// The rate of the wheel.
+    pub rate: Symbol,
+    /// The input that gives it, if any.
+    pub role: String,
+    /// How much of the input falls on this wheel.
+    pub share: Expr,
+}
+
+/// The torque of every wheel that rolls, driven or not.
+pub(super) fn wheel_torques(vehicle: &Vehicle) -> Vec<Torque> {
+    let shared = torques(vehicle);
+    let of = |rate: Symbol| {
+        let found = shared.iter().find(|(_, rates)| rates.contains(&rate));
+        let (role, among) = found.map_or((String::new(), 1), |(role, rates)| (role.clone(), rates.len()));
+        Torque { rate, role, share: &Expr::int(1) / &Expr::int(among as i64) }
+    };
+    rolling_rates(vehicle).into_iter().map(of).collect()
 }
 
 /// Every force that may drive a vehicle.

@@ -113,7 +113,7 @@ fn law(line: &Line) -> Law {
 
 impl Law {
     /// The symbol of a name of the law at the n-th contact, counted from one.
-    pub(super) fn symbol(name: &str, contact: usize) -> Symbol {
+    pub(crate) fn symbol(name: &str, contact: usize) -> Symbol {
         Symbol::new(&format!("contact_{contact}.{name}"))
     }
 }

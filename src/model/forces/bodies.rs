@@ -3,12 +3,12 @@
 use super::masses::{inertia_of, symbols};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Heading, Row, Velocity};
-use crate::model::axle_behind;
+use crate::model::constraints::behind as axle_behind;
 use crate::vehicles::Vehicle;
 
 /// A rigid body: the velocity of its centre of mass in two perpendicular directions, and its turning.
 #[derive(Clone, Debug)]
-pub(super) struct Body {
+pub(crate) struct Body {
     /// Components of the velocity of the centre of mass.
     pub velocity: [Row; 2],
     /// The rate of its heading; nothing on a line.
@@ -38,7 +38,7 @@ pub(super) fn bodies(vehicle: &Vehicle, trailers: usize) -> Vec<Body> {
     let mut axle = reference(vehicle);
     for i in 1..=trailers {
         axle = axle_behind(&axle, i);
-        found.push(rigid(i, &axle, &Heading::along(crate::model::trailer_heading(i))));
+        found.push(rigid(i, &axle, &Heading::along(crate::model::trailer::trailer_heading(i))));
     }
     found
 }
@@ -87,7 +87,7 @@ pub(super) fn rolling_rates(vehicle: &Vehicle) -> Vec<Symbol> {
 }
 
 /// The angles of the castors, each once.
-pub(super) fn castors(vehicle: &Vehicle) -> Vec<Symbol> {
+pub(crate) fn castors(vehicle: &Vehicle) -> Vec<Symbol> {
     once(vehicle.wheels.iter().filter_map(|w| w.steering.clone()).filter(|s| vehicle.is_free(s)))
 }
 

@@ -1,0 +1,33 @@
+//! The motion under forces as definitions: states, formulas and values that stand beside those of the vehicle.
+
+use crate::formula::Symbol;
+use crate::mechanism::Definitions;
+use std::collections::BTreeMap;
+
+/// The equations of motion of a vehicle with forces, lowered into definitions.
+///
+/// | symbol | unit | meaning |
+/// |---|---|---|
+/// | `body.u`, `body.w`, `body.omega` | m/s, rad/s | forward and sideways speed and yaw rate, where the ideal contacts leave them free |
+/// | `trailer_1.omega`, `theta.omega` | rad/s | the rates of a trailer's heading, of a wheel |
+/// | `contact_1.deflection` | m | the state of a law of contact |
+#[derive(Clone, Debug, Default)]
+pub struct ForcedMotion {
+    /// The states behind the pose, each with a definition of its rate.
+    pub(crate) states: Vec<Symbol>,
+    /// The quasi-velocities among them.
+    pub(crate) speeds: Vec<Symbol>,
+    /// Every formula of the motion.
+    pub(crate) definitions: Definitions,
+    /// Values of the symbols that a model file states.
+    pub(crate) values: BTreeMap<Symbol, f64>,
+    /// Angles that the inputs give, of which the motion asks the rate.
+    pub(crate) turned: Vec<Symbol>,
+    /// Symbols of the vehicle that its inputs define and the forces do not leave to them: rates of wheels.
+    pub(crate) freed: Vec<Symbol>,
+}
+
+/// The symbol of a value as the model file states it; the definition of the bare name may be rewritten by an effect.
+pub(crate) fn stated(name: &Symbol) -> Symbol {
+    Symbol::new(&format!("stated.{name}"))
+}

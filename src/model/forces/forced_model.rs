@@ -1,0 +1,67 @@
+//! A model that forces move: the vehicle with forces and torques for inputs, and its motion as definitions.
+
+use super::description::{Dynamics, rate_role};
+use super::driving_force::roles;
+use crate::error::Result;
+use crate::model::vehicle_model::Model;
+use crate::vehicles::{Input, Moves, Vehicle};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Names of the motion that no effect may rewrite: they are states, or follow from states.
+const HELD: [&str; 5] = ["v_d", "v_n", "v_l", "v_t", "phi'"];
+
+impl Dynamics {
+    /// The vehicle as a model: everything that reads a model reads its motion under forces.
+    ///
+    /// ```
+    /// use creepage::dynamics::{Dynamics, Masses};
+    /// use creepage::model::Model;
+    /// let disk = Model::new("disk", &[("wheel_radius", 0.5)]).unwrap();
+    /// let masses = Masses { mass: 2.0, wheels: [("theta'".into(), 0.25)].into(), ..Masses::default() };
+    /// let disk = Dynamics::new(&disk, &masses).unwrap().driven_by(&["wheel_torque"]).unwrap().model().unwrap();
+    /// let equations = disk.equations(&[]).unwrap();
+    /// let mut rates = [0.0; 4];
+    /// equations.rates(&mut equations.workspace(&[]), &[0.0; 4], &[1.5], &mut rates);
+    /// // A torque of 1.5 N·m on a disk that rolls: v' = (τ/r)/(m + J/r²) = 1 m/s².
+    /// assert!((rates[3] - 1.0).abs() < 1e-12);
+    /// ```
+    ///
+    /// # Errors
+    /// When nothing says how a coordinate accelerates, or the steering swings an ideal contact.
+    pub fn model(&self) -> Result<Model> {
+        let forced = self.lowered()?;
+        let vehicle = self.forced_vehicle(&forced.freed);
+        let inputs = self.inputs();
+        Ok(Model { vehicle, inputs, forced: Some(Arc::new(forced)), solution: Default::default(), ..self.model.clone() })
+    }
+
+    fn forced_vehicle(&self, freed: &[crate::formula::Symbol]) -> Vehicle {
+        let own = &self.model.vehicle;
+        let mut inputs = BTreeMap::new();
+        for (role, unit, meaning) in roles(own) {
+            if self.driven.iter().any(|f| f.role == role) {
+                let input =
+                    Input { unit: unit.into(), meaning: meaning.into(), moves: Some(Moves::Push), instead: None };
+                inputs.insert(role, input);
+            }
+        }
+        for angle in self.steering() {
+            let given = own.inputs[&angle].clone();
+            match self.by_rate {
+                true => {
+                    let meaning = format!("rate of the {}", given.meaning);
+                    let input = Input { unit: "rad/s".into(), meaning, moves: Some(Moves::Shape), instead: None };
+                    inputs.insert(rate_role(&angle), input);
+                }
+                false => {
+                    inputs.insert(angle, given);
+                }
+            }
+        }
+        let mut vehicle = Vehicle { inputs, instead: None, ..own.clone() };
+        vehicle.define.retain(|name, _| !freed.contains(name));
+        vehicle.held.extend(HELD.map(crate::formula::Symbol::from));
+        vehicle
+    }
+}

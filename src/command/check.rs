@@ -52,7 +52,6 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let progress = ProgressLine::new(quiet);
     progress.say("reading the runs");
     let (file, library) = &arguments.own.read(&arguments.model)?;
-    file.no_forces("check")?;
     Model::check_motion(file)?;
     let runs = runs::read(&arguments.runs, &arguments.apart.truth, "--truth", file)?;
     runs::distinct(&arguments.runs, &[])?;

@@ -87,7 +87,6 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let progress = ProgressLine::new(quiet);
     progress.say("reading the runs");
     let (file, library) = &arguments.own.read(&arguments.model)?;
-    file.no_forces("discover")?;
     Model::check_motion(file)?;
     let Arguments { runs, held_out, truth, held_out_truth, .. } = arguments;
     if truth.is_empty() && !held_out_truth.is_empty() {

@@ -67,7 +67,6 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let own = arguments.own_effects.as_deref();
     let model = creepage::Model::read_with(&arguments.model, arguments.vehicles.file(), own)?;
     let (file, library) = &model.into_parts();
-    file.no_forces("fit")?;
     Model::check_motion(file)?;
     if let Some(out) = &arguments.out {
         let inputs = arguments.runs.iter().chain(&arguments.apart.truth).chain([&arguments.model]);

@@ -53,7 +53,6 @@ pub fn discover(model: &Model, runs: &[Run]) -> Result<Discovery> {
 /// # Errors
 /// As [`discover`](crate::discover); when an effect of the options is unknown, or their listener stops the work.
 pub fn discover_with(model: &Model, runs: &[Run], options: &Options) -> Result<Discovery> {
-    model.file.no_forces("discover")?;
     VehicleModel::check_motion(&model.file)?;
     let library = options.effects_of(model)?;
     let request = Request {
@@ -99,7 +98,6 @@ pub fn check(model: &Model, runs: &[Run]) -> Result<Check> {
 /// # Errors
 /// As [`discover_with`](crate::discover_with).
 pub fn check_with(model: &Model, runs: &[Run], options: &Options) -> Result<Check> {
-    model.file.no_forces("check")?;
     VehicleModel::check_motion(&model.file)?;
     let library = options.effects_of(model)?;
     let of = Checked { file: &model.file, runs, library: &library };
@@ -125,7 +123,6 @@ pub fn check_with(model: &Model, runs: &[Run], options: &Options) -> Result<Chec
 /// # Errors
 /// As [`discover`](crate::discover), and when a name does not mean one effect of the vehicle.
 pub fn fit(model: &Model, runs: &[Run], effects: &[&str]) -> Result<Calibration> {
-    model.file.no_forces("fit")?;
     VehicleModel::check_motion(&model.file)?;
     let targets: Vec<Target> = effects.iter().map(|text| text.parse()).collect::<Result<_>>()?;
     let (file, library) = (&model.file, &model.library[..]);

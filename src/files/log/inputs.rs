@@ -50,9 +50,7 @@ impl Inputs {
     pub fn read(path: impl AsRef<Path>, model: &ModelFile) -> Result<Self> {
         let path = path.as_ref();
         let sheet = Log::open(path)?;
-        let mut columns = model.columns.clone();
-        // Under forces the motion of the wheels is what comes out.
-        columns.inputs = model.dynamics.as_ref().map_or(columns.inputs, |d| d.inputs.clone());
+        let columns = &model.columns;
         let is_whole = |r: &Resolved| r.y.is_some() && r.heading.is_some() && !sheet.has_topics();
         let whole = columns.resolve(sheet.header()).ok().filter(is_whole);
         let (time, inputs) = columns.resolve_inputs(sheet.header()).map_err(|e| sheet.at_header(e))?;

@@ -106,6 +106,12 @@ impl ModelFile {
         let parameters = Parameters::read(&top, &machine)?;
         let sections = machine.sections();
         let trailers = sections + parameters.trailer_lengths.len();
+        let dynamics = DynamicsEntry::read(&top, &machine, &parameters)?;
+        let mut columns = Columns::read(&top, &machine, trailers, &forced(&top, DynamicsEntry::roles(&machine)))?;
+        if let Some(entry) = &dynamics {
+            // Under forces the motion of the wheels is what comes out.
+            columns.inputs.clone_from(&entry.inputs);
+        }
         Ok(Self {
             path: source.path.to_path_buf(),
             text: text.to_string(),
@@ -115,8 +121,8 @@ impl ModelFile {
             description: machine.tractor.unwrap_or(machine.vehicle).description.clone(),
             sections,
             input_timing: InputTiming::read(&top)?,
-            dynamics: DynamicsEntry::read(&top, &machine, &parameters)?,
-            columns: Columns::read(&top, &machine, trailers, &forced(&top, DynamicsEntry::roles(&machine)))?,
+            dynamics,
+            columns,
             sensor: Sensor::read(&top)?,
             initial: Initial::read(
                 &top,

@@ -3,6 +3,7 @@
 use super::build::TIME;
 use super::equations::{Derived, Equations};
 use super::vehicle_model::Model;
+use super::freedom::{Freedom, Speed};
 use super::{observation, state};
 use crate::effects::{Scope, delaying};
 use crate::error::{Error, Result};
@@ -39,7 +40,13 @@ impl Model {
 
     /// How many states are free at the start of every window.
     fn nodes(&self) -> usize {
-        state::nodes(self.trailer_count()).len()
+        state::nodes(self.freedom()).len()
+    }
+
+    /// What of the vehicle is free at the start of every window.
+    pub(crate) fn freedom(&self) -> Freedom {
+        let speeds = self.forced.iter().flat_map(|forced| &forced.nodes).map(Speed::named).collect();
+        Freedom { trailers: self.trailer_count(), speeds }
     }
 
     /// The rates of the states, in their order.
@@ -147,8 +154,9 @@ impl Model {
             carried.map(|nodes| Ok::<_, Error>((live(&graph, &nodes, rates.len()), compile(&graph, &nodes)?)));
         let carried = carried.transpose()?;
         let jacobian = compile(&graph, &jacobian)?;
-        let outputs = observation::outputs(self.trailer_count());
-        let measured: Vec<NodeId> = outputs.map(|y| graph.insert(&Expr::sym(y.symbol()))).collect();
+        let speeds: &[Symbol] = self.forced.as_ref().map_or(&[], |forced| &forced.nodes);
+        let outputs = observation::outputs(self.freedom());
+        let measured: Vec<NodeId> = outputs.map(|y| graph.insert(&Expr::sym(y.symbol_among(speeds)))).collect();
         let measured = with_derivatives(&mut graph, &measured, &[&states[..visible], free].concat());
         let outputs = compile(&graph, &measured)?;
         let own = |role: &String| definitions.get(&delaying(role)).filter(|f| !f.is_zero()).cloned();
@@ -160,6 +168,7 @@ impl Model {
         let whole = Equations {
             states,
             visible,
+            poses: visible - speeds.len(),
             inputs,
             derived,
             edges,

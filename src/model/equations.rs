@@ -14,8 +14,11 @@ use crate::formula::{Isa, Lanes, Memory, Rows, Symbol};
 pub struct Equations {
     /// States: pose, trailer headings, hidden states.
     pub states: Vec<Symbol>,
-    /// How many of the states are measured (pose and trailer headings).
+    /// How many of the states are free at the start of a stretch of a log: pose, trailer headings, and speeds that forces
+    /// change and a second does not forget.
     pub visible: usize,
+    /// How many of those are a pose or the heading of a trailer.
+    pub poses: usize,
     /// Logged inputs, then those derived from the log.
     pub inputs: Vec<Symbol>,
     /// What the last of the inputs are.
@@ -65,6 +68,11 @@ impl Equations {
     /// Number of states.
     pub fn n(&self) -> usize {
         self.states.len()
+    }
+
+    /// Whether speeds are among the states that are free at the start of a stretch: forces change them.
+    pub fn has_speeds(&self) -> bool {
+        self.visible > self.poses
     }
 
     /// How many of the inputs a log gives.

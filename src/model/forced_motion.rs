@@ -13,6 +13,8 @@ use std::collections::BTreeMap;
 /// | `contact_1.deflection` | m | the state of a law of contact |
 #[derive(Clone, Debug, Default)]
 pub struct ForcedMotion {
+    /// Speeds that are free at the start of every window, the first of the states.
+    pub(crate) nodes: Vec<Symbol>,
     /// The states behind the pose, each with a definition of its rate.
     pub(crate) states: Vec<Symbol>,
     /// The quasi-velocities among them.
@@ -25,6 +27,16 @@ pub struct ForcedMotion {
     pub(crate) turned: Vec<Symbol>,
     /// Symbols of the vehicle that its inputs define and the forces do not leave to them: rates of wheels.
     pub(crate) freed: Vec<Symbol>,
+}
+
+impl ForcedMotion {
+    /// The same with these speeds free at the start of every window.
+    pub(crate) fn with_nodes(mut self, nodes: Vec<Symbol>) -> Self {
+        self.states.retain(|s| !nodes.contains(s));
+        self.states.splice(0..0, nodes.iter().cloned());
+        self.nodes = nodes;
+        self
+    }
 }
 
 /// The symbol of a value as the model file states it; the definition of the bare name may be rewritten by an effect.

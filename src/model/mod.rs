@@ -14,6 +14,7 @@ mod file;
 mod forced_motion;
 pub(crate) mod forces;
 mod free;
+pub mod freedom;
 pub mod observation;
 mod own;
 pub(crate) mod reference_speeds;

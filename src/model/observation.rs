@@ -1,5 +1,6 @@
 //! The observation: what is measured of a vehicle, output by output, and which noise the sensor adds to each.
 
+use super::freedom::{Freedom, Speed};
 use super::trailer::trailer_heading;
 use crate::formula::Symbol;
 
@@ -19,10 +20,17 @@ pub const HEADING: usize = 1;
 /// Of a trailer's heading.
 pub const TRAILER: usize = 2;
 
-const SENSOR_NOISE: [SensorNoise; 3] = [
+/// Of a speed of the body.
+pub const SPEED: usize = 3;
+/// Of a yaw rate, or the rate of a wheel.
+pub const RATE: usize = 4;
+
+const SENSOR_NOISE: [SensorNoise; 5] = [
     SensorNoise { id: "position", unit: "m" },
     SensorNoise { id: "heading", unit: "rad" },
     SensorNoise { id: "trailer-heading", unit: "rad" },
+    SensorNoise { id: "speed", unit: "m/s" },
+    SensorNoise { id: "rate", unit: "rad/s" },
 ];
 
 /// An output of a model.
@@ -42,6 +50,8 @@ enum Source {
     Definition(&'static str),
     /// The heading of a trailer, as it is.
     Trailer(usize),
+    /// One of the speeds that forces change, as it is.
+    Speed(usize),
 }
 
 /// What a sensor on the body measures.
@@ -57,12 +67,18 @@ pub const PLACE: [usize; 2] = [0, 1];
 pub const BODY_HEADING: usize = 2;
 
 impl Output {
-    /// The definition or state that it is.
-    pub fn symbol(&self) -> Symbol {
+    /// The definition or state that it is; `speeds` are the names of those that forces change.
+    pub fn symbol_among(&self, speeds: &[Symbol]) -> Symbol {
         match self.source {
             Source::Definition(name) => Symbol::from(name),
             Source::Trailer(i) => trailer_heading(i),
+            Source::Speed(i) => speeds[i].clone(),
         }
+    }
+
+    /// The definition or state that it is, of a vehicle whose inputs say how it moves.
+    pub fn symbol(&self) -> Symbol {
+        self.symbol_among(&[])
     }
 
     /// Its unit.
@@ -85,9 +101,16 @@ impl Output {
 /// assert_eq!(names, ["x_m", "y_m", "heading_m", "phi_1"]);
 /// assert_eq!(outputs(1).map(|y| y.unit()).collect::<Vec<_>>(), ["m", "m", "rad", "rad"]);
 /// ```
-pub fn outputs(trailers: usize) -> impl Iterator<Item = Output> {
+pub fn outputs(of: impl Into<Freedom>) -> impl Iterator<Item = Output> {
+    let of = of.into();
     let of_trailer = |i: usize| Output { source: Source::Trailer(i), is_angle: true, noise: TRAILER };
-    BODY.into_iter().chain((1..=trailers).map(of_trailer))
+    let trailers = (1..=of.trailers).map(of_trailer);
+    let speeds = (0..of.speeds.len()).map(move |i| Output {
+        source: Source::Speed(i),
+        is_angle: false,
+        noise: if matches!(of.speeds[i], Speed::Along | Speed::Across) { SPEED } else { RATE },
+    });
+    BODY.into_iter().chain(trailers).chain(speeds)
 }
 
 /// What a log has of a vehicle: which of its outputs have a column, and which of these a sensor measures.
@@ -103,17 +126,18 @@ pub fn outputs(trailers: usize) -> impl Iterator<Item = Output> {
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Observation {
-    trailers: usize,
+    freedom: Freedom,
     columns: Vec<usize>,
     measured: Vec<usize>,
 }
 
 impl Observation {
     /// Of a vehicle with so many trailers so many columns, in the order of the outputs; the body's heading may lack one.
-    pub fn new(trailers: usize, has_heading: bool, columns: usize) -> Self {
-        let all = (0..outputs(trailers).count()).filter(|i| has_heading || *i != BODY_HEADING);
+    pub fn new(of: impl Into<Freedom>, has_heading: bool, columns: usize) -> Self {
+        let freedom = of.into();
+        let all = (0..outputs(freedom.clone()).count()).filter(|i| has_heading || *i != BODY_HEADING);
         let columns: Vec<usize> = all.take(columns).collect();
-        Self { trailers, measured: columns.clone(), columns }
+        Self { freedom, measured: columns.clone(), columns }
     }
 
     /// The same where the columns of some outputs hold what is so by definition: they are known and not measured.
@@ -125,7 +149,12 @@ impl Observation {
 
     /// How many trailers the vehicle has, measured or not.
     pub fn trailers(&self) -> usize {
-        self.trailers
+        self.freedom.trailers
+    }
+
+    /// What of the vehicle is free at the start of every window.
+    pub fn freedom(&self) -> &Freedom {
+        &self.freedom
     }
 
     /// The outputs that have a column, column by column.
@@ -150,12 +179,12 @@ impl Observation {
 
     /// Whether the heading of a trailer has a column.
     pub fn measures_trailers(&self) -> bool {
-        self.measured.iter().any(|i| *i > BODY_HEADING)
+        self.measured.iter().any(|i| *i > BODY_HEADING && *i <= BODY_HEADING + self.freedom.trailers)
     }
 }
 
 /// The components of the measurement noise that these outputs have.
-pub fn sensor_noise(trailers: usize) -> &'static [SensorNoise] {
-    let last = outputs(trailers).map(|y| y.noise).max().unwrap_or(POSITION);
+pub fn sensor_noise(of: impl Into<Freedom>) -> &'static [SensorNoise] {
+    let last = outputs(of).map(|y| y.noise).max().unwrap_or(POSITION);
     &SENSOR_NOISE[..=last]
 }

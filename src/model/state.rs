@@ -1,5 +1,6 @@
 //! The states of a vehicle, and how windows treat each.
 
+use super::freedom::{Freedom, Speed};
 use super::observation::{HEADING, POSITION, TRAILER};
 use super::trailer::trailer_heading;
 use crate::formula::Symbol;
@@ -26,8 +27,9 @@ pub const ACROSS: usize = 1;
 /// The component of the process noise in yaw among [`JUMPS`].
 pub const YAW: usize = 2;
 
-/// The components of the process noise: along and across the body, in yaw, of trailers.
-pub const JUMPS: [Jump; 4] = [
+/// The components of the process noise: along and across the body, in yaw, of trailers; then those of the speeds that forces
+/// change.
+pub const JUMPS: [Jump; 9] = [
     Jump {
         id: "along",
         place: "rotation constraint",
@@ -53,7 +55,55 @@ pub const JUMPS: [Jump; 4] = [
         scale: TRAILER,
         is_shown_by_path: false,
     },
+    Jump {
+        id: "force-along",
+        place: "force along the body",
+        unit: "m/s",
+        rate_unit: "m/s^2",
+        scale: POSITION,
+        is_shown_by_path: true,
+    },
+    Jump {
+        id: "force-across",
+        place: "force across the body",
+        unit: "m/s",
+        rate_unit: "m/s^2",
+        scale: POSITION,
+        is_shown_by_path: true,
+    },
+    Jump {
+        id: "torque",
+        place: "torque on the body",
+        unit: "rad/s",
+        rate_unit: "rad/s^2",
+        scale: HEADING,
+        is_shown_by_path: true,
+    },
+    Jump {
+        id: "torque-of-trailer",
+        place: "torque on a trailer",
+        unit: "rad/s",
+        rate_unit: "rad/s^2",
+        scale: TRAILER,
+        is_shown_by_path: false,
+    },
+    Jump {
+        id: "torque-of-wheel",
+        place: "torque on a wheel",
+        unit: "rad/s",
+        rate_unit: "rad/s^2",
+        scale: HEADING,
+        is_shown_by_path: true,
+    },
 ];
+
+/// How many of the components are of poses.
+pub const OF_POSES: usize = 4;
+
+/// The component of the process noise of a speed among [`JUMPS`].
+fn jump_of(speed: Speed) -> usize {
+    OF_POSES + speed as usize
+}
 
 /// How windows treat a state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,20 +132,26 @@ const BODY: [Node; 3] =
     [Node { is_angle: false, jump: 0 }, Node { is_angle: false, jump: 1 }, Node { is_angle: true, jump: 2 }];
 const TRAILING: Node = Node { is_angle: true, jump: 3 };
 
-/// The nodes of a vehicle with so many trailers, in the order of the states: the pose, then headings of trailers.
+/// The nodes of a vehicle with so many trailers, in the order of the states: the pose, then headings of trailers, then
+/// speeds that forces change.
 ///
 /// ```
 /// use creepage::model::state::{JUMPS, nodes};
 /// let jumps: Vec<&str> = nodes(1).map(|node| JUMPS[node.jump].id).collect();
 /// assert_eq!(jumps, ["along", "across", "yaw", "trailer"]);
 /// ```
-pub fn nodes(trailers: usize) -> impl ExactSizeIterator<Item = Node> {
-    (0..BODY.len() + trailers).map(|i| BODY.get(i).copied().unwrap_or(TRAILING))
+pub fn nodes(of: impl Into<Freedom>) -> impl ExactSizeIterator<Item = Node> {
+    let of = of.into();
+    let poses = BODY.len() + of.trailers;
+    (0..poses + of.speeds.len()).map(move |i| match i.checked_sub(poses) {
+        None => BODY.get(i).copied().unwrap_or(TRAILING),
+        Some(k) => Node { is_angle: false, jump: jump_of(of.speeds[k]) },
+    })
 }
 
-/// The components of the process noise of these nodes.
-pub fn jumps(trailers: usize) -> &'static [Jump] {
-    let last = nodes(trailers).map(|node| node.jump).max().unwrap_or(0);
+/// The components of the process noise up to the last one that these nodes have.
+pub fn jumps(of: impl Into<Freedom>) -> &'static [Jump] {
+    let last = nodes(of).map(|node| node.jump).max().unwrap_or(0);
     &JUMPS[..=last]
 }
 

@@ -95,16 +95,16 @@ pub fn simulate_model(
 }
 
 fn names(equations: &Equations) -> Vec<String> {
-    let trailers = (1..=equations.visible - 3).map(|i| format!("trailer_heading_{i}"));
+    let trailers = (1..=equations.poses - 3).map(|i| format!("trailer_heading_{i}"));
     let pose = ["time", "x", "y", "heading"].map(String::from).into_iter().chain(trailers);
     let speeds = ["speed", "lateral_speed", "yaw_rate"].map(String::from);
-    let hidden = equations.states[equations.visible..].iter().map(ToString::to_string);
+    let hidden = equations.states[equations.poses..].iter().map(ToString::to_string);
     pose.chain(speeds).chain(hidden).collect()
 }
 
 fn row(t: f64, z: &[f64], u: &[f64], equations: &Equations, w: &mut Workspace, speeds: &Speeds) -> Result<Vec<f64>> {
-    let measured = &equations.outputs(w, z)[..equations.visible];
-    let row = [&[t], measured, &speeds.at(z, u), &z[equations.visible..]].concat();
+    let measured = &equations.outputs(w, z)[..equations.poses];
+    let row = [&[t], measured, &speeds.at(z, u), &z[equations.poses..]].concat();
     match row.iter().all(|v| v.is_finite()) {
         true => Ok(row),
         false => Err(Error::run(format!("the motion is undefined at t = {t}"))),

@@ -229,7 +229,7 @@ impl Program<'_> {
                 }
             }
         }
-        let trailers = self.shooting.equations.visible - 3;
+        let trailers = self.shooting.equations.poses - 3;
         for (bend, (k, i)) in
             self.bend.iter().flat_map(|b| (0..self.spans()).flat_map(move |k| (0..trailers).map(move |i| (b, (k, i)))))
         {

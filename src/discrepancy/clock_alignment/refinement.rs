@@ -119,7 +119,7 @@ impl<'a> Round<'a> {
         if aligned.time.len() < 2 {
             return Ok(None);
         }
-        let record = Record::of_run(&aligned, file.input_timing, model.trailer_count());
+        let record = Record::of_run(&aligned, file.input_timing, model.freedom());
         let (record, _) = without_gross_errors(&record, &model.fixed())?;
         let problem = Problem::new(vec![record], file.noise.position, file.noise.heading);
         if problem.windows() == 0 {

@@ -1,5 +1,6 @@
 //! The noise model: variances of the sensor (measurement noise) and of the jumps between windows (process noise).
 
+use crate::model::freedom::Freedom;
 use crate::model::{observation, state};
 use std::sync::Arc;
 
@@ -60,9 +61,10 @@ const LEAST_JUMP: f64 = 1e-3;
 impl NoiseModel {
     /// The noise of a vehicle with so many trailers. Jumps begin as large as the noise they are told by; what nothing
     /// shows is not estimated.
-    pub fn starting(trailers: usize, sensor: impl IntoIterator<Item = Start>) -> Self {
+    pub fn starting(of: impl Into<Freedom>, sensor: impl IntoIterator<Item = Start>) -> Self {
+        let of: Freedom = of.into();
         let starts: Vec<Start> = sensor.into_iter().collect();
-        let measured = observation::sensor_noise(trailers).iter().zip(&starts).map(|(of, start)| Component {
+        let measured = observation::sensor_noise(of.clone()).iter().zip(&starts).map(|(of, start)| Component {
             id: of.id,
             unit: of.unit,
             variance: start.variance,
@@ -70,17 +72,19 @@ impl NoiseModel {
             known: 0.0,
             scale: None,
         });
-        let jumps = state::jumps(trailers).iter().map(|jump| Component {
+        let used: Vec<&str> = state::nodes(of.clone()).map(|node| state::JUMPS[node.jump].id).collect();
+        let is_there = |jump: &state::Jump| used.contains(&jump.id);
+        let jumps = state::jumps(of.clone()).iter().map(|jump| Component {
             id: jump.id,
             unit: jump.unit,
             variance: starts[jump.scale].variance,
-            is_estimated: jump.is_shown_by_path || starts[jump.scale].is_measured,
+            is_estimated: is_there(jump) && (jump.is_shown_by_path || starts[jump.scale].is_measured),
             known: 0.0,
             scale: Some(jump.scale),
         });
         let components: Vec<Component> = measured.chain(jumps).collect();
-        let sensor = observation::sensor_noise(trailers).len();
-        let jumps = state::nodes(trailers).map(|node| node.jump).collect();
+        let sensor = observation::sensor_noise(of.clone()).len();
+        let jumps = state::nodes(of).map(|node| node.jump).collect();
         Self { components, sensor, jumps }
     }
 

@@ -11,6 +11,7 @@ use crate::discrepancy::shooting::windows::has_windows;
 use crate::discrepancy::shooting::windows::{Segment, WindowStates};
 use crate::error::Result;
 use crate::model::observation::{HEADING, PLACE, POSITION};
+use crate::model::freedom::Freedom;
 use crate::model::state::{ACROSS, YAW};
 use crate::model::{Model, observation};
 use crate::vehicles::Moves;
@@ -40,9 +41,9 @@ impl Problem {
             false => records,
         };
         let plan = windows::plan(&records);
-        let trailers = records.first().map_or(0, |r| r.trailers());
+        let freedom = records.first().map_or(Freedom::default(), |r| r.freedom().clone());
         let is_defined = !records.is_empty() && records.iter().all(|r| r.has_heading() && !r.measures_heading());
-        let starts = observation::sensor_noise(trailers).iter().enumerate().map(|(k, noise)| {
+        let starts = observation::sensor_noise(freedom.clone()).iter().enumerate().map(|(k, noise)| {
             let known = if noise.unit == "m" { position } else { heading };
             let given = (k == HEADING && is_defined).then_some(DEFINED);
             Start {
@@ -51,7 +52,7 @@ impl Problem {
                 is_known: known.is_some(),
             }
         });
-        let mut variances = NoiseModel::starting(trailers, starts);
+        let mut variances = NoiseModel::starting(freedom.clone(), starts);
         if !records.iter().any(|r| r.has_heading())
             && let Some(yaw) = yaw_told(&records, &plan, variances.measurement()[POSITION].variance)
         {

@@ -1,6 +1,7 @@
 //! The heading of a vehicle whose heading nothing measures, from where its model says it went.
 
 use super::hidden_states;
+use super::speed_fit::{self, SpeedFit};
 use crate::discrepancy::initial_state::pose::pose_of;
 use crate::discrepancy::record::angle::wrapped;
 use crate::discrepancy::record::run_record::Record;
@@ -217,6 +218,8 @@ pub struct MeasuredPose {
     pub measured: Vec<f64>,
     /// What the heading is taken from where none is measured.
     pub course: Option<PathHeading>,
+    /// The state by the rows around, of a vehicle whose speeds forces change.
+    pub speeds: Option<SpeedFit>,
 }
 
 impl MeasuredPose {
@@ -231,13 +234,19 @@ impl MeasuredPose {
         let course = (!record.has_heading()).then(|| heading_over(equations, record, row, span));
         if let Some(course) = &course {
             // Trailers that nothing measures follow straight.
-            measured[2..].iter_mut().enumerate().for_each(|(i, y)| {
+            measured[2..equations.poses].iter_mut().enumerate().for_each(|(i, y)| {
                 if i == 0 || i >= record.columns.len() - 1 {
                     *y = course.heading;
                 }
             });
         }
-        Self { measured, course }
+        // Where a prediction begins, what comes is not looked at.
+        let around = if span > 0.0 { speed_fit::BEFORE } else { speed_fit::AROUND };
+        let fit = speed_fit::speeds_at(equations, record, row, around);
+        if let Some(fit) = &fit {
+            measured[equations.poses..].copy_from_slice(&fit.state[equations.poses..equations.visible]);
+        }
+        Self { measured, course, speeds: fit }
     }
 
     /// How far the points reach that tell the heading, m; without end where it is measured.

@@ -5,3 +5,4 @@ pub mod heading_from_path;
 pub(crate) mod hidden_state_fit;
 pub mod hidden_states;
 pub mod pose;
+pub mod speed_fit;

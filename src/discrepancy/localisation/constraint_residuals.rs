@@ -15,7 +15,8 @@ use crate::discrepancy::shooting::windows::Segment;
 use crate::error::Result;
 use crate::model::Model;
 use crate::model::observation::{HEADING, POSITION, TRAILER};
-use crate::model::state::{JUMPS, Jump};
+use crate::model::freedom::Freedom;
+use crate::model::state::{JUMPS, Jump, OF_POSES, jumps, nodes};
 
 /// A stretch shorter than this share of the longest one is no motion to take a heading from.
 const HARDLY: f64 = 0.1;
@@ -68,12 +69,14 @@ impl ConstraintResiduals {
             let judged = |k: usize, l: &LinearisedWindow| !l.mismatch.is_empty() && shown(k) && shown(k + 1);
             for (k, line) in lines.iter().enumerate().filter(|(k, l)| judged(*k, l)) {
                 let t = |k: usize| record.time[segment.windows[k].start];
-                let window = window(line, [t(k), t(k + 1)], &placed[k].measured, &placed[k + 1].measured);
+                let window =
+                    window(line, record.freedom(), [t(k), t(k + 1)], [&placed[k].measured, &placed[k + 1].measured]);
                 found.windows.push(Window { row: segment.windows[k].start, ..window });
                 courses.extend(placed[k].course.as_ref().map(PathHeading::share));
             }
         }
-        found.noise = found.noise_of(record, &plan, &noise.variance, &courses);
+        let speeds = variances(placed.iter().flatten());
+        found.noise = found.noise_of(record, &plan, &noise.variance, (&courses, &speeds));
         if noise.correlation_time > 1.0 {
             let shown = found.noise_shown();
             found.noise.iter_mut().zip(shown).for_each(|(noise, shown)| *noise = noise.max(shown));
@@ -83,7 +86,13 @@ impl ConstraintResiduals {
 
     /// Smoothing noise at both ends of a window; a heading off by δ moves the end across by v·W·δ. One that is taken from
     /// the path has the noise of its positions, by the shares of `courses`.
-    fn noise_of(&self, record: &Record, plan: &[Segment], noise: &[f64], courses: &[f64]) -> Vec<f64> {
+    fn noise_of(
+        &self,
+        record: &Record,
+        plan: &[Segment],
+        noise: &[f64],
+        (courses, speeds): (&[f64], &[f64]),
+    ) -> Vec<f64> {
         let Some(segment) = plan.first().filter(|_| !self.windows.is_empty()) else { return vec![] };
         let count = self.windows.len() as f64;
         let i = segment.windows[segment.windows.len() / 2].start;
@@ -97,7 +106,18 @@ impl ConstraintResiduals {
         let rate = |variance: f64| (2.0 * variance).sqrt() / duration;
         let towed = noise.get(TRAILER).copied().unwrap_or(0.0);
         let [position, heading, trailer] = [share * noise[POSITION], turned, share * towed].map(rate);
-        vec![position, position.hypot(turned.sqrt() * speed), heading, trailer.hypot(heading)]
+        let mut found = vec![position, position.hypot(turned.sqrt() * speed), heading, trailer.hypot(heading)];
+        found.resize(JUMPS.len(), 0.0);
+        // A speed that is off at a start moves the end of the window, and the speed there.
+        let poses = nodes(record.trailers()).len();
+        for (k, node) in nodes(record.freedom().clone()).enumerate().skip(poses) {
+            let off = speeds.get(k).copied().unwrap_or(0.0);
+            if let Some(of_pose) = found[..OF_POSES].get_mut(node.jump - OF_POSES) {
+                *of_pose = of_pose.hypot(off.sqrt());
+            }
+            found[node.jump] = (2.0 * off).sqrt() / duration;
+        }
+        found
     }
 
     /// What the windows themselves show of the noise of their poses, whatever its colour: where a window ends in error
@@ -115,7 +135,7 @@ impl ConstraintResiduals {
         let follows = |w: &[Window]| w[1].span[0] == w[0].span[1];
         let pairs: Vec<&[Window]> = self.windows.windows(2).filter(|w| follows(w)).collect();
         let shown = |c: usize| {
-            let products = pairs.iter().filter(|w| c < w[0].rates.len()).map(|w| w[0].rates[c] * w[1].rates[c]);
+            let products = pairs.iter().filter(|_| self.has(c)).map(|w| w[0].rates[c] * w[1].rates[c]);
             (-2.0 * products.sum::<f64>() / pairs.len().max(1) as f64).max(0.0).sqrt()
         };
         (0..JUMPS.len()).map(shown).collect()
@@ -144,6 +164,11 @@ impl ConstraintResiduals {
 
     pub(crate) fn constraints(&self) -> usize {
         self.windows.first().map_or(0, |w| w.rates.len().min(JUMPS.len()))
+    }
+
+    /// Whether the vehicle has a component of the process noise.
+    pub(crate) fn has(&self, c: usize) -> bool {
+        self.windows.first().is_some_and(|w| w.rates.get(c).is_some_and(|rate| !rate.is_nan()))
     }
 
     /// Sums over the windows of the squares of the violated rates beyond their noise, of the measured motion and of the
@@ -214,13 +239,13 @@ impl ConstraintResiduals {
             after: rates(&after, c),
             noise: self.noise[c],
         };
-        (0..before.constraints()).map(picture).collect()
+        (0..before.constraints()).filter(|c| before.has(*c)).map(picture).collect()
     }
 
     /// Sum of squared violations of a constraint beyond what noise makes of them.
     pub fn excess_power(&self, place: &str) -> f64 {
         let Some(c) = JUMPS.iter().position(|jump: &Jump| jump.place == place) else { return 0.0 };
-        if c >= self.constraints() {
+        if !self.has(c) {
             return 0.0;
         }
         self.windows.iter().map(|w| w.rates[c].powi(2) - self.noise[c].powi(2)).sum()
@@ -229,7 +254,7 @@ impl ConstraintResiduals {
     /// Root mean square of a violated rate over all windows of some runs, and of what noise makes of it; `None` where no
     /// run has the constraint.
     pub fn rms(all: &[ConstraintResiduals], c: usize) -> Option<(f64, f64)> {
-        let of = || all.iter().filter(|v| c < v.constraints());
+        let of = || all.iter().filter(|v| v.has(c));
         let count = of().map(|v| v.windows.len()).sum::<usize>() as f64;
         let rate: f64 = of().flat_map(|v| &v.windows).map(|w| w.rates[c].powi(2)).sum();
         let noise: f64 = of().map(|v| v.windows.len() as f64 * v.noise[c].powi(2)).sum();
@@ -247,13 +272,27 @@ fn shows_heading(placed: &MeasuredPose, record: &Record, far: f64) -> bool {
     placed.course.as_ref().is_none_or(|c| c.is_told(record) && c.reach > HARDLY * far)
 }
 
-fn window(line: &LinearisedWindow, span: [f64; 2], from: &[f64], to: &[f64]) -> Window {
+/// The mean variances of pose and speeds where speeds are not measured; none where there are no such speeds.
+fn variances<'p>(placed: impl Iterator<Item = &'p MeasuredPose>) -> Vec<f64> {
+    let all: Vec<_> = placed.filter_map(|p| p.speeds.as_ref()).map(|fit| fit.covariance.diagonal()).collect();
+    let size = all.first().map_or(0, |d| d.len());
+    (0..size).map(|i| all.iter().map(|d| d[i]).sum::<f64>() / all.len() as f64).collect()
+}
+
+fn window(line: &LinearisedWindow, of: &Freedom, span: [f64; 2], [from, to]: [&[f64]; 2]) -> Window {
+    // By component of the process noise; the first node that has it counts.
+    let mut rates = vec![f64::NAN; jumps(of.clone()).len()];
+    for (node, m) in nodes(of.clone()).zip(&line.mismatch) {
+        if rates[node.jump].is_nan() {
+            rates[node.jump] = m / line.duration;
+        }
+    }
     let travelled = (to[0] - from[0]).hypot(to[1] - from[1]);
     Window {
         row: 0,
         middle: 0.5 * (span[0] + span[1]),
         span,
-        rates: line.mismatch.iter().map(|m| m / line.duration).collect(),
+        rates,
         speed: travelled / line.duration,
         yaw: wrapped(to[2] - from[2]) / line.duration,
     }

@@ -84,7 +84,7 @@ impl PreparedRun {
 
     /// A run that no model can be put to.
     pub fn as_it_is(run: &Run, model: &Model, timing: InputTiming) -> Self {
-        let record = Record::of_run(run, timing, model.trailer_count());
+        let record = Record::of_run(run, timing, model.freedom());
         let pieces = record.segments(0.0).len();
         Self { record, left_out: LeftOut::default(), pieces, defects: vec![], jumps: vec![], clock: None }
     }

@@ -49,7 +49,7 @@ fn of_run(file: &ModelFile, model: &Model, run: &Run) -> Result<Option<Slip>> {
         return Ok(None);
     }
     let Some(reckoning) = DeadReckoning::of(model, file.input_timing, run)? else { return Ok(None) };
-    let record = Record::of_run(run, file.input_timing, model.trailer_count());
+    let record = Record::of_run(run, file.input_timing, model.freedom());
     if record.step() > SPARSE {
         return Ok(None);
     }

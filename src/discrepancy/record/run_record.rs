@@ -6,6 +6,7 @@ use super::local_polynomial;
 use super::row_weights::RowWeights;
 use crate::files::{InputTiming, Run};
 use crate::model::observation::{self, BODY_HEADING, Observation, PLACE};
+use crate::model::freedom::{Freedom, Speed};
 use crate::motion::{Signals, Timing, timings};
 use crate::numerics::usual_step;
 use std::ops::Range;
@@ -87,8 +88,8 @@ impl Record {
         Self { name, time, columns, observation, weights, signals, input_noise, rows, known }
     }
 
-    /// A run as it was read, of a vehicle with some trailers.
-    pub fn of_run(run: &Run, timing: InputTiming, trailers: usize) -> Self {
+    /// A run as it was read, of a vehicle with some trailers, or with that freedom.
+    pub fn of_run(run: &Run, timing: InputTiming, of: impl Into<Freedom>) -> Self {
         let mut columns = vec![run.x.clone(), run.y.clone()];
         columns.extend(run.heading.clone());
         columns.extend(run.trailer_headings.iter().cloned());
@@ -96,7 +97,7 @@ impl Record {
         let input_noise = Arc::new(InputNoise::of(run.input_time(), &run.inputs, &timings(&run.differences, timing)));
         let defined = [(PLACE[1], run.defined.y), (BODY_HEADING, run.defined.heading)];
         let defined = defined.into_iter().filter_map(|(output, is_defined)| is_defined.then_some(output));
-        let observation = Observation::new(trailers, run.heading.is_some(), columns.len()).defining(defined);
+        let observation = Observation::new(of, run.heading.is_some(), columns.len()).defining(defined);
         let (name, time, rows) = (run.name.clone(), run.time.clone(), 0..run.time.len());
         let (weights, known) = (RowWeights::of_run(run), Known::default());
         Self { name, time, columns, observation, weights, signals, input_noise, rows, known }
@@ -141,7 +142,7 @@ impl Record {
 
     /// What each measured column is.
     pub fn channels(&self) -> Vec<Channel> {
-        let outputs: Vec<observation::Output> = observation::outputs(self.trailers()).collect();
+        let outputs: Vec<observation::Output> = observation::outputs(self.freedom().clone()).collect();
         let channel = |(column, i): (usize, &usize)| {
             let (output, of) = (*i, outputs[*i]);
             self.observation.measures(output).then_some(Channel {
@@ -167,6 +168,11 @@ impl Record {
     /// Trailers of the vehicle, measured or not.
     pub fn trailers(&self) -> usize {
         self.observation.trailers()
+    }
+
+    /// What of the vehicle is free at the start of every window.
+    pub fn freedom(&self) -> &Freedom {
+        self.observation.freedom()
     }
 
     /// The run up to a time and from it on, as shares of the whole duration.
@@ -216,7 +222,8 @@ impl Record {
         if !self.has_heading() {
             y.insert(BODY_HEADING, 0.0);
         }
-        y.resize(self.outputs(), y[BODY_HEADING]);
+        y.resize(self.outputs() - self.freedom().speeds.len(), y[BODY_HEADING]);
+        y.extend(self.speeds(i, y[BODY_HEADING]));
         y
     }
 
@@ -230,13 +237,31 @@ impl Record {
             y.insert(BODY_HEADING, self.course(i));
         }
         // A trailer that nothing measures is taken to follow straight.
-        y.resize(self.outputs(), y[BODY_HEADING]);
+        y.resize(self.outputs() - self.freedom().speeds.len(), y[BODY_HEADING]);
+        y.extend(self.speeds(i, y[BODY_HEADING]));
         y
+    }
+
+    /// Speeds that no column gives, by the slopes of those that are there; what no slope tells is zero.
+    fn speeds(&self, i: usize, heading: f64) -> Vec<f64> {
+        let of = &self.freedom().speeds;
+        let Some(weights) = (!of.is_empty()).then(|| self.course_weights(i)).flatten() else { return vec![0.0; of.len()] };
+        let slope = |c: usize| local_polynomial::value(&self.columns[c], &weights);
+        let (vx, vy, (sin, cos)) = (slope(PLACE[0]), slope(PLACE[1]), heading.sin_cos());
+        let mut trailers = (BODY_HEADING + usize::from(self.has_heading())..self.columns.len()).map(slope);
+        let one = |speed: &Speed| match speed {
+            Speed::Along => vx * cos + vy * sin,
+            Speed::Across => vy * cos - vx * sin,
+            Speed::Yaw if self.has_heading() => slope(BODY_HEADING),
+            Speed::Trailer => trailers.next().unwrap_or(0.0),
+            Speed::Yaw | Speed::Wheel => 0.0,
+        };
+        of.iter().map(one).collect()
     }
 
     /// How many outputs the equations have.
     fn outputs(&self) -> usize {
-        observation::outputs(self.trailers()).count()
+        observation::outputs(self.freedom().clone()).count()
     }
 
     /// The weights of the smoothing around a row.

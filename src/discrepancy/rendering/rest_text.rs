@@ -41,6 +41,10 @@ fn says(rest: &Rest) -> String {
         "rotation constraint" => "along the vehicle",
         "traverse constraint" => "across the vehicle",
         "yaw rate" => "in yaw",
+        "force along the body" => "by a force along the vehicle",
+        "force across the body" => "by a force across the vehicle",
+        "torque on the body" => "by a torque on the vehicle",
+        "torque on a wheel" => "by a torque on a wheel",
         _ => "at the trailers",
     };
     let during = match most.regime {

@@ -4,12 +4,13 @@ use super::windows::MARGIN;
 use crate::discrepancy::initial_state::heading_from_path::{MeasuredPose, PathHeading, heading_over, measured_at};
 use crate::discrepancy::initial_state::hidden_states;
 use crate::discrepancy::initial_state::pose::pose_of;
+use crate::discrepancy::initial_state::speed_fit;
 use crate::discrepancy::record::angle::wrapped;
 use crate::discrepancy::record::local_polynomial;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::record::sensor_noise::Noise;
 use crate::error::Result;
-use crate::model::observation::{BODY_HEADING, PLACE};
+use crate::model::observation::{BODY_HEADING, HEADING, PLACE, POSITION};
 use crate::model::{Equations, Model};
 use crate::motion::{LaneStates, LaneStepper, Signals, StateSensitivity, Stepper};
 use rand::SeedableRng;
@@ -97,6 +98,9 @@ impl<'a> Rollout<'a> {
     /// The state at the first of two rows, to be followed to the other: the smoothed pose and the carried hidden states.
     fn start(&self, i: usize, to: usize) -> Vec<f64> {
         let pose = MeasuredPose::over(&self.equations, self.record, i, self.record.time[to] - self.record.time[i]);
+        if let Some(fit) = pose.speeds {
+            return fit.state;
+        }
         let mut z = pose_of(&self.equations, &pose.measured);
         z.extend(self.hidden.get(i).into_iter().flatten());
         z
@@ -208,6 +212,9 @@ impl<'a> Rollout<'a> {
     ///
     /// `draws` says how often noise is drawn for each horizon.
     pub fn floors(&self, horizons: &[f64], draws: &[usize], noise: &Noise, seed: u64) -> Vec<PredictionError> {
+        if self.equations.visible > self.equations.poses {
+            return horizons.iter().map(|h| self.floor_of_speeds(*h, noise)).collect();
+        }
         let each: Vec<Vec<Restart>> = horizons.iter().map(|h| self.restarts(*h)).collect();
         let mut errors = vec![PredictionError::default(); horizons.len()];
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
@@ -218,6 +225,27 @@ impl<'a> Rollout<'a> {
             }
         }
         errors
+    }
+
+    /// As [`Rollout::floors`] of a vehicle whose speeds forces change, in closed form: what is predicted hangs on the rows
+    /// before it by S·(JᵀJ)⁻¹·Sᵀ, and what it is compared with has noise of its own.
+    fn floor_of_speeds(&self, horizon: f64, noise: &Noise) -> PredictionError {
+        let mut floor = PredictionError::default();
+        // The covariances are those of the noise that the rows show by themselves.
+        let scale = noise.variance[POSITION] / self.record.position_noise().powi(2) * noise.correlation_time;
+        let time = &self.record.time;
+        let mut stepper = Stepper::new(&self.equations, &self.record.signals, &[]);
+        for (from, to) in self.windows(horizon) {
+            let Some(fit) = speed_fit::speeds_at(&self.equations, self.record, from, speed_fit::BEFORE) else { continue };
+            let (first, begin) = &fit.first;
+            let mut arc = begin.clone();
+            (*first..to).for_each(|i| stepper.advance(&mut arc, time[i], time[i + 1]));
+            let spread = speed_fit::spread(&mut stepper, &arc, &fit.covariance_at_first);
+            let deviation = |i: usize, own: f64| (scale * spread[(i, i)] + own).sqrt();
+            let heading = self.record.measures_heading().then(|| deviation(BODY_HEADING, noise.variance[HEADING]));
+            floor.add(PLACE.map(|i| deviation(i, noise.variance[POSITION])), heading);
+        }
+        floor
     }
 
     /// By how much predictions move when the inputs are as noisy again.

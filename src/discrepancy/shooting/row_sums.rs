@@ -27,7 +27,7 @@ impl<const L: usize> NormalEquations<L> {
         let channels = record.channels();
         let width = columns + 1;
         let entries = |kind: usize| if channels.iter().any(|c| c.noise == kind) { width * (width + 1) / 2 } else { 0 };
-        let kinds = observation::sensor_noise(record.trailers()).len();
+        let kinds = observation::sensor_noise(record.freedom().clone()).len();
         Self {
             width,
             gram: (0..kinds).map(|kind| vec![[0.0; L]; entries(kind)]).collect(),
@@ -184,7 +184,7 @@ impl<const L: usize> NormalEquations<L> {
 
 /// The states that are free at the start of every window.
 fn nodes_of(record: &Record) -> impl ExactSizeIterator<Item = state::Node> {
-    state::nodes(record.trailers())
+    state::nodes(record.freedom().clone())
 }
 
 /// How many there are.

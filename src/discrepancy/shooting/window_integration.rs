@@ -38,6 +38,9 @@ pub fn each_window(
             false => along.side_by_side::<LANES>(0, &[], &mut take).map(|_| ()),
         };
     }
+    if equations.has_speeds() {
+        return along.side_by_side::<1>(0, &[first], &mut take).map(|_| ());
+    }
     // States that no sensor sees go from window to window. Where their motion does not ask for the pose they are
     // carried ahead by themselves; windows that find them elsewhere at their end than they were taken to be go alone.
     let ahead = along.ahead(&first).unwrap_or_default();
@@ -111,7 +114,7 @@ impl Along<'_> {
         windows: [usize; L],
         starts: [&StateSensitivity; L],
     ) -> [StateSensitivity; L] {
-        let mut arcs = started(carried.visible, stepper.columns(), |l| &self.starts[windows[l]], |l| starts[l]);
+        let mut arcs = started(carried, stepper.columns(), |l| &self.starts[windows[l]], |l| starts[l]);
         stepper.through(&mut arcs, &self.record.time, &windows.map(|k| self.windows[k].clone()));
         std::array::from_fn(|l| arcs.one(l).hidden(carried.visible))
     }
@@ -137,7 +140,7 @@ impl Along<'_> {
             let next = |l: usize| self.starts.get(k + l + 1).filter(|_| l < windows.len());
             let at = |l: usize| k + l.min(windows.len() - 1);
             let carried = |l: usize| if L == 1 { last.as_ref() } else { hidden.get(at(l)) }.unwrap_or(&none);
-            let mut arcs = started(visible, stepper.columns(), |l| &self.starts[at(l)], carried);
+            let mut arcs = started(self.equations, stepper.columns(), |l| &self.starts[at(l)], carried);
             let rows = std::array::from_fn(|l| windows.get(l).cloned().unwrap_or(0..0));
             let goes_on = std::array::from_fn(|l| next(l).is_some());
             sums.clear();
@@ -147,7 +150,10 @@ impl Along<'_> {
             for (l, rows) in rows.iter().enumerate().take(windows.len()) {
                 let arc = arcs.one(l);
                 take(sums.linear(l, record, rows, &arc, next(l))?)?;
-                let end = arc.hidden(visible);
+                let end = match (self.equations.has_speeds(), next(l)) {
+                    (true, Some(begin)) => hidden_states::moved_along(&arc, visible, begin),
+                    _ => arc.hidden(visible),
+                };
                 if L > 1 && hidden.get(k + l + 1).is_some_and(|taken| !taken.is_same(&end, visible)) {
                     return Some((k + l + 1, Some(end)));
                 }
@@ -161,17 +167,20 @@ impl Along<'_> {
 
 /// States that begin at poses, with the hidden states as they were carried there.
 fn started<'z, const L: usize>(
-    visible: usize,
+    equations: &Equations,
     k: usize,
     begin: impl Fn(usize) -> &'z Vec<f64>,
     hidden: impl Fn(usize) -> &'z StateSensitivity,
 ) -> LaneStates<L> {
+    let visible = equations.visible;
+    // What follows the speeds hangs on where they begin.
+    let first = if equations.has_speeds() { 0 } else { visible };
     let mut z: Vec<[f64; L]> = (0..visible).map(|i| std::array::from_fn(|l| begin(l)[i])).collect();
     z.extend((0..hidden(0).z.len()).map(|i| std::array::from_fn(|l| hidden(l).z[i])));
     let mut s = vec![[0.0; L]; z.len() * k];
     (0..visible).for_each(|i| s[i * k + i] = [1.0; L]);
     for i in visible..z.len() {
-        (visible..k).for_each(|c| s[i * k + c] = std::array::from_fn(|l| hidden(l).s[i * k + c]));
+        (first..k).for_each(|c| s[i * k + c] = std::array::from_fn(|l| hidden(l).s[i * k + c]));
     }
     LaneStates { z, s }
 }

@@ -2,7 +2,9 @@
 
 use super::description::{Dynamics, rate_role};
 use super::driving_force::roles;
+use super::slow_speeds::slow_speeds;
 use crate::error::Result;
+use crate::model::forced_motion::ForcedMotion;
 use crate::model::vehicle_model::Model;
 use crate::vehicles::{Input, Moves, Vehicle};
 use std::collections::BTreeMap;
@@ -31,9 +33,16 @@ impl Dynamics {
     /// When nothing says how a coordinate accelerates, or the steering swings an ideal contact.
     pub fn model(&self) -> Result<Model> {
         let forced = self.lowered()?;
-        let vehicle = self.forced_vehicle(&forced.freed);
-        let inputs = self.inputs();
-        Ok(Model { vehicle, inputs, forced: Some(Arc::new(forced)), solution: Default::default(), ..self.model.clone() })
+        let (vehicle, inputs) = (self.forced_vehicle(&forced.freed), self.inputs());
+        let of = |forced: ForcedMotion| Model {
+            vehicle: vehicle.clone(),
+            inputs: inputs.clone(),
+            forced: Some(Arc::new(forced)),
+            solution: Default::default(),
+            ..self.model.clone()
+        };
+        let nodes = slow_speeds(&of(forced.clone()), &forced)?;
+        Ok(of(forced.with_nodes(nodes)))
     }
 
     fn forced_vehicle(&self, freed: &[crate::formula::Symbol]) -> Vehicle {

@@ -167,6 +167,7 @@ impl Dynamics {
         let own = self.model.values();
         let values = self.values().into_iter().filter(|(name, _)| !own.contains_key(name));
         ForcedMotion {
+            nodes: vec![],
             states,
             speeds: forms.speeds.clone(),
             definitions: d,

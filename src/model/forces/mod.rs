@@ -25,6 +25,7 @@ mod lowering;
 mod masses;
 mod quasi_velocities;
 mod rate_forms;
+mod slow_speeds;
 mod time_derivative;
 
 pub(crate) use bodies::castors;

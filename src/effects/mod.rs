@@ -1,4 +1,5 @@
-//! The effects that may be missing from a model: data. To add one, add it to `catalogue.toml`;
+//! The effects that may be missing from a model: data. To add one, add it to `catalogue.toml`, or to
+//! `forces.toml` where forces move the vehicle;
 //! a user adds one without recompiling, see [`extensions`](crate::extensions).
 
 mod applied;
@@ -25,9 +26,12 @@ struct Catalogue {
 }
 
 static CATALOGUE: LazyLock<Vec<Effect>> = LazyLock::new(|| {
-    let parsed: Result<Catalogue, _> = toml::from_str(include_str!("catalogue.toml"));
-    // The text is part of the program; a test reads every entry.
-    let mut effects = parsed.unwrap_or_else(|e| unreachable!("the catalogue of effects is malformed: {e}")).effect;
+    let texts = [include_str!("catalogue.toml"), include_str!("forces.toml")];
+    // The texts are part of the program; a test reads every entry.
+    let read = |text: &str| -> Catalogue {
+        toml::from_str(text).unwrap_or_else(|e| unreachable!("the catalogue of effects is malformed: {e}"))
+    };
+    let mut effects: Vec<Effect> = texts.into_iter().flat_map(|text| read(text).effect).collect();
     effects.iter_mut().enumerate().for_each(|(i, e)| e.order = i);
     effects
 });

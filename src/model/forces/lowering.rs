@@ -274,8 +274,11 @@ impl Dynamics {
         }
         for i in 1..=self.model.trailers.len() {
             // Along the trailer, at its axle.
-            let name = format!("trailer_{i}.force_ahead");
-            d.define(name.as_str(), Expr::int(0));
+            let [name, drag] = ["force_ahead", "drag"].map(|what| format!("trailer_{i}.{what}"));
+            let [mass, _, _] = symbols(i).map(Expr::sym);
+            d.define(drag.as_str(), Expr::int(0));
+            let braking = &(&Expr::sym(drag.as_str()) * &mass) * &Expr::sym(Symbol::new(&format!("v_{i}")));
+            d.define(name.as_str(), -&braking);
             add(&name, &Row::as_written(vec![(Symbol::new(&format!("v_{i}")), Expr::int(1))]), forms);
         }
         for (i, Torque { rate, role, share }) in wheel_torques(&self.model.vehicle).into_iter().enumerate() {
@@ -283,15 +286,25 @@ impl Dynamics {
             d.define(drag.as_str(), Expr::int(0));
             d.define(rub.as_str(), Expr::int(0));
             let applied = times(&share, &driven(&role));
-            let turn = Expr::sym(rate.clone());
-            // Coulomb's law, smooth within a hundredth of a radian per second.
-            let sign = Expr::parse("tanh(100*w)").unwrap_or_default();
-            let sign = sign.substitute(&|s| (s.as_str() == "w").then(|| turn.clone()));
-            let lost = &(&Expr::sym(drag.as_str()) * &turn) + &(&Expr::sym(rub.as_str()) * &sign);
-            d.define(torque.as_str(), &applied - &lost);
+            d.define(torque.as_str(), &applied - &self.lost_torque(&rate, [&drag, &rub]));
             add(&torque, &Row::as_written(vec![(rate, Expr::int(1))]), forms);
         }
         push
+    }
+
+    /// What the drive of a wheel loses: in proportion to its rate, as by a back-EMF, and by dry friction, each for the weight
+    /// of the body at the radius of the wheel; dry friction is smooth within a hundredth of a metre per second.
+    fn lost_torque(&self, rate: &Symbol, [drag, rub]: [&String; 2]) -> Expr {
+        let wheels = &self.model.vehicle.wheels;
+        let radius = wheels.iter().find(|w| w.rate.as_ref() == Some(rate)).and_then(|w| w.radius.clone());
+        let formula = Expr::parse("body.mass*r*(drag*r*w + 9.81*rub*tanh(100*r*w))").unwrap_or_default();
+        formula.substitute(&|s| match s.as_str() {
+            "r" => radius.clone().map(Expr::sym),
+            "w" => Some(Expr::sym(rate.clone())),
+            "drag" => Some(Expr::sym(drag.as_str())),
+            "rub" => Some(Expr::sym(rub.as_str())),
+            _ => None,
+        })
     }
 
     /// The force of a contact with a law, and what it does; its state where it has one.
@@ -315,7 +328,10 @@ impl Dynamics {
         d.define(name("speed"), contact.speed.expr());
         let grip = self.grip(number);
         d.define(grip.clone(), Expr::int(1));
-        d.define(name("force"), &Expr::sym(grip) * &written(&law.force));
+        let side = if contact.letter == 'R' { "drive_force" } else { "side_force" };
+        let along = Symbol::new(&format!("{side}_{number}"));
+        d.define(along.clone(), &Expr::sym(grip) * &written(&law.force));
+        d.define(name("force"), Expr::sym(along));
         for (push, c) in push.iter_mut().zip(forms.of(&contact.slip)) {
             push.push(times(&c.value, &Expr::sym(name("force"))));
         }

@@ -33,6 +33,8 @@ pub mod planning {}
 pub mod symmetry {}
 #[doc = include_str!("../theory/10-viscous.md")]
 pub mod viscous {}
+#[doc = include_str!("../theory/10a-creep-dynamics.md")]
+pub mod creep_dynamics {}
 #[doc = include_str!("../theory/10-open.md")]
 pub mod open {}
 #[doc = include_str!("../CONTRIBUTING.md")]

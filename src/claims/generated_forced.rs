@@ -78,6 +78,11 @@ impl Pushed {
         ]
     }
 
+    /// The coefficient of its friction.
+    pub fn friction(&self) -> f64 {
+        self.friction
+    }
+
     /// It with viscous friction in every contact, or with ideal ones.
     pub fn dynamics(&self, friction: Option<f64>) -> Result<Dynamics> {
         let (vehicle, parameters, forces) = VEHICLES[self.vehicle];

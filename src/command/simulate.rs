@@ -111,6 +111,15 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let integrator = even_steps(integrator, &inputs.time)?;
     let (signals, start) = begun(file, &inputs);
     let table = match (&file.dynamics, chosen) {
+        (Some(entry), _) if !file.effects.is_empty() => {
+            let model = Model::from_file(file, library, &inputs.roles)?;
+            // Friction may be stiff.
+            let method = if entry.friction.is_empty() { integrator.method } else { Method::Radau5 };
+            let integrator = Integrator { method: chosen.map_or(method, |_| integrator.method), ..integrator };
+            let pose: Vec<f64> = [start.x, start.y, start.heading].into_iter().chain(start.trailer_headings).collect();
+            let speeds = model.speeds_at_start(entry);
+            simulate_model(&model, &signals, &inputs.time, &[pose, speeds].concat(), &integrator)?
+        }
         (Some(_), None) => simulate_file(file, &signals, &inputs.time, &start, &integrator)?,
         (Some(_), Some(_)) => simulate_file_by(file, &signals, &inputs.time, &start, &integrator)?,
         (None, _) => {

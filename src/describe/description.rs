@@ -86,6 +86,8 @@ impl Description {
     /// # Errors
     /// As [`Description::of`] and [`Structure::of_measuring`].
     pub fn of_measuring(model: &Model, also: &[Symbol]) -> Result<Self> {
+        // What is described is the constraints; forces are not among them.
+        let model = &model.kinematic();
         if model.trailers.len() > MAX_TRAILERS {
             let found = model.trailers.len();
             return Err(Error::input(format!("{found} trailers are too many to write out"))

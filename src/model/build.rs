@@ -1,7 +1,7 @@
 //! The definitions of a model: constraints solved for the motion, effects applied.
 
-use super::forced_motion::ForcedMotion;
 use super::constraints::{behind, moving, section_heading, trailer_creep, trailer_direction, trailer_lengths};
+use super::forced_motion::ForcedMotion;
 use super::reference_speeds::REFERENCE;
 use super::trailer::trailer_heading;
 use super::vehicle_model::Model;
@@ -12,8 +12,7 @@ use crate::mechanism::{Definitions, solve};
 use std::collections::BTreeSet;
 
 /// The velocity of the reference point in the world.
-const WORLD: [(&str, &str); 2] =
-    [("x'", "v_l*cos(phi) - v_t*sin(phi)"), ("y'", "v_l*sin(phi) + v_t*cos(phi)")];
+const WORLD: [(&str, &str); 2] = [("x'", "v_l*cos(phi) - v_t*sin(phi)"), ("y'", "v_l*sin(phi) + v_t*cos(phi)")];
 
 /// A formula of this file; a malformed one would be a fault of the program, seen by every test.
 fn formula(text: &str) -> Expr {

@@ -2,8 +2,8 @@
 
 use super::build::TIME;
 use super::equations::{Derived, Equations};
-use super::vehicle_model::Model;
 use super::freedom::{Freedom, Speed};
+use super::vehicle_model::Model;
 use super::{observation, state};
 use crate::effects::{Scope, delaying};
 use crate::error::{Error, Result};

@@ -2,6 +2,7 @@
 
 use crate::formula::Symbol;
 use crate::mechanism::Definitions;
+use crate::vehicles::Vehicle;
 use std::collections::BTreeMap;
 
 /// The equations of motion of a vehicle with forces, lowered into definitions.
@@ -13,6 +14,8 @@ use std::collections::BTreeMap;
 /// | `contact_1.deflection` | m | the state of a law of contact |
 #[derive(Clone, Debug, Default)]
 pub struct ForcedMotion {
+    /// The vehicle whose inputs say how it moves, and those inputs.
+    pub(crate) kinematic: (Vehicle, Vec<String>),
     /// Speeds that are free at the start of every window, the first of the states.
     pub(crate) nodes: Vec<Symbol>,
     /// The states behind the pose, each with a definition of its rate.

@@ -5,6 +5,7 @@ use super::solution::Solution;
 use super::trailer::Trailer;
 use crate::effects::Applied;
 use crate::error::{Error, Result};
+use crate::formula::Symbol;
 use crate::vehicles::Vehicle;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -107,6 +108,17 @@ impl Model {
     pub fn fixed(&self) -> Self {
         let fixed = |e: &Applied| Applied { free: false, ..e.clone() };
         Self { effects: self.effects.iter().map(fixed).collect(), ..self.clone() }
+    }
+
+    /// The same vehicle moved by its inputs where forces move it, with those effects that it then has.
+    pub fn kinematic(&self) -> Self {
+        let Some(forced) = &self.forced else { return self.clone() };
+        let (vehicle, inputs) = forced.kinematic.clone();
+        let bare =
+            Self { vehicle, inputs, effects: vec![], forced: None, solution: Solution::default(), ..self.clone() };
+        let names: Vec<Symbol> = bare.bare_definitions().iter().map(|(name, _)| name.clone()).collect();
+        let applies = |e: &&Applied| bare.targets(&e.effect, e.trailer, &names).is_some();
+        Self { effects: self.effects.iter().filter(applies).cloned().collect(), ..bare }
     }
 
     /// How many trailers it has: those that are a part of the vehicle, then those behind it.

@@ -232,8 +232,12 @@ fn init_begins_a_file_for_a_vehicle_of_ones_own() {
 fn what_knows_no_forces_refuses_them() {
     let folder = tempfile::tempdir().unwrap();
     let model = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/dynamics/car.toml");
-    for command in ["discover", "check"] {
-        let output = creepage(folder.path(), &[command, &example("steering/eights.csv"), "--model", model]);
+    for (command, more) in [
+        ("plan", &["--goal", "1,0,0", "--out", "plan.csv"][..]),
+        ("track", &["--goal", "1,0,0", "--out", "drives"]),
+        ("export", &["--as", "python", "--out", "model.py"]),
+    ] {
+        let output = creepage(folder.path(), &[&[command, model][..], more].concat());
         let said = text(&output.stderr);
         assert!(output.status.code() == Some(2) && said.contains(":6:1: "), "{said}");
         assert!(said.contains(&format!("{command} knows no forces: [dynamics]")), "{said}");

@@ -2,9 +2,10 @@
 
 use crate::models::{self, machines, machines_with_effects, reviewed, reviewed_as_text, still, with_each_effect};
 use creepage::describe::{self, Description};
+use creepage::dynamics::{Dynamics, Masses, TrailerMass};
 use creepage::effects::{self, Applied};
 use creepage::formula::{Expr, Symbol, Unit};
-use creepage::model::Model;
+use creepage::model::{Model, Trailer};
 use creepage::vehicles;
 use rayon::prelude::*;
 use serde_json::Value;
@@ -322,11 +323,43 @@ fn the_catalogues_parse_and_hold_these_entries() {
         "input-dead-band",
         "input-saturation",
         "castor-swing",
+        "mass",
+        "inertia",
+        "mass-centre-ahead",
+        "mass-centre-aside",
+        "drive-gain",
+        "back-emf",
+        "drive-friction",
+        "rolling-resistance",
+        "viscous-drag",
+        "air-drag",
+        "turning-drag",
+        "hill",
+        "traction",
+        "cornering-stiffness-rear",
+        "cornering-stiffness-front",
+        "side-grip-limit",
+        "traction-limit",
+        "trailer-mass",
+        "trailer-drag",
+        "trailer-cornering-stiffness",
     ];
     assert_eq!(ids, expected);
     // An effect on one input is one of a vehicle only once the input is named.
     for e in effects::all().iter().filter(|e| !e.per_input) {
         assert!(e.parameters.values().all(|p| Unit::parse(&p.unit).is_some() && p.range[0] < p.range[1]), "{}", e.id);
-        assert!(machines().iter().any(|m| !m.applicable(std::slice::from_ref(e)).is_empty()), "{}", e.id);
+        let applies = |m: &Model| !m.applicable(std::slice::from_ref(e)).is_empty();
+        assert!(machines().iter().any(applies) || applies(&forced_train()), "{}", e.id);
     }
+}
+
+/// A car with a trailer that forces move, every contact viscous.
+fn forced_train() -> Model {
+    let car = Model::new("car", &[("wheel_radius", 0.3), ("wheelbase", 2.6)]).unwrap();
+    let car = car.with_trailers(&[Trailer { length: 2.0, hitch: 0.3 }]);
+    let wheels = [("theta'".into(), 2.0)].into();
+    let trailers = vec![TrailerMass { mass: 500.0, inertia: 600.0, mass_offset: 0.2 }];
+    let masses = Masses { mass: 1200.0, inertia: 1500.0, mass_offset: 1.2, wheels, trailers, ..Masses::default() };
+    let car = Dynamics::new(&car, &masses).unwrap().driven_by(&["wheel_torque"]).unwrap();
+    car.with_laws("viscous", &[2e4]).unwrap().model().unwrap()
 }

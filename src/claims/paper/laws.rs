@@ -5,7 +5,7 @@ use crate::dynamics::laws;
 use crate::formula::{Expr, Symbol};
 
 const CHAPTER: &str = "10-viscous";
-const LAWS: &str = "src/dynamics/law.rs";
+const LAWS: &str = "src/model/forces/law.rs";
 const TESTS: &str = "tests/dynamics/laws.rs";
 
 pub(crate) fn claims() -> Vec<Claim> {

@@ -2,6 +2,7 @@
 
 mod blade;
 mod compiled_derivatives;
+mod creep_dynamics;
 mod direction;
 mod domain;
 mod dual_numbers;
@@ -74,6 +75,7 @@ pub fn all() -> Vec<Claim> {
         symmetry_creep::claims(),
         laws::claims(),
         power::claims(),
+        creep_dynamics::claims(),
         viscous::claims(),
         viscous_limit::claims(),
         sentences::claims(),

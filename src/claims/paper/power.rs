@@ -83,7 +83,7 @@ fn energy_falls() -> Claim {
              without creep the sum is constant, as the paper says.",
         )
         .chapter(CHAPTER)
-        .code(&["src/dynamics/derive.rs", "src/dynamics/bodies.rs", "src/dynamics/contact.rs"])
+        .code(&["src/dynamics/derive.rs", "src/model/forces/bodies.rs", "src/model/forces/contact.rs"])
         .tests(&["tests/dynamics/energy.rs"])
         .refutation("a disk that slips", &[("E'", "0")], &[("E'", "-b_R*v_A^2")], proving(slipping))
         .proof("one wheel", &[("E'", "-b_R*v_A^2 - b_T*v_t^2")], proving(wheel))

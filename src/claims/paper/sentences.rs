@@ -32,7 +32,7 @@ fn flexibility() -> Claim {
     .under("v > 0; the elastic law, a spring that the rolling contact carries away, when its deflection no longer changes")
     .remark("The stiffer, the less creep; what rolls does not return what it deflected, so that even an elastic cause displaces the vehicle for good. The torsion of Fig. 3 and the bending of Fig. 5 are such softness; the shape of a wheel under them is drawn, and the paper prints no equation of it.")
     .chapter("10-viscous")
-    .code(&["src/dynamics/law.rs"])
+    .code(&["src/model/forces/law.rs"])
     .tests(&["tests/dynamics/laws.rs"])
     .sample(
         "the force of the spring, and that its deflection stays where the contact slides with e_tc·v",

@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 use crate::formula::{Expr, Normal, Symbol};
 
 pub(crate) const CHAPTER: &str = "10-viscous";
-const CODE: &[&str] = &["src/dynamics/derive.rs", "src/dynamics/bodies.rs", "src/dynamics/contact.rs"];
+const CODE: &[&str] = &["src/dynamics/derive.rs", "src/model/forces/bodies.rs", "src/model/forces/contact.rs"];
 
 pub(crate) fn claims() -> Vec<Claim> {
     vec![disk(), disk_ideal(), sleigh(), caplygin(), slow_creep(), constant_creep()]

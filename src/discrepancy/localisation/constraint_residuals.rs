@@ -14,8 +14,8 @@ use crate::discrepancy::shooting::windows;
 use crate::discrepancy::shooting::windows::Segment;
 use crate::error::Result;
 use crate::model::Model;
-use crate::model::observation::{HEADING, POSITION, TRAILER};
 use crate::model::freedom::Freedom;
+use crate::model::observation::{HEADING, POSITION, TRAILER};
 use crate::model::state::{JUMPS, Jump, OF_POSES, jumps, nodes};
 
 /// A stretch shorter than this share of the longest one is no motion to take a heading from.
@@ -138,7 +138,7 @@ impl ConstraintResiduals {
             let products = pairs.iter().filter(|_| self.has(c)).map(|w| w[0].rates[c] * w[1].rates[c]);
             (-2.0 * products.sum::<f64>() / pairs.len().max(1) as f64).max(0.0).sqrt()
         };
-        (0..JUMPS.len()).map(shown).collect()
+        (0..self.constraints().max(OF_POSES)).map(shown).collect()
     }
 
     /// The violations along several runs, beside jumps that are known.

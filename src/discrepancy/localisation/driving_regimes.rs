@@ -110,7 +110,10 @@ fn regime(v: &ConstraintResiduals, c: usize) -> DrivingRegime {
 /// Where the model disagrees with the measurements by more than their noise: run by run, constraint by constraint,
 /// from the first to the last window that stands out, with its share of the whole disagreement.
 pub fn disagreements(violations: &[ConstraintResiduals]) -> Vec<Stretch> {
-    let total: f64 = violations.iter().map(|v| (0..v.constraints()).filter(|c| v.has(*c)).map(|c| v.chi_squared(c)).sum::<f64>()).sum();
+    let total: f64 = violations
+        .iter()
+        .map(|v| (0..v.constraints()).filter(|c| v.has(*c)).map(|c| v.chi_squared(c)).sum::<f64>())
+        .sum();
     let mut found = Vec::new();
     for v in violations {
         for (c, jump) in JUMPS.iter().enumerate().filter(|(c, _)| v.has(*c)) {

@@ -5,8 +5,8 @@ use super::input_noise::InputNoise;
 use super::local_polynomial;
 use super::row_weights::RowWeights;
 use crate::files::{InputTiming, Run};
-use crate::model::observation::{self, BODY_HEADING, Observation, PLACE};
 use crate::model::freedom::{Freedom, Speed};
+use crate::model::observation::{self, BODY_HEADING, Observation, PLACE};
 use crate::motion::{Signals, Timing, timings};
 use crate::numerics::usual_step;
 use std::ops::Range;
@@ -245,7 +245,9 @@ impl Record {
     /// Speeds that no column gives, by the slopes of those that are there; what no slope tells is zero.
     fn speeds(&self, i: usize, heading: f64) -> Vec<f64> {
         let of = &self.freedom().speeds;
-        let Some(weights) = (!of.is_empty()).then(|| self.course_weights(i)).flatten() else { return vec![0.0; of.len()] };
+        let Some(weights) = (!of.is_empty()).then(|| self.course_weights(i)).flatten() else {
+            return vec![0.0; of.len()];
+        };
         let slope = |c: usize| local_polynomial::value(&self.columns[c], &weights);
         let (vx, vy, (sin, cos)) = (slope(PLACE[0]), slope(PLACE[1]), heading.sin_cos());
         let mut trailers = (BODY_HEADING + usize::from(self.has_heading())..self.columns.len()).map(slope);

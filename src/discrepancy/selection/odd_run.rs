@@ -135,7 +135,8 @@ impl Asked<'_> {
     /// What a model leaves of the run, in units of its noise.
     fn rest_of(&self, fit: &Fit) -> Result<f64> {
         let residuals = self.alone.violations(&fit.model, &fit.noise())?;
-        let beyond = |v: &ConstraintResiduals| (0..v.constraints()).filter(|c| v.has(*c)).map(|c| v.chi_squared(c)).sum::<f64>();
+        let beyond =
+            |v: &ConstraintResiduals| (0..v.constraints()).filter(|c| v.has(*c)).map(|c| v.chi_squared(c)).sum::<f64>();
         Ok(residuals.iter().map(beyond).sum())
     }
 

@@ -236,7 +236,9 @@ impl<'a> Rollout<'a> {
         let time = &self.record.time;
         let mut stepper = Stepper::new(&self.equations, &self.record.signals, &[]);
         for (from, to) in self.windows(horizon) {
-            let Some(fit) = speed_fit::speeds_at(&self.equations, self.record, from, speed_fit::BEFORE) else { continue };
+            let Some(fit) = speed_fit::speeds_at(&self.equations, self.record, from, speed_fit::BEFORE) else {
+                continue;
+            };
             let (first, begin) = &fit.first;
             let mut arc = begin.clone();
             (*first..to).for_each(|i| stepper.advance(&mut arc, time[i], time[i + 1]));

@@ -6,6 +6,7 @@ use super::description::Dynamics;
 use super::masses::{Masses, TrailerMass};
 use crate::error::Result;
 use crate::files::DynamicsEntry;
+use crate::formula::Symbol;
 use crate::model::vehicle_model::Model;
 use crate::vehicles::Vehicle;
 
@@ -16,6 +17,20 @@ impl Model {
     /// As [`Dynamics::model`].
     pub(crate) fn with_forces(&self, entry: &DynamicsEntry) -> Result<Self> {
         Dynamics::of_entry(entry, self)?.model()
+    }
+}
+
+impl Model {
+    /// The speeds that are free at the start, as the section of a file gives them; those of trailers and wheels at rest.
+    pub fn speeds_at_start(&self, entry: &DynamicsEntry) -> Vec<f64> {
+        let start = entry.start;
+        let speed = |name: &Symbol| match name.as_str() {
+            "body.u" => start.speed,
+            "body.w" => start.lateral_speed.unwrap_or(0.0),
+            "body.omega" => start.yaw_rate.unwrap_or(0.0),
+            _ => 0.0,
+        };
+        self.forced.iter().flat_map(|forced| &forced.nodes).map(speed).collect()
     }
 }
 

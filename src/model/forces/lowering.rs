@@ -86,8 +86,10 @@ impl Dynamics {
         let swung = |c: &&Contact| c.law.is_none() && c.slip.rates().any(|r| self.given().contains(&unprimed(r)));
         match contacts.find(swung) {
             None => Ok(()),
-            Some(c) => Err(Error::input(format!("{} is swung by the steering, whose acceleration is not known", c.name))
-                .help("give this contact a law of friction")),
+            Some(c) => {
+                Err(Error::input(format!("{} is swung by the steering, whose acceleration is not known", c.name))
+                    .help("give this contact a law of friction"))
+            }
         }
     }
 
@@ -167,6 +169,7 @@ impl Dynamics {
         let own = self.model.values();
         let values = self.values().into_iter().filter(|(name, _)| !own.contains_key(name));
         ForcedMotion {
+            kinematic: (self.model.vehicle.clone(), self.model.inputs.clone()),
             nodes: vec![],
             states,
             speeds: forms.speeds.clone(),

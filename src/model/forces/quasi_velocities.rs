@@ -15,16 +15,8 @@ use nalgebra::DMatrix;
 const BODY: [&str; 3] = ["v_l", "v_t", "phi'"];
 /// Which of them follow from the contacts, where several choices would do: the forward speed last, for it stays free
 /// in every turn of the steering.
-const FOLLOWING: [&[&str]; 8] = [
-    &[],
-    &["v_t"],
-    &["phi'"],
-    &["v_l"],
-    &["v_t", "phi'"],
-    &["v_l", "v_t"],
-    &["v_l", "phi'"],
-    &["v_l", "v_t", "phi'"],
-];
+const FOLLOWING: [&[&str]; 8] =
+    [&[], &["v_t"], &["phi'"], &["v_l"], &["v_t", "phi'"], &["v_l", "v_t"], &["v_l", "phi'"], &["v_l", "v_t", "phi'"]];
 
 /// A vehicle as its ideal contacts see it.
 pub(super) struct Contacts<'a> {
@@ -97,7 +89,8 @@ impl Contacts<'_> {
 
     /// v_l, v_t and φ' from the rows that are left.
     fn body(&self, rows: &[Row], forms: &mut RateForms) -> Result<()> {
-        let moving: Vec<Symbol> = BODY.iter().take(if self.vehicle.line { 1 } else { 3 }).map(|s| (*s).into()).collect();
+        let moving: Vec<Symbol> =
+            BODY.iter().take(if self.vehicle.line { 1 } else { 3 }).map(|s| (*s).into()).collect();
         let still = BODY.iter().skip(moving.len()).map(|s| Symbol::from(*s));
         let following = self.following(rows, &moving);
         let solved = solve::together(rows, &following).ok_or_else(|| {

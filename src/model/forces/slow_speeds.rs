@@ -29,7 +29,8 @@ pub(super) fn slow_speeds(model: &Model, forced: &ForcedMotion) -> Result<Vec<Sy
     let n = equations.n();
     let place = |s: &Symbol| equations.states.iter().position(|state| state == s);
     let mut z = vec![0.0; n];
-    for (name, value) in [("body.u", AHEAD), ("theta.omega", AHEAD), ("theta_1.omega", AHEAD), ("theta_2.omega", AHEAD)] {
+    for (name, value) in [("body.u", AHEAD), ("theta.omega", AHEAD), ("theta_1.omega", AHEAD), ("theta_2.omega", AHEAD)]
+    {
         place(&name.into()).into_iter().for_each(|i| z[i] = value);
     }
     let u = vec![0.0; equations.inputs.len()];

@@ -1,6 +1,7 @@
 //! The equations in quasi-velocities against those of Lagrange with multipliers, at states drawn at random.
 
 use creepage::dynamics::{Dynamics, Masses, TrailerMass};
+use creepage::effects::{self, Applied, Effect};
 use creepage::formula::Symbol;
 use creepage::model::{Model, Trailer};
 use creepage::vehicles;
@@ -148,6 +149,62 @@ proptest! {
     ) {
         if let Some((off, size)) = case(vehicle, trailers, pattern, numbers).and_then(|case| case.compared()) {
             prop_assert!(off < 1e-9 * (1.0 + size), "{off} of {size}");
+        }
+    }
+}
+
+/// What an effect of plausible size changes of the rates at many states of some vehicles, as one long vector.
+fn changed(effect: &Effect, models: &[Model]) -> Vec<f64> {
+    let mut found = Vec::new();
+    for model in models {
+        let bare = model.equations(&[]).unwrap();
+        let trailer = effect.per_trailer.then_some(1);
+        let applies = !model.applicable(std::slice::from_ref(effect)).is_empty();
+        let sizes = effect.parameters.values().map(|p| p.start.last().copied().filter(|s| *s != 0.0).unwrap_or(p.size));
+        let applied = Applied::new(effect, trailer, sizes.collect());
+        let with = if applies { model.clone().with_effect(applied).equations(&[]).unwrap() } else { bare.clone() };
+        for k in 0..30 {
+            let at = |i: usize| (2.3 * f64::from(k) + 1.7 * i as f64).sin();
+            let mut z: Vec<f64> = (0..bare.n()).map(at).collect();
+            z[bare.poses] += 1.5;
+            let u: Vec<f64> = (0..bare.inputs.len()).map(|i| 0.3 * at(i + 50)).collect();
+            let rates = |e: &creepage::model::Equations| {
+                let mut rates = vec![0.0; e.n()];
+                e.rates(&mut e.workspace(&[]), &z, &u, &mut rates);
+                rates
+            };
+            found.extend(rates(&with).iter().zip(rates(&bare)).map(|(a, b)| a - b));
+        }
+    }
+    found
+}
+
+/// Every effect of forces changes the motion of a robot or of a train, and no two change it alike.
+#[test]
+fn effects_of_forces_are_told_from_one_another() {
+    let robot = Model::new("differential-drive", &[("wheel_radius", 0.1), ("track_width", 0.5)]).unwrap();
+    let wheels = [("theta_1'".into(), 0.05), ("theta_2'".into(), 0.05)].into();
+    let masses = Masses { mass: 20.0, inertia: 1.0, mass_offset: 0.1, wheels, ..Masses::default() };
+    let robot =
+        Dynamics::new(&robot, &masses).unwrap().driven_by(&["wheel_torque_left", "wheel_torque_right"]).unwrap();
+    let robot = robot.with_laws("viscous", &[200.0]).unwrap().model().unwrap();
+    let car = Model::new("car", &[("wheel_radius", 0.3), ("wheelbase", 2.6)]).unwrap();
+    let car = car.with_trailers(&[Trailer { length: 2.0, hitch: 0.3 }]);
+    let trailers = vec![TrailerMass { mass: 5.0, inertia: 6.0, mass_offset: 0.2 }];
+    let wheels = [("theta'".into(), 0.2)].into();
+    let masses = Masses { mass: 12.0, inertia: 15.0, mass_offset: 1.2, wheels, trailers, ..Masses::default() };
+    let car = Dynamics::new(&car, &masses).unwrap().driven_by(&["wheel_torque"]).unwrap();
+    let models = [robot, car.with_laws("viscous", &[40.0]).unwrap().model().unwrap()];
+    let places = ["mass", "drive", "force on the body", "contact force"];
+    let all: Vec<&Effect> = effects::all().iter().filter(|e| places.contains(&e.place.as_str())).collect();
+    assert_eq!(all.len(), 20);
+    let changes: Vec<Vec<f64>> = all.iter().map(|e| changed(e, &models)).collect();
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    for (i, (a, own)) in changes.iter().zip(&all).enumerate() {
+        assert!(a.iter().all(|v| v.is_finite()) && dot(a, a) > 0.0, "{} changes nothing", own.id);
+        for (b, other) in changes[..i].iter().zip(&all) {
+            let alike = dot(a, b).abs() / (dot(a, a) * dot(b, b)).sqrt();
+            assert!(alike < 0.9999, "{} and {} are alike: {alike}", own.id, other.id);
         }
     }
 }

@@ -9,7 +9,7 @@ use nalgebra::DMatrix;
 /// The time over which a speed must be remembered, s: that of a window.
 const TIME: f64 = 1.0;
 /// What must be left of it after that time.
-const LEFT: f64 = 0.02;
+const LEFT: f64 = 1e-3;
 /// Of so many speeds sets are tried.
 const MOST: usize = 12;
 /// A speed at which the vehicle is looked at, m/s.

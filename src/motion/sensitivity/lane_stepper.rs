@@ -1,5 +1,6 @@
 //! Runge–Kutta steps of order four for states and their exact sensitivities, several trajectories side by side.
 
+use super::collocation_stepper::CollocationStepper;
 use super::exponential_stepper::{ExponentialStepper, Spans};
 use super::states::{LaneStates, add, sum, take};
 use super::variational_equations::VariationalEquations;
@@ -14,6 +15,8 @@ const TURN_PER_STEP: f64 = 0.1;
 const STEP_PER_TIME_CONSTANT: f64 = 0.35;
 /// Most equal steps between two rows for the sake of a time constant; of a shorter one the limit is followed.
 const MAX_STEPS: f64 = 64.0;
+/// Of a vehicle that forces move more steps than these are left to collocation.
+const FEW: f64 = 6.0;
 /// The longest steps that follow a limit, as a share of the time between two rows.
 const MAX_LIMIT_STEP: f64 = 1.0 / 32.0;
 /// How many of the steps for the sake of turning are one of those that follow a limit, which take thrice the rates.
@@ -34,6 +37,8 @@ pub(crate) struct LaneStepper<'a, const L: usize> {
     total: LaneStates<L>,
     at: LaneStates<L>,
     exponential: ExponentialStepper<L>,
+    /// For vehicles that forces move.
+    collocation: CollocationStepper<L>,
     /// Of each arc the knot of the signals that it comes to next.
     ahead: [usize; L],
     isa: Isa,
@@ -63,6 +68,7 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
             total: LaneStates::default(),
             at: LaneStates::default(),
             exponential: ExponentialStepper::default(),
+            collocation: CollocationStepper::default(),
             ahead: [0; L],
             isa: Isa::best(),
         }
@@ -150,6 +156,11 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
         knots.get(i).copied().filter(|k| to - k > KNOT_TOLERANCE * interval(i)).unwrap_or(to)
     }
 
+    #[inline(never)]
+    fn collocate(&mut self, z: &mut [[f64; L]], s: &mut [[f64; L]], from: &[f64; L], to: &[f64; L]) {
+        self.collocation.advance(&mut self.motion, z, s, from, to);
+    }
+
     #[inline(always)]
     fn advance_between(&mut self, z: &mut [[f64; L]], s: &mut [[f64; L]], from: &[f64; L], to: &[f64; L]) {
         let Self { motion, rate, total, at, .. } = self;
@@ -160,6 +171,9 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
         at.s[..still].copy_from_slice(&s[..still]);
         motion.rate(z, s, from, rate);
         let Steps { equal, forgotten } = steps(motion, z, s, &rate.z, from, to);
+        if motion.is_forced() && (forgotten.is_some() || equal.iter().any(|n| *n > FEW)) {
+            return self.collocate(z, s, from, to);
+        }
         let (mut h, mut most) = ([0.0; L], 0.0);
         for l in 0..L {
             h[l] = (to[l] - from[l]) / if equal[l] == 0.0 { 1.0 } else { equal[l] };

@@ -4,6 +4,7 @@ use super::states::{LaneStates, add};
 use crate::model::{Derived, Equations, Workspace};
 use crate::motion::Signals;
 use crate::motion::inputs::lane_lookup::Lookup;
+use nalgebra::DMatrix;
 
 /// z′ and S′ as functions of time.
 pub(crate) struct VariationalEquations<'a, const L: usize> {
@@ -107,6 +108,22 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
         let width = n + self.lookup.value.len() + self.delay_slopes.len();
         let f = self.equations.last_jacobian(&self.workspace);
         (0..n).map(move |i| &f[n + i * width + i])
+    }
+
+    /// ∂z′/∂z of one of the arcs where the rate was last asked for; `known` where S′ was asked for, too.
+    pub fn by_states(&mut self, z: &[[f64; L]], known: bool, l: usize) -> DMatrix<f64> {
+        if !known {
+            self.equations.jacobian_here(&mut self.workspace, z, &self.lookup.value);
+        }
+        let n = z.len();
+        let width = n + self.lookup.value.len() + self.delay_slopes.len();
+        let f = self.equations.last_jacobian(&self.workspace);
+        DMatrix::from_fn(n, n, |i, j| f[n + i * width + j][l])
+    }
+
+    /// Whether forces move the vehicle, so that its speeds may be stiff.
+    pub fn is_forced(&self) -> bool {
+        self.equations.has_speeds()
     }
 
     #[inline(always)]

@@ -37,6 +37,7 @@ impl Model {
     pub fn definitions(&self) -> Result<Definitions> {
         let mut d = self.with_effects(self.ideal_definitions()?)?;
         if let Some(forced) = &self.forced {
+            forced.without_idle_losses(&mut d);
             forced.turned.iter().for_each(|angle| d.define(angle.rate(), self.rate_by_inputs(angle, &d)));
         }
         Ok(d)

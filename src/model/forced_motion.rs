@@ -1,6 +1,6 @@
 //! The motion under forces as definitions: states, formulas and values that stand beside those of the vehicle.
 
-use crate::formula::Symbol;
+use crate::formula::{Expr, Symbol};
 use crate::mechanism::Definitions;
 use crate::vehicles::Vehicle;
 use std::collections::BTreeMap;
@@ -26,6 +26,8 @@ pub struct ForcedMotion {
     pub(crate) definitions: Definitions,
     /// Values of the symbols that a model file states.
     pub(crate) values: BTreeMap<Symbol, f64>,
+    /// Losses that are none where their coefficients vanish, whatever stands beside them.
+    pub(crate) losses: Vec<(Symbol, [Symbol; 2])>,
     /// Angles that the inputs give, of which the motion asks the rate.
     pub(crate) turned: Vec<Symbol>,
     /// Symbols of the vehicle that its inputs define and the forces do not leave to them: rates of wheels.
@@ -33,6 +35,15 @@ pub struct ForcedMotion {
 }
 
 impl ForcedMotion {
+    /// Takes losses away whose coefficients no effect has changed from zero.
+    pub(crate) fn without_idle_losses(&self, d: &mut Definitions) {
+        for (loss, coefficients) in &self.losses {
+            if coefficients.iter().all(|c| d.get(c).is_none_or(Expr::is_zero)) {
+                d.define(loss.clone(), Expr::int(0));
+            }
+        }
+    }
+
     /// The same with these speeds free at the start of every window.
     pub(crate) fn with_nodes(mut self, nodes: Vec<Symbol>) -> Self {
         self.states.retain(|s| !nodes.contains(s));

@@ -22,7 +22,8 @@ pub enum Moves {
     Steering,
     /// The angle of a rear axle that is steered, too, rad: it turns the body the other way.
     RearSteering,
-    /// A force or a torque: it accelerates the body, N or N·m.
+    /// A force or a torque: it accelerates the body, N or N·m. Of a vehicle with `[dynamics]`, and of no description.
+    #[serde(skip)]
     Push,
     /// It changes the shape: it neither drives nor turns the body.
     Shape,

@@ -175,6 +175,12 @@ impl Dynamics {
             speeds: forms.speeds.clone(),
             definitions: d,
             values: values.map(|(name, value)| (stated(&name), value)).collect(),
+            losses: (1..=rolling_rates(&self.model.vehicle).len())
+                .map(|i| {
+                    let name = |stem: &str| Symbol::new(&format!("{stem}_{i}"));
+                    (name("wheel_loss"), [name("wheel_drag"), name("wheel_rub")])
+                })
+                .collect(),
             turned: if self.by_rate { vec![] } else { turned },
             freed,
         }
@@ -285,11 +291,13 @@ impl Dynamics {
             add(&name, &Row::as_written(vec![(Symbol::new(&format!("v_{i}")), Expr::int(1))]), forms);
         }
         for (i, Torque { rate, role, share }) in wheel_torques(&self.model.vehicle).into_iter().enumerate() {
-            let [torque, drag, rub] = ["torque", "wheel_drag", "wheel_rub"].map(|stem| format!("{stem}_{}", i + 1));
+            let [torque, loss, drag, rub] =
+                ["torque", "wheel_loss", "wheel_drag", "wheel_rub"].map(|stem| format!("{stem}_{}", i + 1));
             d.define(drag.as_str(), Expr::int(0));
             d.define(rub.as_str(), Expr::int(0));
+            d.define(loss.as_str(), self.lost_torque(&rate, [&drag, &rub]));
             let applied = times(&share, &driven(&role));
-            d.define(torque.as_str(), &applied - &self.lost_torque(&rate, [&drag, &rub]));
+            d.define(torque.as_str(), &applied - &Expr::sym(loss.as_str()));
             add(&torque, &Row::as_written(vec![(rate, Expr::int(1))]), forms);
         }
         push

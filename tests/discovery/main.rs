@@ -14,7 +14,11 @@ mod fit_statistics;
 #[path = "../forced/mod.rs"]
 mod forced;
 mod forces;
+#[allow(dead_code, unused_imports)]
+#[path = "../simulator/forces/mod.rs"]
+mod forces_simulator;
 mod gross_errors;
+mod hidden_forces;
 mod laws;
 mod logs_of_another_vehicle;
 mod names;

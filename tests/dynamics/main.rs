@@ -3,8 +3,12 @@
 mod derived;
 mod energy;
 mod files;
+#[allow(dead_code, unused_imports)]
+#[path = "../simulator/forces/mod.rs"]
+mod forces;
 mod laws;
 mod lowered;
+mod simulated;
 mod sleigh;
 mod steering;
 mod vehicles;

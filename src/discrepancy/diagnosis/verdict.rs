@@ -62,6 +62,10 @@ pub fn before_fitting(problem: &Problem, model: &Model) -> Result<Option<Outcome
     if let Some(outcome) = still_or_short(problem, model) {
         return Ok(Some(outcome));
     }
+    if model.forced.is_some() {
+        // Whose sliding is in the model.
+        return Ok(None);
+    }
     if let Some(slip) = unit_errors::another_motion(model, &problem.records)? {
         return Ok(Some(unusable(slip)));
     }

@@ -11,8 +11,9 @@ mod motion;
 mod newton;
 mod run;
 
-pub use drawn::{MAKES, Make};
+pub use drawn::{Drawn, MAKES, Make, Wave};
 pub use hidden::{Secret, secrets};
 pub use machine::{Contact, Grip, Hitch, Law, Machine, Solid, Wheel};
 pub use motion::{State, advance};
-pub use run::{Drive, Run};
+pub use newton::Inputs;
+pub use run::{Drive, Run, begun};

@@ -74,7 +74,7 @@ impl Drive {
 }
 
 /// Straight ahead at a speed, wheels rolling.
-fn begun(machine: &super::machine::Machine, speed: f64) -> State {
+pub fn begun(machine: &super::machine::Machine, speed: f64) -> State {
     let mut place = Vec::new();
     let mut reference = 0.0;
     for (i, solid) in machine.solids.iter().enumerate() {

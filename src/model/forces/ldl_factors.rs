@@ -15,11 +15,11 @@ pub(super) fn define_solution(d: &mut Definitions, a: &[Vec<Expr>], b: &[Expr], 
     let n = b.len();
     let mut name = |stem: &str, formula: Expr| named(d, stem, formula);
     let (mut pivots, mut lower): (Vec<Expr>, Vec<Vec<Expr>>) = (vec![], vec![]);
-    for i in 0..n {
+    for (i, entries) in a.iter().enumerate() {
         let mut row: Vec<Expr> = Vec::new();
-        for j in 0..=i {
+        for (j, entry) in entries.iter().enumerate() {
             let parts = (0..j).map(|k| times(&times(&row[k], if j < i { &lower[j][k] } else { &row[k] }), &pivots[k]));
-            let left = less(&a[i][j], sum(parts));
+            let left = less(entry, sum(parts));
             if j < i {
                 let factor = if left.is_zero() { left } else { &left / &pivots[j] };
                 row.push(name(&format!("mass.factor_{}_{}", i + 1, j + 1), factor));

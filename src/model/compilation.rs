@@ -169,6 +169,7 @@ impl Model {
             states,
             visible,
             poses: visible - speeds.len(),
+            is_forced: self.forced.is_some(),
             inputs,
             derived,
             edges,

@@ -19,6 +19,8 @@ pub struct Equations {
     pub visible: usize,
     /// How many of those are a pose or the heading of a trailer.
     pub poses: usize,
+    /// Whether forces move the vehicle, so that its states may be stiff.
+    pub(crate) is_forced: bool,
     /// Logged inputs, then those derived from the log.
     pub inputs: Vec<Symbol>,
     /// What the last of the inputs are.

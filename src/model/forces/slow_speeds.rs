@@ -50,10 +50,13 @@ pub(super) fn slow_speeds(model: &Model, forced: &ForcedMotion) -> Result<Vec<Sy
         let at: Vec<usize> = (0..speeds.len()).filter(|i| subset >> i & 1 == 1).map(|i| speeds[i].1).collect();
         DMatrix::from_fn(at.len(), at.len(), |i, k| left[(at[i], at[k])]).singular_values().min()
     };
-    let of_size = (1..1_u32 << speeds.len().min(MOST)).filter(|s| s.count_ones() as usize == kept.min(speeds.len()));
-    let best = of_size.map(|s| (s, told(&s))).filter(|(_, told)| *told > LEFT);
-    // Of equal ones the first, which has the speeds of the body.
-    let best = best.reduce(|a, b| if b.1 > a.1 * (1.0 + 1e-9) { b } else { a });
+    // Of equal ones the first, which has the speeds of the body. A mode that is all but forgotten may be told by none.
+    let best_of = |size: usize| {
+        let sets = (1..1_u32 << speeds.len().min(MOST)).filter(|s| s.count_ones() as usize == size);
+        let told = sets.map(|s| (s, told(&s))).filter(|(_, told)| *told > LEFT);
+        told.reduce(|a, b| if b.1 > a.1 * (1.0 + 1e-9) { b } else { a })
+    };
+    let best = (1..=kept.min(speeds.len())).rev().find_map(best_of);
     let taken = best.map_or(0, |(subset, _)| subset);
     Ok((0..speeds.len()).filter(|i| taken >> i & 1 == 1).map(|i| speeds[i].0.clone()).collect())
 }

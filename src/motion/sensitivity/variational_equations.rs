@@ -123,7 +123,7 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
 
     /// Whether forces move the vehicle, so that its speeds may be stiff.
     pub fn is_forced(&self) -> bool {
-        self.equations.has_speeds()
+        self.equations.is_forced
     }
 
     #[inline(always)]

@@ -107,7 +107,7 @@ fn commands_of_daily_use_run() {
 
 #[test]
 fn commands_of_the_theory_run() {
-    for page in ["verify", "figures"] {
+    for page in ["verify", "figures", "forces"] {
         runs(&format!("book/src/guide/{page}.md"));
     }
 }
@@ -135,6 +135,7 @@ fn no_document_with_commands_is_left_out() {
         "book/src/guide/sweep.md",
         "book/src/guide/verify.md",
         "book/src/guide/figures.md",
+        "book/src/guide/forces.md",
     ];
     let left: Vec<String> = all()
         .iter()

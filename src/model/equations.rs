@@ -77,6 +77,12 @@ impl Equations {
         self.visible > self.poses
     }
 
+    /// The first column of sensitivities in which the hidden states hang on where a stretch begins: on its nodes, where they
+    /// follow speeds, and else on the parameters alone.
+    pub(crate) fn first_of_hidden(&self) -> usize {
+        if self.has_speeds() { 0 } else { self.visible }
+    }
+
     /// How many of the inputs a log gives.
     pub fn logged(&self) -> usize {
         self.inputs.len() - self.derived.len()

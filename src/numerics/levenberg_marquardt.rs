@@ -57,6 +57,10 @@ impl Damping {
     /// The method of Gauss and Newton: whole steps, and the first that cannot be taken is the end.
     pub const NONE: Self =
         Self { first: 0.0, divisor: 1.0, least: 0.0, factor: 1.0, raised: 1.0, most: 0.0, remembers: false };
+
+    /// Hardly damped, for models that are nearly linear in what is fitted.
+    pub const USUAL: Self =
+        Self { first: 1e-6, divisor: 10.0, least: 1e-9, factor: 30.0, raised: 1e-3, most: 1e9, remembers: false };
 }
 
 /// Where a descent ends.

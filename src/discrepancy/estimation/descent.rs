@@ -86,9 +86,6 @@ impl Point {
     }
 }
 
-/// Hardly damped, for a model is nearly linear in its effects.
-const DAMPING: Damping =
-    Damping { first: 1e-6, divisor: 10.0, least: 1e-9, factor: 30.0, raised: 1e-3, most: 1e9, remembers: false };
 /// A rise of the deviance that counts for none.
 const TOLERANCE: f64 = 1e-3;
 /// Whoever gains less deviance is near the bottom of the valley, and what a step promises there can be believed.
@@ -114,7 +111,7 @@ impl Descent<'_> {
 
     /// The point at which a descent ends.
     pub fn from(&self, here: Point) -> Point {
-        minimise(self, here, &DAMPING, self.effort.passes).here
+        minimise(self, here, &Damping::USUAL, self.effort.passes).here
     }
 }
 

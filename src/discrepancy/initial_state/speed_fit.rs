@@ -2,10 +2,10 @@
 
 use super::hidden_states;
 use super::pose::pose_of;
-use crate::discrepancy::record::local_polynomial;
-use crate::discrepancy::record::run_record::Record;
+use crate::discrepancy::record::run_record::{Channel, Record};
 use crate::model::Equations;
 use crate::motion::{StateSensitivity, Stepper};
+use crate::numerics::levenberg_marquardt::{Damping, LeastSquares, Minimum, minimise};
 use nalgebra::{Cholesky, DMatrix, DVector};
 use std::ops::Range;
 
@@ -15,8 +15,10 @@ pub const AROUND: [f64; 2] = [0.75, 0.75];
 pub const BEFORE: [f64; 2] = [1.5, 0.0];
 /// At the start of a log less has gone before: then as much as this is looked at, s.
 const LEAST: f64 = 1.5;
-/// Steps of Gauss and Newton.
-const STEPS: usize = 4;
+/// Steps of Levenberg and Marquardt at most.
+const MOST_STEPS: usize = 12;
+/// A step that gains less, in units of χ², is the last: what one leaves goes with the square of what it gains.
+const SETTLED: f64 = 1e-3;
 /// A vanishing information on every state, so that what no row shows stays where it is.
 const WEAK: f64 = 1e-6;
 
@@ -35,33 +37,26 @@ pub struct SpeedFit {
 
 /// Pose and speeds at a row by the rows around it; `None` where a vehicle has no such speeds, or the rows do not tell.
 pub fn speeds_at(equations: &Equations, record: &Record, row: usize, around: [f64; 2]) -> Option<SpeedFit> {
-    if equations.poses == equations.visible {
+    if !equations.has_speeds() {
         return None;
     }
     let rows = stretch(record, row, around);
-    let noise = noises(record);
-    let mut begin = pose_of(equations, &record.smoothed(rows.start));
-    let mut last = None;
-    for _ in 0..STEPS {
-        let along = Along::of(equations, record, &rows, row, &begin, &noise)?;
-        let information = Cholesky::new(along.information.clone())?;
-        let step = information.solve(&along.gradient);
-        if !step.iter().all(|s| s.is_finite()) {
-            return None;
-        }
-        begin.iter_mut().zip(step.iter()).for_each(|(z, s)| *z -= s);
-        let covariance_at_first = information.inverse();
-        let all = &along.there * &covariance_at_first * along.there.transpose();
-        let moved = &along.there * &step;
-        let m = begin.len();
-        last = Some(SpeedFit {
-            state: along.state.iter().zip(moved.iter()).map(|(z, s)| z - s).collect(),
-            covariance: all.view((0, 0), (m, m)).into_owned(),
-            first: (rows.start, along.first),
-            covariance_at_first,
-        });
-    }
-    last.filter(|fit| fit.state.iter().chain(fit.covariance.iter()).all(|v| v.is_finite()))
+    let first = rows.start;
+    let squares = Stretch { equations, record, channels: record.channels(), rows, row };
+    let begin = pose_of(equations, &record.smoothed(first));
+    let Minimum { here, step, is_settled, .. } = minimise(&squares, squares.at(begin)?, &Damping::USUAL, MOST_STEPS);
+    let step = step.filter(|_| is_settled)?;
+    let covariance_at_first = Cholesky::new(here.information.clone())?.inverse();
+    let m = equations.visible;
+    let all = &here.there * &covariance_at_first * here.there.transpose();
+    let moved = &here.there * &step;
+    let fit = SpeedFit {
+        state: here.state.iter().zip(moved.iter()).map(|(z, s)| z + s).collect(),
+        covariance: all.view((0, 0), (m, m)).into_owned(),
+        first: (first, here.begin),
+        covariance_at_first,
+    };
+    fit.state.iter().chain(fit.covariance.iter()).all(|v| v.is_finite()).then_some(fit)
 }
 
 /// Rows around a row without a gap, none beyond those that take part.
@@ -74,74 +69,90 @@ fn stretch(record: &Record, row: usize, [before, after]: [f64; 2]) -> Range<usiz
     first..last.unwrap_or(row) + 1
 }
 
-/// The noise of each column, as its rows show it.
-fn noises(record: &Record) -> Vec<f64> {
-    let rows = record.rows.clone();
-    let noise = |c: &Vec<f64>| local_polynomial::noise(&record.time[rows.clone()], &c[rows.clone()]);
-    record.columns.iter().map(|c| noise(c).unwrap_or(1e-3).max(1e-9)).collect()
+/// What a motion that begins at some nodes misses of the rows of a stretch, in units of their noise, as a sum of squares.
+struct Stretch<'a> {
+    equations: &'a Equations,
+    record: &'a Record,
+    channels: Vec<Channel>,
+    rows: Range<usize>,
+    row: usize,
 }
 
-/// A motion along rows, what it misses, and where it is at one of them.
+/// A motion along a stretch, what it misses, and where it is at one of its rows.
 struct Along {
+    /// The arc at the first row.
+    begin: StateSensitivity,
     information: DMatrix<f64>,
     gradient: DVector<f64>,
+    /// Half the sum of squares.
+    half: f64,
     /// The states at the row.
     state: Vec<f64>,
     /// How they hang on the nodes at the first.
     there: DMatrix<f64>,
-    /// The arc at the first.
-    first: StateSensitivity,
 }
 
-impl Along {
-    fn of(
-        equations: &Equations,
-        record: &Record,
-        rows: &Range<usize>,
-        row: usize,
-        begin: &[f64],
-        noise: &[f64],
-    ) -> Option<Self> {
+impl Stretch<'_> {
+    /// The motion from some nodes; `None` where it is undefined.
+    fn at(&self, nodes: Vec<f64>) -> Option<Along> {
+        let Self { equations, record, .. } = self;
         let m = equations.visible;
         let mut stepper = Stepper::new(equations, &record.signals, &[]);
-        let hidden = hidden_states::carried(equations, &[], record, rows.start, begin);
-        let mut arc = begun(&stepper, begin, &hidden);
-        let first = arc.clone();
-        let mut information = DMatrix::identity(m, m) * WEAK;
-        let mut gradient = DVector::zeros(m);
-        let mut there = None;
-        for i in rows.clone() {
+        let hidden = hidden_states::carried(equations, &[], record, self.rows.start, &nodes);
+        let mut arc = stepper.start(&[&nodes[..], &hidden.z].concat(), Some(&hidden.s));
+        let mut along = Along {
+            begin: arc.clone(),
+            information: DMatrix::identity(m, m) * WEAK,
+            gradient: DVector::zeros(m),
+            half: 0.0,
+            state: vec![],
+            there: DMatrix::zeros(0, 0),
+        };
+        for i in self.rows.clone() {
             let all = DMatrix::from_row_slice(arc.z.len(), m, &arc.s);
-            let s = all.rows(0, m);
             let y = stepper.outputs(&arc.z);
-            for channel in record.channels() {
-                let slopes = DMatrix::from_row_slice(1, m, &y[m + channel.output * m..][..m]) * s;
-                let sigma = noise[channel.column] * record.weights.deviation(channel.column, i);
+            for channel in &self.channels {
+                let slopes = DMatrix::from_row_slice(1, m, &y[m + channel.output * m..][..m]) * all.rows(0, m);
+                let sigma = record.noise_of(channel.column) * record.weights.deviation(channel.column, i);
                 let off = channel.difference(y[channel.output] - record.columns[channel.column][i]) / sigma;
                 let line = slopes.transpose() / sigma;
-                information.ger(1.0, &line.column(0), &line.column(0), 1.0);
-                gradient.axpy(off, &line.column(0), 1.0);
+                along.information.ger(1.0, &line.column(0), &line.column(0), 1.0);
+                along.gradient.axpy(off, &line.column(0), 1.0);
+                along.half += 0.5 * off * off;
             }
-            if i == row {
-                there = Some((arc.z.clone(), all));
+            if i == self.row {
+                (along.state, along.there) = (arc.z.clone(), all);
             }
-            if i + 1 < rows.end {
+            if i + 1 < self.rows.end {
                 stepper.advance(&mut arc, record.time[i], record.time[i + 1]);
             }
         }
-        let (state, there) = there?;
-        Some(Self { information, gradient, state, there, first })
+        along.half.is_finite().then_some(along)
     }
 }
 
-/// An arc that begins at nodes, with the states that follow them.
-fn begun(stepper: &Stepper, nodes: &[f64], hidden: &StateSensitivity) -> StateSensitivity {
-    let mut arc = stepper.start(&[nodes, &hidden.z].concat(), None);
-    let from = nodes.len() * stepper.columns();
-    if hidden.s.len() == arc.s.len() {
-        arc.s[from..].copy_from_slice(&hidden.s[from..]);
+impl LeastSquares for Stretch<'_> {
+    type Point = Along;
+
+    fn normal(&self, here: &Along) -> (DMatrix<f64>, DVector<f64>) {
+        (here.information.clone(), here.gradient.clone())
     }
-    arc
+
+    fn next(&self, here: &Along, step: &DVector<f64>, _: f64) -> Option<Along> {
+        self.at(here.begin.z.iter().zip(step.iter()).map(|(z, s)| z + s).collect())
+    }
+
+    fn gain(&self, here: &Along, next: &Along, _: f64) -> f64 {
+        here.half - next.half
+    }
+
+    fn tolerance(&self, here: &Along) -> f64 {
+        1e-9 * here.half
+    }
+
+    fn is_small(&self, here: &Along, step: &DVector<f64>, _: Option<f64>) -> bool {
+        -here.gradient.dot(step) < SETTLED
+    }
 }
 
 /// The covariance of what a sensor measures after a motion that begins at nodes of a covariance: by output.

@@ -12,6 +12,11 @@ use crate::numerics::usual_step;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
+/// A column without any noise still has its last digit.
+const LEAST_NOISE: f64 = 1e-9;
+/// The noise of a column whose rows do not tell it.
+const UNTOLD_NOISE: f64 = 1e-3;
+
 /// Rows of a run: measured pose, inputs as signals.
 #[derive(Clone, Debug)]
 pub struct Record {
@@ -38,7 +43,7 @@ pub struct Record {
 #[derive(Debug, Default)]
 pub(crate) struct Known {
     step: OnceLock<f64>,
-    noise: OnceLock<f64>,
+    noise: OnceLock<Vec<Option<f64>>>,
 }
 
 impl Clone for Known {
@@ -186,8 +191,18 @@ impl Record {
 
     /// Standard deviation of the measured positions, m.
     pub fn position_noise(&self) -> f64 {
-        let of = |c: usize| local_polynomial::noise(&self.time[self.rows.clone()], &self.columns[c][self.rows.clone()]);
-        *self.known.noise.get_or_init(|| PLACE.into_iter().filter_map(of).fold(1e-9, f64::max))
+        PLACE.into_iter().filter_map(|c| self.noises()[c]).fold(LEAST_NOISE, f64::max)
+    }
+
+    /// Standard deviation of a column, as its rows show it.
+    pub(crate) fn noise_of(&self, column: usize) -> f64 {
+        self.noises()[column].unwrap_or(UNTOLD_NOISE).max(LEAST_NOISE)
+    }
+
+    fn noises(&self) -> &[Option<f64>] {
+        let rows = || self.rows.clone();
+        let of = |column: &Vec<f64>| local_polynomial::noise(&self.time[rows()], column.get(rows())?);
+        self.known.noise.get_or_init(|| self.columns.iter().map(of).collect())
     }
 
     /// The usual time between rows, s.
@@ -222,9 +237,7 @@ impl Record {
         if !self.has_heading() {
             y.insert(BODY_HEADING, 0.0);
         }
-        y.resize(self.outputs() - self.freedom().speeds.len(), y[BODY_HEADING]);
-        y.extend(self.speeds(i, y[BODY_HEADING]));
-        y
+        self.completed(y, i)
     }
 
     /// The measured values smoothed around a row; a missing heading is the direction of travel.
@@ -236,7 +249,11 @@ impl Record {
         if !self.has_heading() {
             y.insert(BODY_HEADING, self.course(i));
         }
-        // A trailer that nothing measures is taken to follow straight.
+        self.completed(y, i)
+    }
+
+    /// Measured values with what no column gives: a trailer is taken to follow straight, speeds are slopes.
+    fn completed(&self, mut y: Vec<f64>, i: usize) -> Vec<f64> {
         y.resize(self.outputs() - self.freedom().speeds.len(), y[BODY_HEADING]);
         y.extend(self.speeds(i, y[BODY_HEADING]));
         y

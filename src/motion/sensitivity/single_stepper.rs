@@ -35,14 +35,16 @@ impl<'a> Stepper<'a> {
         self.lanes.inputs(&[t]).as_flattened()
     }
 
-    /// An arc that starts at a state; the sensitivities of hidden states with respect to p are carried over.
+    /// An arc that starts at a state; the sensitivities of hidden states are carried over, those with respect to p, and of
+    /// states that follow speeds to these, too.
     pub fn start(&self, z: &[f64], hidden_s: Option<&[f64]>) -> StateSensitivity {
         let (n, k, visible) = (self.equations.n(), self.columns(), self.equations.visible);
         let mut s = vec![0.0; n * k];
         (0..visible).for_each(|i| s[i * k + i] = 1.0);
         if let Some(old) = hidden_s {
+            let first = self.equations.first_of_hidden();
             for i in visible..n {
-                s[i * k + visible..(i + 1) * k].copy_from_slice(&old[i * k + visible..(i + 1) * k]);
+                s[i * k + first..(i + 1) * k].copy_from_slice(&old[i * k + first..(i + 1) * k]);
             }
         }
         StateSensitivity { z: z.to_vec(), s }

@@ -4,7 +4,7 @@ use super::windows::MARGIN;
 use crate::discrepancy::initial_state::heading_from_path::{MeasuredPose, PathHeading, heading_over, measured_at};
 use crate::discrepancy::initial_state::hidden_states;
 use crate::discrepancy::initial_state::pose::pose_of;
-use crate::discrepancy::initial_state::speed_fit;
+use crate::discrepancy::initial_state::speed_fit::{self, SpeedFit};
 use crate::discrepancy::record::angle::wrapped;
 use crate::discrepancy::record::local_polynomial;
 use crate::discrepancy::record::run_record::Record;
@@ -16,6 +16,7 @@ use crate::motion::{LaneStates, LaneStepper, Signals, StateSensitivity, Stepper}
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use std::ops::Range;
+use std::sync::OnceLock;
 
 /// How many windows are followed side by side.
 const LANES: usize = 8;
@@ -82,6 +83,8 @@ pub struct Rollout<'a> {
     record: &'a Record,
     equations: Equations,
     hidden: Vec<Vec<f64>>,
+    /// Of a vehicle whose speeds forces change the state by the rows before a row, found when it is first asked for.
+    speeds: Vec<OnceLock<Option<SpeedFit>>>,
 }
 
 impl<'a> Rollout<'a> {
@@ -92,15 +95,21 @@ impl<'a> Rollout<'a> {
     pub fn new(model: &Model, record: &'a Record) -> Result<Self> {
         let equations = model.equations(&[])?;
         let hidden = hidden_along(&equations, record);
-        Ok(Self { record, equations, hidden })
+        Ok(Self { hidden, speeds: not_asked(&equations, record), record, equations })
+    }
+
+    /// The state by the rows before a row, of a vehicle whose speeds forces change.
+    fn speeds(&self, row: usize) -> Option<&SpeedFit> {
+        let fit = || speed_fit::speeds_at(&self.equations, self.record, row, speed_fit::BEFORE);
+        self.speeds.get(row)?.get_or_init(fit).as_ref()
     }
 
     /// The state at the first of two rows, to be followed to the other: the smoothed pose and the carried hidden states.
     fn start(&self, i: usize, to: usize) -> Vec<f64> {
-        let pose = MeasuredPose::over(&self.equations, self.record, i, self.record.time[to] - self.record.time[i]);
-        if let Some(fit) = pose.speeds {
-            return fit.state;
+        if let Some(fit) = self.speeds(i) {
+            return fit.state.clone();
         }
+        let pose = MeasuredPose::over(&self.equations, self.record, i, self.record.time[to] - self.record.time[i]);
         let mut z = pose_of(&self.equations, &pose.measured);
         z.extend(self.hidden.get(i).into_iter().flatten());
         z
@@ -212,7 +221,7 @@ impl<'a> Rollout<'a> {
     ///
     /// `draws` says how often noise is drawn for each horizon.
     pub fn floors(&self, horizons: &[f64], draws: &[usize], noise: &Noise, seed: u64) -> Vec<PredictionError> {
-        if self.equations.visible > self.equations.poses {
+        if self.equations.has_speeds() {
             return horizons.iter().map(|h| self.floor_of_speeds(*h, noise)).collect();
         }
         let each: Vec<Vec<Restart>> = horizons.iter().map(|h| self.restarts(*h)).collect();
@@ -236,9 +245,7 @@ impl<'a> Rollout<'a> {
         let time = &self.record.time;
         let mut stepper = Stepper::new(&self.equations, &self.record.signals, &[]);
         for (from, to) in self.windows(horizon) {
-            let Some(fit) = speed_fit::speeds_at(&self.equations, self.record, from, speed_fit::BEFORE) else {
-                continue;
-            };
+            let Some(fit) = self.speeds(from) else { continue };
             let (first, begin) = &fit.first;
             let mut arc = begin.clone();
             (*first..to).for_each(|i| stepper.advance(&mut arc, time[i], time[i + 1]));
@@ -257,7 +264,8 @@ impl<'a> Rollout<'a> {
             return moved;
         }
         let noisier = self.record.with_noisier_inputs(seed);
-        let beside = Rollout { record: &noisier, equations: self.equations.clone(), hidden: self.hidden.clone() };
+        let (equations, hidden) = (self.equations.clone(), self.hidden.clone());
+        let beside = Rollout { speeds: not_asked(&equations, &noisier), record: &noisier, equations, hidden };
         let windows = self.windows(horizon);
         for ([_, here], [_, there]) in self.paths(&windows).iter().zip(beside.paths(&windows)) {
             let heading = self.record.measures_heading().then(|| there[BODY_HEADING] - here[BODY_HEADING]);
@@ -307,6 +315,12 @@ impl Restart {
         let error = PLACE.map(|c| shift(c) + turned[c] - end(c));
         errors.add(error, record.measures_heading().then(|| turn - end(BODY_HEADING)));
     }
+}
+
+/// As many states as there are rows, of a vehicle whose speeds forces change; of another none.
+fn not_asked(equations: &Equations, record: &Record) -> Vec<OnceLock<Option<SpeedFit>>> {
+    let rows = if equations.has_speeds() { record.time.len() } else { 0 };
+    (0..rows).map(|_| OnceLock::new()).collect()
 }
 
 /// Hidden states at every row of a log, from how they begin by its first rows; empty when there are none.

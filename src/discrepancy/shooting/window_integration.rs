@@ -172,9 +172,7 @@ fn started<'z, const L: usize>(
     begin: impl Fn(usize) -> &'z Vec<f64>,
     hidden: impl Fn(usize) -> &'z StateSensitivity,
 ) -> LaneStates<L> {
-    let visible = equations.visible;
-    // What follows the speeds hangs on where they begin.
-    let first = if equations.has_speeds() { 0 } else { visible };
+    let (visible, first) = (equations.visible, equations.first_of_hidden());
     let mut z: Vec<[f64; L]> = (0..visible).map(|i| std::array::from_fn(|l| begin(l)[i])).collect();
     z.extend((0..hidden(0).z.len()).map(|i| std::array::from_fn(|l| hidden(l).z[i])));
     let mut s = vec![[0.0; L]; z.len() * k];

@@ -10,6 +10,8 @@
 #[allow(dead_code, unused_imports)]
 #[path = "../tests/simulator/forces/mod.rs"]
 mod forces;
+#[path = "worker_pool/mod.rs"]
+mod worker_pool;
 
 use clap::Parser;
 use creepage::discrepancy::calibration::calibrate::calibrate;
@@ -25,9 +27,8 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
+use worker_pool::shared_out;
 
 /// Put the discover command to the test on vehicles that forces move.
 #[derive(Parser)]
@@ -141,31 +142,11 @@ fn write(case: &Case, folder: &Path) -> std::io::Result<()> {
 }
 
 fn all(cases: &[Case], threads: usize) -> Vec<Outcome> {
-    let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    let slots: Vec<Mutex<Option<Outcome>>> = cases.iter().map(|_| Mutex::new(None)).collect();
-    let work = || {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread can be started");
-        while let Some((i, case)) = Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|i| Some((i, cases.get(i)?))) {
-            let outcome = pool.install(|| one(case));
-            eprintln!(
-                "{} of {}: {} {:?} {:.1} s {}",
-                done.fetch_add(1, Ordering::Relaxed) + 1,
-                cases.len(),
-                case.label,
-                outcome.judged,
-                outcome.seconds,
-                outcome.said
-            );
-            *slots[i].lock().expect("no worker panics while it holds a slot") = Some(outcome);
-        }
+    let told = |done: usize, case: &Case, outcome: &Outcome| {
+        let Outcome { judged, seconds, said, .. } = outcome;
+        eprintln!("{done} of {}: {} {judged:?} {seconds:.1} s {said}", cases.len(), case.label);
     };
-    std::thread::scope(|scope| {
-        for _ in 0..threads.max(1) {
-            scope.spawn(work);
-        }
-    });
-    let filled = |slot: Mutex<Option<Outcome>>| slot.into_inner().ok().flatten().expect("every case has its turn");
-    slots.into_iter().map(filled).collect()
+    shared_out(cases, threads, &one, &told)
 }
 
 fn one(case: &Case) -> Outcome {

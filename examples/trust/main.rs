@@ -16,6 +16,8 @@ mod simulator;
 mod suite;
 mod table;
 mod tally;
+#[path = "../worker_pool/mod.rs"]
+mod worker_pool;
 mod workers;
 
 use clap::Parser;

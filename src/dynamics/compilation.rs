@@ -77,10 +77,7 @@ impl Dynamics {
         let swung = |c: &super::Contact| self.prescribed.iter().any(|q| !c.slip.coefficient(&q.rate()).is_zero());
         match self.ideal().find(|(_, c)| swung(c)) {
             None => Ok(()),
-            Some((_, c)) => {
-                Err(Error::input(format!("{} is swung by the steering, whose acceleration is not known", c.name))
-                    .help("give this contact a law of friction"))
-            }
+            Some((_, c)) => Err(c.swung_error()),
         }
     }
 

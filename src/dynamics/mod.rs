@@ -25,6 +25,7 @@ mod observed;
 mod run;
 mod start;
 mod system;
+mod two_formulations;
 
 #[doc(hidden)]
 pub use crate::model::forces::{Contact, LawParameter, Masses, TrailerMass};

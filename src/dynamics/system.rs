@@ -4,6 +4,7 @@ use super::linear_solution::{SINGULAR_PIVOT, solution, solutions};
 use super::observed::Observed;
 use crate::error::{Error, Result};
 use crate::formula::{Program, Symbol};
+use crate::model::forces::without_inertia;
 use nalgebra::{DMatrix, DVector};
 
 /// ż = f(z, u) of a vehicle with forces, compiled once.
@@ -198,10 +199,7 @@ impl System {
             let moving = (0..self.n).max_by(|a, b| v[(i, *a)].abs().total_cmp(&v[(i, *b)].abs()));
             if let Some(q) = moving.filter(|q| v[(i, *q)].abs() > 1e-6) {
                 let name = &self.states[q];
-                return Err(Error::input(format!(
-                    "nothing says how {name} accelerates: it has neither mass nor an ideal contact"
-                ))
-                .help("give it a moment of inertia under [dynamics], or make its contact ideal"));
+                return Err(without_inertia(name));
             }
         }
         Ok(())

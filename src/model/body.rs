@@ -1,13 +1,14 @@
 //! The motion of the body and of what follows it, solved from the wheels' constraints.
 
 use super::constraints::{
-    bodies, direction, moving, rolling, section_heading, sideways, trailer_creep, trailer_direction, trailer_lengths,
+    bodies, direction, in_body, moving, rolling, section_heading, sideways, trailer_creep, trailer_direction,
+    trailer_lengths,
 };
 use super::trailer::trailer_heading;
 use super::vehicle_model::Model;
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
-use crate::mechanism::{Constraint, Definitions, Heading, Row, Sample, Velocity, solve};
+use crate::mechanism::{Constraint, Definitions, Row, Sample, Velocity, solve};
 use crate::vehicles::Wheel;
 
 /// Points at which rows that are left over must vanish; they are analytic, so that one point is as good as proof
@@ -125,7 +126,9 @@ impl Model {
                 t.extend(direction(wheel, axle, &heading));
             }
         }
-        t.extend(self.vehicle.constraints.iter().map(|c| in_body(c, speed)));
+        t.extend(
+            self.vehicle.constraints.iter().map(|c| in_body(c, Velocity::in_body(speed, "v_n", &section_heading(0)))),
+        );
         (r, t)
     }
 
@@ -211,16 +214,6 @@ impl Model {
         let turning = wheel.steering.iter().filter(|s| self.vehicle.is_free(s)).map(Symbol::rate);
         turning.chain(wheel.rate.clone().filter(|s| self.vehicle.is_free(s))).collect()
     }
-}
-
-/// A constraint in the world's rates with the reference point moving at a forward speed and at v_n to the left.
-fn in_body(c: &Constraint, speed: &str) -> Constraint {
-    let along = |axis: Heading| Velocity::in_body(speed, "v_n", &Heading::along("phi")).along(&axis);
-    c.with_rates(&|rate| match rate.as_str() {
-        "x'" => Some(along(Heading::x())),
-        "y'" => Some(along(Heading::y())),
-        _ => None,
-    })
 }
 
 /// A row as slope·v_d + rest, the names of a chain that begins at v_d written out.

@@ -156,17 +156,19 @@ fn constraints_by(vehicle: &Vehicle, trailers: usize, reference: Velocity) -> Ve
 
 /// The constraints of the body in its own axes: by v_l, v_t and the rates of its angles.
 pub(crate) fn constraints_in_body(vehicle: &Vehicle) -> Vec<Constraint> {
-    let along = |axis: Heading| moving(0).along(&axis);
-    let turned = |c: &Constraint| {
-        c.with_rates(&|rate| match rate.as_str() {
-            "x'" => Some(along(Heading::x())),
-            "y'" => Some(along(Heading::y())),
-            _ => None,
-        })
-    };
+    let turned = |c: &Constraint| in_body(c, moving(0));
     let own = Vehicle { constraints: vec![], ..vehicle.clone() };
     let wheels = constraints_by(&own, 0, moving(0));
     wheels.into_iter().chain(vehicle.constraints.iter().map(turned)).collect()
+}
+
+/// A constraint in the world's rates with the reference point moving at a velocity.
+pub(super) fn in_body(c: &Constraint, reference: Velocity) -> Constraint {
+    c.with_rates(&|rate| match rate.as_str() {
+        "x'" => Some(reference.along(&Heading::x())),
+        "y'" => Some(reference.along(&Heading::y())),
+        _ => None,
+    })
 }
 
 /// The velocity of the reference point (zero) or of a trailer's axle, by the names of its components.

@@ -30,8 +30,6 @@ pub struct ForcedMotion {
     pub(crate) losses: Vec<(Symbol, [Symbol; 2])>,
     /// Angles that the inputs give, of which the motion asks the rate.
     pub(crate) turned: Vec<Symbol>,
-    /// Symbols of the vehicle that its inputs define and the forces do not leave to them: rates of wheels.
-    pub(crate) freed: Vec<Symbol>,
 }
 
 impl ForcedMotion {

@@ -2,11 +2,9 @@
 
 use creepage::dynamics::{Dynamics, Masses, TrailerMass};
 use creepage::effects::{self, Applied, Effect};
-use creepage::formula::Symbol;
 use creepage::model::{Model, Trailer};
 use creepage::vehicles;
 use proptest::prelude::*;
-use std::collections::BTreeMap;
 
 /// A vehicle with all its masses, its steering and one number for each thing that moves.
 struct Case {
@@ -63,58 +61,16 @@ impl Case {
     /// The largest difference between the two, and how large what is compared is; `None` where the vehicle is refused.
     fn compared(&self) -> Option<(f64, f64)> {
         let model = self.dynamics.model().ok()?;
-        let system = self.dynamics.compile().ok()?;
-        let equations = model.equations(&[]).unwrap();
+        self.dynamics.compile().ok()?;
+        let states = model.equations(&[]).unwrap().states;
         let number = |i: usize| self.numbers[i % self.numbers.len()];
-        let mut z: Vec<f64> = (0..equations.n()).map(|i| 0.4 * number(i + 4) + 0.1).collect();
         // A speed ahead, for laws that are undefined at rest.
-        if let Some(u) = equations.states.iter().position(|s| s.as_str() == "body.u") {
-            z[u] += 1.5;
-        }
-        let logged: Vec<f64> = (0..equations.logged()).map(|i| 0.3 * number(i + 9)).collect();
-        let slopes: Vec<f64> = (0..equations.logged()).map(|i| 0.2 * number(i + 13)).collect();
-        let rate_of = |s: &Symbol| {
-            let at = (0..logged.len()).find(|i| equations.inputs[*i].rate() == *s);
-            at.map_or(f64::NAN, |i| slopes[i])
-        };
-        let u: Vec<f64> = (0..equations.inputs.len())
-            .map(|i| logged.get(i).copied().unwrap_or_else(|| rate_of(&equations.inputs[i])))
-            .collect();
-        let mut found = vec![0.0; equations.n()];
-        equations.rates(&mut equations.workspace(&[]), &z, &u, &mut found);
-        // All rates by the definitions; then the state of the other system.
-        let mut given: BTreeMap<Symbol, f64> = model.values();
-        given.extend(equations.states.iter().cloned().zip(z.iter().copied()));
-        given.extend(equations.inputs.iter().cloned().zip(u.iter().copied()));
-        let values = model.definitions().unwrap().evaluate(&|s| given.get(s).copied()).unwrap();
-        let value = |s: &Symbol| values.get(s).or(given.get(s)).copied();
-        let there: Vec<f64> = system
-            .states
-            .iter()
-            .map(|s| match s.as_str() {
-                "s" => 0.0,
-                "s'" => value(&"v_l".into()).unwrap(),
-                name if name.starts_with("theta") && !name.ends_with('\'') => 0.0,
-                _ => value(s).unwrap_or_else(|| panic!("no {s}")),
-            })
-            .collect();
-        let said = system.rates(&there, &logged, &slopes);
-        let of = |s: &str| system.states.iter().position(|n| n.as_str() == s).map(|i| said[i]);
-        let (phi, yaw) = (value(&"phi".into()).unwrap_or(0.0), value(&"phi'".into()).unwrap_or(0.0));
-        let [forward, left] = ["v_l", "v_t"].map(|s| value(&s.into()).unwrap());
-        let (sin, cos) = phi.sin_cos();
+        let ahead = |i: usize| if states[i].as_str() == "body.u" { 1.5 } else { 0.0 };
+        let state = |i: usize| 0.4 * number(i + 4) + 0.1 + ahead(i);
+        let pairs = self.dynamics.both_formulations(state, |i| 0.3 * number(i + 9), |i| 0.2 * number(i + 13)).unwrap();
+        assert_eq!(pairs.len(), states.len());
         let mut worst = (0.0_f64, 0.0_f64);
-        for (name, rate) in equations.states.iter().zip(&found) {
-            let other = match name.as_str() {
-                "body.u" => of("s'").or_else(|| Some(of("x'")? * cos + of("y'")? * sin + yaw * left)),
-                "body.w" => Some(of("y'").unwrap() * cos - of("x'").unwrap() * sin - yaw * forward),
-                "body.omega" => of("phi'"),
-                other => match other.strip_suffix(".omega") {
-                    Some(body) => of(&format!("{}'", body.replace("trailer_", "phi_"))),
-                    None => of(other).or_else(|| value(&name.rate())),
-                },
-            };
-            let other = other.unwrap_or_else(|| panic!("no {name} in {:?}", system.states));
+        for (name, rate, other) in pairs {
             assert!(rate.is_finite() && other.is_finite(), "{name}: {rate} {other}");
             worst = (worst.0.max((rate - other).abs()), worst.1.max(other.abs()));
         }

@@ -6,7 +6,7 @@ use crate::claims::with_forces::{all_by, ideal, lettered, machine_of};
 use crate::claims::{Claim, DerivedFormulas, Statement, Status, Verdict, near, proving, value_said};
 use crate::dynamics::Dynamics;
 use crate::error::{Error, Result};
-use crate::formula::{Graph, Symbol};
+use crate::formula::Graph;
 
 const CHAPTER: &str = "10a-creep-dynamics";
 
@@ -59,7 +59,7 @@ fn quasi_velocities() -> Claim {
              itself.",
         )
         .chapter(CHAPTER)
-        .code(&["src/model/forces/quasi_velocities.rs", "src/model/forces/lowering.rs", "src/model/forces/ldl_factors.rs"])
+        .code(&["src/model/forces/quasi_velocities.rs", "src/model/forces/lowering.rs", "src/model/forces/kinetic_energy.rs", "src/model/forces/ldl_factors.rs"])
         .tests(&["tests/dynamics/lowered.rs"])
         .proof(
             "Caplygin's sleigh",
@@ -91,53 +91,13 @@ fn quasi_velocities() -> Claim {
 /// Largest difference between the accelerations in quasi-velocities and those of Lagrange's equations.
 fn alike(s: &Statement, p: &Pushed) -> Verdict {
     for friction in [None, Some(p.friction())] {
-        let pairs = both(&p.dynamics(friction).map_err(|e| undefined(&e))?).map_err(|e| undefined(&e))?;
-        for (name, found, other) in pairs {
+        let dynamics = p.dynamics(friction).map_err(|e| undefined(&e))?;
+        let state = |i: usize| 0.3 + 0.2 * (1.7 * i as f64).sin();
+        let pairs = dynamics.both_formulations(state, |i| 0.2 + 0.1 * i as f64, |i| 0.3 - 0.1 * i as f64);
+        for (name, found, other) in pairs.map_err(|e| undefined(&e))? {
             let at = |name: &str| (name == "lagrange").then_some(other);
-            near(&name, found, value_said(s, "acceleration", &at)?, 1e-8)?;
+            near(name.as_str(), found, value_said(s, "acceleration", &at)?, 1e-8)?;
         }
     }
     Ok(())
-}
-
-/// Accelerations by both ways at a state with every free rate different.
-fn both(dynamics: &Dynamics) -> Result<Vec<(String, f64, f64)>> {
-    let model = dynamics.model()?;
-    let (system, equations) = (dynamics.compile()?, model.equations(&[])?);
-    let z: Vec<f64> = (0..equations.n()).map(|i| 0.3 + 0.2 * (1.7 * i as f64).sin()).collect();
-    let u: Vec<f64> = (0..equations.inputs.len()).map(|i| 0.2 + 0.1 * i as f64).collect();
-    let mut rates = vec![0.0; equations.n()];
-    equations.rates(&mut equations.workspace(&[]), &z, &u, &mut rates);
-    let given = |s: &Symbol| {
-        let of = |names: &[Symbol], values: &[f64]| names.iter().position(|n| n == s).map(|i| values[i]);
-        of(&equations.states, &z).or_else(|| of(&equations.inputs, &u)).or_else(|| model.values().get(s).copied())
-    };
-    let values = model.definitions()?.evaluate(&given)?;
-    let value = |s: &str| values.get(&s.into()).copied().or_else(|| given(&s.into())).unwrap_or(0.0);
-    let there: Vec<f64> =
-        system.states.iter().map(|s| if s.as_str() == "s'" { value("v_l") } else { value(s.as_str()) }).collect();
-    let logged = &u[..equations.logged()];
-    let slope_of =
-        |i: usize| equations.inputs.iter().position(|n| *n == equations.inputs[i].rate()).map_or(0.0, |k| u[k]);
-    let slopes: Vec<f64> = (0..logged.len()).map(slope_of).collect();
-    let said = system.rates(&there, logged, &slopes);
-    let of = |s: &str| system.states.iter().position(|n| n.as_str() == s).map(|i| said[i]);
-    let ((sin, cos), yaw) = (value("phi").sin_cos(), value("phi'"));
-    let along = || Some(of("x'")? * cos + of("y'")? * sin + yaw * value("v_t"));
-    let across = || Some(of("y'")? * cos - of("x'")? * sin - yaw * value("v_l"));
-    let mut found = Vec::new();
-    for (name, rate) in equations.states.iter().zip(&rates) {
-        let other = match name.as_str() {
-            "body.u" => of("s'").or_else(along),
-            "body.w" => across(),
-            "body.omega" => of("phi'"),
-            other => match other.strip_suffix(".omega") {
-                Some(turns) => of(&format!("{}'", turns.replace("trailer_", "phi_"))),
-                None => continue,
-            },
-        };
-        let other = other.ok_or_else(|| Error::run(format!("the other equations have no {name}")))?;
-        found.push((name.to_string(), *rate, other));
-    }
-    Ok(found)
 }

@@ -111,7 +111,10 @@ impl<'a> Rollout<'a> {
         }
         let pose = MeasuredPose::over(&self.equations, self.record, i, self.record.time[to] - self.record.time[i]);
         let mut z = pose_of(&self.equations, &pose.measured);
-        z.extend(self.hidden.get(i).into_iter().flatten());
+        match self.hidden.get(i) {
+            Some(hidden) => z.extend(hidden),
+            None => z.extend(hidden_states::carried(&self.equations, &[], self.record, i, &z).z),
+        }
         z
     }
 
@@ -323,9 +326,10 @@ fn not_asked(equations: &Equations, record: &Record) -> Vec<OnceLock<Option<Spee
     (0..rows).map(|_| OnceLock::new()).collect()
 }
 
-/// Hidden states at every row of a log, from how they begin by its first rows; empty when there are none.
+/// Hidden states at every row of a log, from how they begin by its first rows; empty when there are none, and where they
+/// follow speeds that are fitted.
 fn hidden_along(equations: &Equations, record: &Record) -> Vec<Vec<f64>> {
-    if equations.n() == equations.visible {
+    if equations.n() == equations.visible || equations.has_speeds() {
         return vec![];
     }
     let mut stepper = Stepper::new(equations, &record.signals, &[]);

@@ -1,6 +1,7 @@
 //! A contact with the ground: its slip, and the law of its force.
 
 use super::law::Law;
+use crate::error::Error;
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Constraint, Part, Row};
 
@@ -49,23 +50,29 @@ impl Contact {
 
     /// The force along the slip as a formula of rates, states and symbols of the law; `None` where it is ideal.
     pub(crate) fn force(&self, number: usize) -> Option<Expr> {
-        self.law.as_ref().map(|(law, _)| self.written(&law.force, law, number))
+        self.law.as_ref().map(|(law, _)| law.written(&law.force, number, &self.by_rates(number)))
     }
 
     /// The state of its law, and the state's rate.
     pub(crate) fn memory(&self, number: usize) -> Option<(Symbol, Expr)> {
         let (law, _) = self.law.as_ref()?;
-        let rate = self.written(law.rate.as_ref()?, law, number);
+        let rate = law.written(law.rate.as_ref()?, number, &self.by_rates(number));
         Some((Law::symbol("deflection", number), rate))
     }
 
-    fn written(&self, formula: &Expr, law: &Law, number: usize) -> Expr {
-        formula.substitute(&|s| match s.as_str() {
-            "slip" => Some(self.slip.expr()),
-            "speed" => Some(self.speed.expr()),
-            "deflection" => Some(Expr::sym(Law::symbol("deflection", number))),
-            name => law.parameters.iter().any(|p| p.name == name).then(|| Expr::sym(Law::symbol(name, number))),
-        })
+    /// Slip and speed as linear forms in the rates.
+    fn by_rates(&self, number: usize) -> impl Fn(&str) -> Expr {
+        move |name| match name {
+            "slip" => self.slip.expr(),
+            "speed" => self.speed.expr(),
+            _ => Expr::sym(Law::symbol(name, number)),
+        }
+    }
+
+    /// What a steering that swings an ideal contact is refused with.
+    pub(crate) fn swung_error(&self) -> Error {
+        Error::input(format!("{} is swung by the steering, whose acceleration is not known", self.name))
+            .help("give this contact a law of friction")
     }
 
     /// Symbols and values of its law.

@@ -18,9 +18,7 @@ impl Model {
     pub(crate) fn with_forces(&self, entry: &DynamicsEntry) -> Result<Self> {
         Dynamics::of_entry(entry, self)?.model()
     }
-}
 
-impl Model {
     /// The speeds that are free at the start, as the section of a file gives them; those of trailers and wheels at rest.
     pub fn speeds_at_start(&self, entry: &DynamicsEntry) -> Vec<f64> {
         let start = entry.start;

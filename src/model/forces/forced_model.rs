@@ -4,6 +4,7 @@ use super::description::{Dynamics, rate_role};
 use super::driving_force::roles;
 use super::slow_speeds::slow_speeds;
 use crate::error::Result;
+use crate::formula::Symbol;
 use crate::model::forced_motion::ForcedMotion;
 use crate::model::vehicle_model::Model;
 use crate::vehicles::{Input, Moves, Vehicle};
@@ -33,7 +34,7 @@ impl Dynamics {
     /// When nothing says how a coordinate accelerates, or the steering swings an ideal contact.
     pub fn model(&self) -> Result<Model> {
         let forced = self.lowered()?;
-        let (vehicle, inputs) = (self.forced_vehicle(&forced.freed), self.inputs());
+        let (vehicle, inputs) = (self.forced_vehicle(), self.inputs());
         let of = |forced: ForcedMotion| Model {
             vehicle: vehicle.clone(),
             inputs: inputs.clone(),
@@ -45,7 +46,7 @@ impl Dynamics {
         Ok(of(forced.with_nodes(nodes)))
     }
 
-    fn forced_vehicle(&self, freed: &[crate::formula::Symbol]) -> Vehicle {
+    fn forced_vehicle(&self) -> Vehicle {
         let own = &self.model.vehicle;
         let mut inputs = BTreeMap::new();
         for (role, unit, meaning) in roles(own) {
@@ -69,8 +70,20 @@ impl Dynamics {
             }
         }
         let mut vehicle = Vehicle { inputs, instead: None, ..own.clone() };
+        let freed = self.freed();
         vehicle.define.retain(|name, _| !freed.contains(name));
-        vehicle.held.extend(HELD.map(crate::formula::Symbol::from));
+        vehicle.held.extend(HELD.map(Symbol::from));
         vehicle
+    }
+
+    /// Symbols that the inputs of the vehicle define and the forces do not leave to them: rates of wheels, and steering
+    /// angles whose rates are given.
+    fn freed(&self) -> Vec<Symbol> {
+        let vehicle = &self.model.vehicle;
+        let is_input = |s: &Symbol| vehicle.inputs.contains_key(s.as_str());
+        let kept = self.given();
+        let moved = vehicle.define.iter().filter(|(_, f)| f.formula.symbols().iter().any(is_input));
+        let freed = moved.map(|(name, _)| name.clone()).filter(|name| !kept.contains(name));
+        freed.chain(self.prescribed.iter().filter(|_| self.by_rate).cloned()).collect()
     }
 }

@@ -116,4 +116,12 @@ impl Law {
     pub(crate) fn symbol(name: &str, contact: usize) -> Symbol {
         Symbol::new(&format!("contact_{contact}.{name}"))
     }
+
+    /// A formula of the law at the n-th contact, with what its slip, speed and deflection are there.
+    pub(super) fn written(&self, formula: &Expr, contact: usize, by: &dyn Fn(&str) -> Expr) -> Expr {
+        formula.substitute(&|s| match s.as_str() {
+            name @ ("slip" | "speed" | "deflection") => Some(by(name)),
+            name => self.parameters.iter().any(|p| p.name == name).then(|| Expr::sym(Self::symbol(name, contact))),
+        })
+    }
 }

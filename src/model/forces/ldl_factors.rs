@@ -19,7 +19,7 @@ pub(super) fn define_solution(d: &mut Definitions, a: &[Vec<Expr>], b: &[Expr], 
         let mut row: Vec<Expr> = Vec::new();
         for (j, entry) in entries.iter().enumerate() {
             let parts = (0..j).map(|k| times(&times(&row[k], if j < i { &lower[j][k] } else { &row[k] }), &pivots[k]));
-            let left = less(entry, sum(parts));
+            let left = entry - &sum(parts);
             if j < i {
                 let factor = if left.is_zero() { left } else { &left / &pivots[j] };
                 row.push(name(&format!("mass.factor_{}_{}", i + 1, j + 1), factor));
@@ -32,20 +32,12 @@ pub(super) fn define_solution(d: &mut Definitions, a: &[Vec<Expr>], b: &[Expr], 
     let mut y: Vec<Expr> = Vec::new();
     for i in 0..n {
         let known = sum((0..i).map(|k| times(&lower[i][k], &y[k])));
-        y.push(name(&format!("mass.forward_{}", i + 1), less(&b[i], known)));
+        y.push(name(&format!("mass.forward_{}", i + 1), &b[i] - &known));
     }
     for i in (0..n).rev() {
         let known = sum((i + 1..n).map(|k| times(&lower[k][i], &Expr::sym(names[k].clone()))));
         let quotient = if y[i].is_zero() { Expr::int(0) } else { &y[i] / &pivots[i] };
-        d.define(names[i].clone(), less(&quotient, known));
-    }
-}
-
-fn less(a: &Expr, b: Expr) -> Expr {
-    match (a.is_zero(), b.is_zero()) {
-        (_, true) => a.clone(),
-        (true, _) => -&b,
-        _ => a - &b,
+        d.define(names[i].clone(), &quotient - &known);
     }
 }
 

@@ -1,5 +1,6 @@
 //! The masses and moments of inertia of a vehicle.
 
+use crate::error::Error;
 use crate::formula::Symbol;
 use std::collections::BTreeMap;
 
@@ -58,4 +59,10 @@ impl Masses {
         let bodies = std::iter::once(&first).chain(&self.trailers).enumerate();
         bodies.flat_map(|(i, b)| symbols(i).into_iter().zip([b.mass, b.inertia, b.mass_offset])).collect()
     }
+}
+
+/// What a coordinate without inertia that no contact holds is refused with.
+pub(crate) fn without_inertia(coordinate: &Symbol) -> Error {
+    let message = format!("nothing says how {coordinate} accelerates: it has neither mass nor an ideal contact");
+    Error::input(message).help("give it a moment of inertia under [dynamics], or make its contact ideal")
 }

@@ -13,12 +13,14 @@
 //!
 //! The equations are written as ordinary definitions, so that everything that reads a model reads one with forces.
 
+mod applied_forces;
 mod bodies;
 mod contact;
 mod description;
 mod driving_force;
 mod entry;
 mod forced_model;
+mod kinetic_energy;
 mod law;
 mod ldl_factors;
 mod lowering;
@@ -35,4 +37,5 @@ pub use description::Dynamics;
 pub(crate) use description::rate_role;
 pub(crate) use driving_force::roles;
 pub use law::{Law, LawParameter, laws};
+pub(crate) use masses::without_inertia;
 pub use masses::{Masses, TrailerMass};

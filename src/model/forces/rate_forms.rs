@@ -92,17 +92,12 @@ impl RateForms {
     }
 }
 
-/// A product; nothing where a factor is.
+/// A product; zero where a factor is, even if the other may be undefined somewhere.
 pub(super) fn times(a: &Expr, b: &Expr) -> Expr {
-    match (a.is_zero() || b.is_zero(), a.is_one(), b.is_one()) {
-        (true, _, _) => Expr::int(0),
-        (_, true, _) => b.clone(),
-        (_, _, true) => a.clone(),
-        _ => a * b,
-    }
+    if a.is_zero() || b.is_zero() { Expr::int(0) } else { a * b }
 }
 
-/// A sum without what vanishes.
+/// A sum.
 pub(super) fn sum(parts: impl Iterator<Item = Expr>) -> Expr {
-    parts.filter(|p| !p.is_zero()).reduce(|a, b| &a + &b).unwrap_or_default()
+    parts.fold(Expr::int(0), |sum, part| &sum + &part)
 }

@@ -119,6 +119,14 @@ fn about(random: &mut ChaCha8Rng, usual: f64) -> f64 {
     usual * 2f64.powf(random.random_range(-0.58..0.58))
 }
 
+/// The masses of a body on wheels as the section of a model file.
+fn weights(body: &Solid, wheel: &Wheel) -> String {
+    format!(
+        "[dynamics]\nmass = {:?}\ninertia = {:?}\nmass_offset = {:?}\nwheel_inertia = {:?}\n",
+        body.mass, body.inertia, body.centre[0], wheel.inertia
+    )
+}
+
 fn sleigh(random: &mut ChaCha8Rng) -> Drawn {
     let (mass, radius) = (about(random, 20.0), about(random, 0.35));
     let body = solid(mass, mass * radius * radius, random.random_range(0.1..0.3));
@@ -158,13 +166,10 @@ fn one_wheel(random: &mut ChaCha8Rng) -> Drawn {
     let mut machine = machine(vec![body], vec![wheel], vec![contact], vec![]);
     machine.pushes = [None, None, Some(1)];
     let model = format!(
-        "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = {:?}\n[dynamics]\nmass = {:?}\ninertia = {:?}\n\
-         wheel_inertia = {:?}\ninputs = [\"wheel_torque\", \"yaw_torque\"]\n[dynamics.friction]\nrolling = {}\n\
+        "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = {:?}\n{}inputs = [\"wheel_torque\", \"yaw_torque\"]\n[dynamics.friction]\nrolling = {}\n\
          direction = {}\n",
         wheel.radius,
-        body.mass,
-        body.inertia,
-        wheel.inertia,
+        weights(&body, &wheel),
         law(roll),
         law(side)
     );
@@ -184,14 +189,9 @@ fn differential_drive(random: &mut ChaCha8Rng) -> Drawn {
     let contacts = vec![touch(-track / 2.0, 0), touch(track / 2.0, 1), axle];
     let machine = machine(vec![body], wheels.clone(), contacts, vec![]);
     let model = format!(
-        "vehicle = \"differential-drive\"\n[parameters]\nwheel_radius = {:?}\ntrack_width = {track:?}\n[dynamics]\n\
-         mass = {:?}\ninertia = {:?}\nmass_offset = {:?}\nwheel_inertia = {:?}\n\
-         inputs = [\"wheel_torque_left\", \"wheel_torque_right\"]\n[dynamics.friction]\nrolling = {}\ndirection = {}\n",
+        "vehicle = \"differential-drive\"\n[parameters]\nwheel_radius = {:?}\ntrack_width = {track:?}\n{}inputs = [\"wheel_torque_left\", \"wheel_torque_right\"]\n[dynamics.friction]\nrolling = {}\ndirection = {}\n",
         wheels[0].radius,
-        body.mass,
-        body.inertia,
-        body.centre[0],
-        wheels[0].inertia,
+        weights(&body, &wheels[0]),
         law(roll),
         law(side)
     );
@@ -232,9 +232,9 @@ fn car(random: &mut ChaCha8Rng) -> Drawn {
     let Chassis { body, wheel, base, contacts, friction } =
         chassis(random, |random, mass| Grip::of(Law::Rocard(rounded(about(random, 45.0) * mass))));
     let model = format!(
-        "vehicle = \"car\"\n[parameters]\nwheel_radius = {:?}\nwheelbase = {base:?}\n[dynamics]\nmass = {:?}\n\
-         inertia = {:?}\nmass_offset = {:?}\nwheel_inertia = {:?}\ninputs = [\"wheel_torque\"]\n{friction}",
-        wheel.radius, body.mass, body.inertia, body.centre[0], wheel.inertia
+        "vehicle = \"car\"\n[parameters]\nwheel_radius = {:?}\nwheelbase = {base:?}\n{}inputs = [\"wheel_torque\"]\n{friction}",
+        wheel.radius,
+        weights(&body, &wheel)
     );
     let machine = machine(vec![body], vec![wheel], contacts, vec![]);
     let sizes = vec![0.5 * body.mass * wheel.radius, 0.06];
@@ -259,17 +259,13 @@ fn train(random: &mut ChaCha8Rng) -> Drawn {
     let each = |f: &dyn Fn(usize) -> f64| format!("[{:?}, {:?}]", f(0), f(1));
     let model = format!(
         "vehicle = \"n-trailer\"\ntractor = \"car\"\n[parameters]\nwheel_radius = {:?}\nwheelbase = {base:?}\n\
-         trailer_lengths = {}\nhitch_offsets = {}\n[columns]\ntrailer_headings = [\"trailer_1\", \"trailer_2\"]\n[dynamics]\n\
-         mass = {:?}\ninertia = {:?}\nmass_offset = {:?}\nwheel_inertia = {:?}\ntrailer_masses = {}\n\
+         trailer_lengths = {}\nhitch_offsets = {}\n[columns]\ntrailer_headings = [\"trailer_1\", \"trailer_2\"]\n{}trailer_masses = {}\n\
          trailer_inertias = {}\ntrailer_mass_offsets = {}\ninputs = [\"wheel_torque\"]\n{friction}\
          trailer-1-direction = {}\ntrailer-2-direction = {}\n",
         wheel.radius,
         each(&|i| lengths[i]),
         each(&|i| hitches[i].behind),
-        body.mass,
-        body.inertia,
-        body.centre[0],
-        wheel.inertia,
+        weights(&body, &wheel),
         each(&|i| solids[i + 1].mass),
         each(&|i| solids[i + 1].inertia),
         each(&|i| solids[i + 1].centre[0]),
@@ -305,13 +301,10 @@ fn skid_steer(random: &mut ChaCha8Rng) -> Drawn {
     ];
     let model = format!(
         "vehicle = \"skid-steer\"\n[parameters]\nwheel_radius = {:?}\ntrack_width = {track:?}\nwheelbase = {base:?}\n\
-         [dynamics]\nmass = {:?}\ninertia = {:?}\nmass_offset = {:?}\nwheel_inertia = {:?}\ninputs = {roles:?}\n\
+         {}inputs = {roles:?}\n\
          [dynamics.friction]\nrolling = {}\ndirection = {}\n",
         wheels[0].radius,
-        body.mass,
-        body.inertia,
-        body.centre[0],
-        wheels[0].inertia,
+        weights(&body, &wheels[0]),
         law(roll),
         law(side)
     );

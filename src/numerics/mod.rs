@@ -1,6 +1,7 @@
 //! Methods of numerical mathematics that know nothing of vehicles.
 
 pub mod levenberg_marquardt;
+pub mod row_factors;
 mod usual_step;
 
 pub(crate) use usual_step::usual_step;

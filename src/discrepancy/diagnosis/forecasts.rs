@@ -11,6 +11,8 @@ use rayon::prelude::*;
 const PLACES: [usize; 2] = [900, 60];
 /// Places of one run: more are not told apart on a map.
 const MOST_PLACES: usize = 400;
+/// Places of one run where each begins with a fit of the speeds there.
+const FITTED_PLACES: usize = 150;
 /// Points of a forecast, its first and its last among them.
 const POINTS: usize = 11;
 
@@ -59,6 +61,7 @@ fn remaining(of: &Forecast) -> f64 {
 /// Forecasts of both models along a run; none of a run that is no longer than they look ahead.
 fn forecast(both: [&Rollout; 2], gap: &Gap, places: usize, gates: &Gates) -> Option<Forecast> {
     let (rows, time) = both[0].rows();
+    let places = if both[0].fits_speeds() { places.min(FITTED_PLACES) } else { places };
     let every = (time[rows.end - 1] - time[rows.start]) / places as f64;
     let mut next = time[rows.start];
     let mut is_due = |i: &usize| {

@@ -206,9 +206,24 @@ fn follow(poses: &mut [Vec<f64>], k: usize, neighbour: usize, turn: f64) {
     poses[k][DIRECTION] = if off.abs() < AGREEMENT { expected + off } else { expected };
 }
 
-/// The smoothed measurement at a row, with the heading that the model says where none is measured.
+/// The smoothed measurement at a row, with the heading that the model says where none is measured, and speeds by slopes.
 pub fn measured_at(equations: &Equations, record: &Record, row: usize) -> Vec<f64> {
-    MeasuredPose::at(equations, record, row).measured
+    smoothed_over(equations, record, row, 0.0).0
+}
+
+/// As [`measured_at`], known well enough for a span of time, s, and what the heading is taken from where none is measured.
+fn smoothed_over(equations: &Equations, record: &Record, row: usize, span: f64) -> (Vec<f64>, Option<PathHeading>) {
+    let mut measured = record.smoothed(row);
+    let course = (!record.has_heading()).then(|| heading_over(equations, record, row, span));
+    if let Some(course) = &course {
+        // Trailers that nothing measures follow straight.
+        measured[2..equations.poses].iter_mut().enumerate().for_each(|(i, y)| {
+            if i == 0 || i >= record.columns.len() - 1 {
+                *y = course.heading;
+            }
+        });
+    }
+    (measured, course)
 }
 
 /// Where the vehicle is at a row.
@@ -230,16 +245,7 @@ impl MeasuredPose {
 
     /// At a row of a record, known well enough for a span of time, s.
     pub fn over(equations: &Equations, record: &Record, row: usize, span: f64) -> Self {
-        let mut measured = record.smoothed(row);
-        let course = (!record.has_heading()).then(|| heading_over(equations, record, row, span));
-        if let Some(course) = &course {
-            // Trailers that nothing measures follow straight.
-            measured[2..equations.poses].iter_mut().enumerate().for_each(|(i, y)| {
-                if i == 0 || i >= record.columns.len() - 1 {
-                    *y = course.heading;
-                }
-            });
-        }
+        let (mut measured, course) = smoothed_over(equations, record, row, span);
         // Where a prediction begins, what comes is not looked at.
         let around = if span > 0.0 { speed_fit::BEFORE } else { speed_fit::AROUND };
         let fit = speed_fit::speeds_at(equations, record, row, around);

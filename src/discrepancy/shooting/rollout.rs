@@ -98,6 +98,11 @@ impl<'a> Rollout<'a> {
         Ok(Self { hidden, speeds: not_asked(&equations, record), record, equations })
     }
 
+    /// Whether predictions begin with a fit of the speeds there, of a vehicle whose speeds forces change.
+    pub fn fits_speeds(&self) -> bool {
+        self.equations.has_speeds()
+    }
+
     /// The state by the rows before a row, of a vehicle whose speeds forces change.
     fn speeds(&self, row: usize) -> Option<&SpeedFit> {
         let fit = || speed_fit::speeds_at(&self.equations, self.record, row, speed_fit::BEFORE);

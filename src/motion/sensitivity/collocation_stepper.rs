@@ -1,12 +1,18 @@
 //! Radau IIA collocation of order five for stiff states and their exact sensitivities (Hairer and Wanner, Solving Ordinary
 //! Differential Equations II, IV.5 and IV.8).
 
+use super::collocation_sensitivity::{SensitivityMemory, StageSlopes};
 use super::states::LaneStates;
 use super::variational_equations::VariationalEquations;
-use nalgebra::{DMatrix, DVector, Dyn, LU};
+use crate::formula::{Isa, Kernel};
+use crate::model::Equations;
+use crate::motion::Signals;
+use crate::numerics::row_factors::RowFactors;
 
 /// Stages of the method.
-const STAGES: usize = 3;
+pub(super) const STAGES: usize = 3;
+/// The stages are evaluated side by side; a vector has one lane more.
+const LANES: usize = 4;
 /// Steps of Newton's method before a step is halved.
 const MAX_NEWTON_STEPS: usize = 10;
 /// What counts as arrived, relative to the state.
@@ -20,10 +26,10 @@ const MAX_STEPS: f64 = 256.0;
 /// How often a step is halved before the motion counts as undefined.
 const MAX_HALVINGS: u32 = 6;
 
-/// The nodes and the matrix of the method.
-struct Tableau {
+/// The nodes and the matrix of the method; its last row are the weights, for the last stage is the end.
+pub(super) struct Tableau {
     c: [f64; STAGES],
-    a: [[f64; STAGES]; STAGES],
+    pub a: [[f64; STAGES]; STAGES],
 }
 
 fn tableau() -> Tableau {
@@ -38,190 +44,211 @@ fn tableau() -> Tableau {
     }
 }
 
-/// Steps of the method for L arcs, one arc after another.
-pub(crate) struct CollocationStepper<const L: usize> {
+/// Steps of the method for one arc.
+///
+/// The first states, those of the pose that the others do not read, are no part of Newton's system: they are integrals of
+/// the others at the same nodes.
+pub(crate) struct CollocationStepper<'a> {
     tableau: Tableau,
-    rate: LaneStates<L>,
-    at: LaneStates<L>,
+    motion: VariationalEquations<'a, LANES>,
+    /// How many of the states, the first ones, are integrals.
+    pose: usize,
+    isa: Isa,
+    rate: LaneStates<LANES>,
+    /// The states at the stages.
+    at: Vec<[f64; LANES]>,
+    /// J and P there.
+    by_states: Vec<[f64; LANES]>,
+    by_p: Vec<[f64; LANES]>,
+    times: [f64; LANES],
+    factors: RowFactors,
+    step: Vec<f64>,
+    memory: SensitivityMemory,
 }
 
-impl<const L: usize> Default for CollocationStepper<L> {
-    fn default() -> Self {
-        Self { tableau: tableau(), rate: LaneStates::default(), at: LaneStates::default() }
-    }
-}
-
-impl<const L: usize> CollocationStepper<L> {
-    /// Advances arcs between times within which the inputs have no knot.
-    pub fn advance(
-        &mut self,
-        motion: &mut VariationalEquations<L>,
-        z: &mut [[f64; L]],
-        s: &mut [[f64; L]],
-        from: &[f64; L],
-        to: &[f64; L],
-    ) {
-        for arcs in [&mut self.rate, &mut self.at] {
-            arcs.make_room(z.len(), s.len());
-        }
-        for l in 0..L {
-            let span = to[l] - from[l];
-            if span == 0.0 {
-                continue;
-            }
-            let f = self.rates(motion, &column(z, l), l, from[l]);
-            let turning = (span * f[2]).abs() / TURN_PER_STEP;
-            let steps = (span.abs() / LONGEST).max(turning).ceil().max(1.0);
-            // What spins faster is no vehicle, and undefined.
-            if steps.is_nan() || steps > MAX_STEPS {
-                z.iter_mut().for_each(|z| z[l] = f64::NAN);
-                continue;
-            }
-            let h = span / steps;
-            for i in 0..steps as usize {
-                self.step(motion, z, s, l, (from[l] + h * i as f64, h), MAX_HALVINGS);
-            }
+impl<'a> CollocationStepper<'a> {
+    /// Equations along signals at some parameters.
+    pub fn new(equations: &'a Equations, signals: &'a Signals, p: &[f64]) -> Self {
+        let motion = VariationalEquations::new(equations, signals, [p; LANES]);
+        let n = equations.n();
+        let mut rate = LaneStates::default();
+        rate.make_room(n, 0);
+        Self {
+            tableau: tableau(),
+            pose: integrals(motion.read_by()),
+            motion,
+            isa: Isa::best(),
+            rate,
+            at: vec![[0.0; LANES]; n],
+            by_states: vec![[0.0; LANES]; n * n],
+            by_p: vec![[0.0; LANES]; n * p.len()],
+            times: [0.0; LANES],
+            factors: RowFactors::default(),
+            step: vec![],
+            memory: SensitivityMemory::default(),
         }
     }
 
-    /// One step of one arc, or two of half the length where Newton's method does not arrive.
-    fn step(
-        &mut self,
-        motion: &mut VariationalEquations<L>,
-        z: &mut [[f64; L]],
-        s: &mut [[f64; L]],
-        l: usize,
-        (t, h): (f64, f64),
-        halvings: u32,
-    ) {
-        let begin = column(z, l);
-        if !begin.iter().all(|z| z.is_finite()) {
+    /// Advances the arc, which turns at a rate, between times within which the inputs have no knot; S is stored row by row, or
+    /// empty.
+    pub fn advance(&mut self, z: &mut [f64], s: &mut [f64], (from, to): (f64, f64), yaw_rate: f64) {
+        let span = to - from;
+        if span == 0.0 {
             return;
         }
-        let Some(stages) = self.stages(motion, &begin, l, (t, h)) else {
-            if halvings == 0 {
-                z.iter_mut().for_each(|z| z[l] = f64::NAN);
-                return;
-            }
-            self.step(motion, z, s, l, (t, h / 2.0), halvings - 1);
-            return self.step(motion, z, s, l, (t + h / 2.0, h / 2.0), halvings - 1);
-        };
-        if !s.is_empty() {
-            self.sensitivities(motion, &stages, s, l, (t, h));
+        let turning = (span * yaw_rate).abs() / TURN_PER_STEP;
+        let steps = (span.abs() / LONGEST).max(turning).ceil().max(1.0);
+        // What spins faster is no vehicle, and undefined.
+        if steps.is_nan() || steps > MAX_STEPS {
+            return z.fill(f64::NAN);
         }
-        z.iter_mut().zip(stages[STAGES - 1].iter()).for_each(|(z, end)| z[l] = *end);
+        let h = span / steps;
+        for i in 0..steps as usize {
+            self.step(z, s, (from + h * i as f64, h), MAX_HALVINGS);
+        }
     }
 
-    /// The states at the stages, by Newton's method with the derivatives of the beginning.
-    fn stages(
-        &mut self,
-        motion: &mut VariationalEquations<L>,
-        begin: &DVector<f64>,
-        l: usize,
-        (t, h): (f64, f64),
-    ) -> Option<Vec<DVector<f64>>> {
-        let n = begin.len();
-        let rates = self.rates(motion, begin, l, t);
-        let by_states = motion.by_states(&self.at.z, false, l);
-        let lu = self.matrix(&[&by_states; STAGES], h)?;
-        let mut stages: Vec<DVector<f64>> = self.tableau.c.iter().map(|c| begin + &rates * (c * h)).collect();
+    /// One step, or two of half the length where Newton's method does not arrive.
+    fn step(&mut self, z: &mut [f64], s: &mut [f64], (t, h): (f64, f64), halvings: u32) {
+        if !z.iter().all(|z| z.is_finite()) {
+            return;
+        }
+        if self.stages(z, (t, h)).is_none() {
+            if halvings == 0 {
+                return z.fill(f64::NAN);
+            }
+            self.step(z, s, (t, h / 2.0), halvings - 1);
+            return self.step(z, s, (t + h / 2.0, h / 2.0), halvings - 1);
+        }
+        self.evaluate();
+        self.integrate(z, h);
+        match s.is_empty() {
+            true => self.evaluate(),
+            false => {
+                self.linearise();
+                let Self { tableau, pose, by_states, by_p, memory, .. } = self;
+                StageSlopes { tableau, h, n: z.len(), pose: *pose, by_states, by_p }.advance(s, memory);
+            }
+        }
+        self.integrate(z, h);
+        z.iter_mut().zip(&self.at).for_each(|(z, at)| *z = at[STAGES - 1]);
+    }
+
+    /// The states at the stages but for the pose, by Newton's method with the derivatives of the beginning.
+    fn stages(&mut self, begin: &[f64], (t, h): (f64, f64)) -> Option<()> {
+        self.stand(begin, [t; LANES]);
+        self.linearise();
+        let (n, pose, a) = (begin.len(), self.pose, self.tableau.a);
+        let free = n - pose;
+        let by_states = &self.by_states;
+        let factored = self.factors.factor(STAGES * free, |row, col| {
+            let slope = by_states[(pose + row % free) * n + pose + col % free][0];
+            f64::from(u8::from(row == col)) - h * a[row / free][col / free] * slope
+        });
+        if !factored {
+            return None;
+        }
+        (0..STAGES).for_each(|i| self.times[i] = t + self.tableau.c[i] * h);
+        let mut before = None;
         for _ in 0..MAX_NEWTON_STEPS {
-            let times = self.tableau.c.map(|c| t + c * h);
-            let rates: Vec<DVector<f64>> = stages.iter().zip(times).map(|(z, t)| self.rates(motion, z, l, t)).collect();
-            let off = DVector::from_fn(STAGES * n, |row, _| {
-                let (i, k) = (row / n, row % n);
-                let moved: f64 = (0..STAGES).map(|j| self.tableau.a[i][j] * rates[j][k]).sum();
-                begin[k] + h * moved - stages[i][k]
-            });
-            let step = lu.solve(&off)?;
-            if !step.iter().all(|v| v.is_finite()) {
+            self.evaluate();
+            self.step.clear();
+            for row in 0..STAGES * free {
+                let (i, k) = (row / free, pose + row % free);
+                let moved: f64 = (0..STAGES).map(|j| a[i][j] * self.rate.z[k][j]).sum();
+                self.step.push(begin[k] + h * moved - self.at[k][i]);
+            }
+            self.factors.solve(&mut self.step);
+            let mut largest = 0.0_f64;
+            for (row, by) in self.step.iter().enumerate() {
+                let at = &mut self.at[pose + row % free][row / free];
+                *at += by;
+                // A comparison that an undefined value does not pass.
+                largest = if by.abs() / (1.0 + at.abs()) <= largest { largest } else { by.abs() / (1.0 + at.abs()) };
+            }
+            if !largest.is_finite() {
                 return None;
             }
-            let mut arrived = true;
-            for (i, stage) in stages.iter_mut().enumerate() {
-                for k in 0..n {
-                    let by = step[i * n + k];
-                    stage[k] += by;
-                    arrived &= by.abs() <= TOLERANCE * (1.0 + stage[k].abs());
-                }
+            // What is left goes on falling as it fell.
+            let falls = before.map_or(1.0, |before: f64| largest / before);
+            if largest <= TOLERANCE || falls < 1.0 && falls / (1.0 - falls) * largest <= TOLERANCE {
+                return Some(());
             }
-            if arrived {
-                return Some(stages);
-            }
+            before = Some(largest);
         }
         None
     }
 
-    /// S at the end: (1 − h·A⊗J)·ΔS = h·A⊗(J·S + P), exact for the stages that were found.
-    fn sensitivities(
-        &mut self,
-        motion: &mut VariationalEquations<L>,
-        stages: &[DVector<f64>],
-        s: &mut [[f64; L]],
-        l: usize,
-        (t, h): (f64, f64),
-    ) {
-        let n = stages[0].len();
-        let k = s.len() / n;
-        let before = DMatrix::from_fn(n, k, |i, c| s[i * k + c][l]);
-        let times = self.tableau.c.map(|c| t + c * h);
-        let each: Vec<[DMatrix<f64>; 2]> =
-            stages.iter().zip(times).map(|(z, t)| self.slopes(motion, z, l, t)).collect();
-        let pushed: Vec<DMatrix<f64>> = each.iter().map(|[by_states, rest]| by_states * &before + rest).collect();
-        let right = DMatrix::from_fn(STAGES * n, k, |row, c| {
-            let (i, m) = (row / n, row % n);
-            h * (0..STAGES).map(|j| self.tableau.a[i][j] * pushed[j][(m, c)]).sum::<f64>()
-        });
-        let lu = self.matrix(&[&each[0][0], &each[1][0], &each[2][0]], h);
-        let moved = lu.and_then(|lu| lu.solve(&right));
-        for (entry, s) in s.iter_mut().enumerate() {
-            let (i, c) = (entry / k, entry % k);
-            s[l] += moved.as_ref().map_or(f64::NAN, |m| m[((STAGES - 1) * n + i, c)]);
+    /// The pose at the stages by the rates there.
+    fn integrate(&mut self, begin: &[f64], h: f64) {
+        for (k, begin) in begin.iter().enumerate().take(self.pose) {
+            for i in 0..STAGES {
+                let moved: f64 = (0..STAGES).map(|j| self.tableau.a[i][j] * self.rate.z[k][j]).sum();
+                self.at[k][i] = begin + h * moved;
+            }
         }
     }
 
-    /// 1 − h·A⊗J with a J for each stage, factored.
-    fn matrix(&self, by_states: &[&DMatrix<f64>; STAGES], h: f64) -> Option<LU<f64, Dyn, Dyn>> {
-        let n = by_states[0].nrows();
-        let matrix = DMatrix::from_fn(STAGES * n, STAGES * n, |row, col| {
-            let (i, k, j, m) = (row / n, row % n, col / n, col % n);
-            let own = if row == col { 1.0 } else { 0.0 };
-            own - h * self.tableau.a[i][j] * by_states[j][(k, m)]
-        });
-        matrix.iter().all(|v| v.is_finite()).then(|| matrix.lu())
+    /// All lanes at a state.
+    fn stand(&mut self, z: &[f64], times: [f64; LANES]) {
+        self.at.iter_mut().zip(z).for_each(|(at, z)| *at = [*z; LANES]);
+        self.times = times;
     }
 
-    fn rates(&mut self, motion: &mut VariationalEquations<L>, z: &DVector<f64>, l: usize, t: f64) -> DVector<f64> {
-        self.stand(z);
-        motion.rate(&self.at.z, &[], &[t; L], &mut self.rate);
-        column(&self.rate.z, l)
+    /// The rates at the stages.
+    fn evaluate(&mut self) {
+        let Self { motion, at, times, rate, .. } = self;
+        self.isa.dispatch(Rates { motion, at, times, rate });
     }
 
-    /// The derivatives of the rates by the states, and by what else the sensitivities hang on: S′ where S is zero.
-    fn slopes(
-        &mut self,
-        motion: &mut VariationalEquations<L>,
-        z: &DVector<f64>,
-        l: usize,
-        t: f64,
-    ) -> [DMatrix<f64>; 2] {
-        self.stand(z);
-        self.at.s.fill([0.0; L]);
-        self.rate.s.fill([0.0; L]);
-        motion.rate(&self.at.z, &self.at.s, &[t; L], &mut self.rate);
-        let (n, k) = (z.len(), self.rate.s.len() / z.len());
-        let by_rest = DMatrix::from_fn(n, k, |i, c| self.rate.s[i * k + c][l]);
-        [motion.by_states(&self.at.z, true, l), by_rest]
-    }
-
-    /// All lanes stand where one does: those that have nothing to do must not be undefined.
-    fn stand(&mut self, z: &DVector<f64>) {
-        self.at.z.iter_mut().zip(z.iter()).for_each(|(at, z)| *at = [*z; L]);
+    /// The rates at the stages and their derivatives.
+    fn linearise(&mut self) {
+        let Self { motion, at, times, rate, by_states, by_p, .. } = self;
+        self.isa.dispatch(Linearised { motion, at, times, rate, by_states, by_p });
     }
 }
 
-fn column<const L: usize>(values: &[[f64; L]], l: usize) -> DVector<f64> {
-    DVector::from_iterator(values.len(), values.iter().map(|v| v[l]))
+/// How many states, the first ones, are integrals of the others: none of the others reads them, and those of them that they
+/// read among themselves read none of them.
+fn integrals(read_by: &[Vec<usize>]) -> usize {
+    let fits = |pose: usize| {
+        let (own, others) = read_by.split_at(pose);
+        let inner = |reads: &Vec<usize>| reads.iter().copied().filter(|j| *j < pose).collect::<Vec<_>>();
+        let is_integral = |j: usize| inner(&own[j]).is_empty();
+        others.iter().all(|reads| inner(reads).is_empty())
+            && own.iter().all(|reads| inner(reads).into_iter().all(is_integral))
+    };
+    (0..=3.min(read_by.len().saturating_sub(1))).rev().find(|pose| fits(*pose)).unwrap_or(0)
+}
+
+struct Rates<'s, 'a> {
+    motion: &'s mut VariationalEquations<'a, LANES>,
+    at: &'s [[f64; LANES]],
+    times: &'s [f64; LANES],
+    rate: &'s mut LaneStates<LANES>,
+}
+
+impl Kernel for Rates<'_, '_> {
+    #[inline(always)]
+    fn run(self) {
+        self.motion.rate(self.at, &[], self.times, self.rate);
+    }
+}
+
+struct Linearised<'s, 'a> {
+    motion: &'s mut VariationalEquations<'a, LANES>,
+    at: &'s [[f64; LANES]],
+    times: &'s [f64; LANES],
+    rate: &'s mut LaneStates<LANES>,
+    by_states: &'s mut [[f64; LANES]],
+    by_p: &'s mut [[f64; LANES]],
+}
+
+impl Kernel for Linearised<'_, '_> {
+    #[inline(always)]
+    fn run(self) {
+        self.motion.linearised(self.at, self.times, &mut self.rate.z, [self.by_states, self.by_p]);
+    }
 }
 
 #[cfg(test)]
@@ -231,8 +258,8 @@ mod tests {
     use crate::model::{Equations, Model};
     use crate::motion::{Signals, StateSensitivity, Stepper, Timing};
 
-    /// A robot by its torques whose light wheels forget in 2 ms, its mass left free.
-    fn robot() -> (Equations, Vec<f64>) {
+    /// A robot by its torques whose light wheels forget in 2 ms, its mass left free, with more effects.
+    fn robot(more: &[Applied]) -> (Equations, Vec<f64>) {
         let model = Model::new("differential-drive", &[("wheel_radius", 0.1), ("track_width", 0.5)]).unwrap();
         let wheels = [("theta_1'".into(), 0.005), ("theta_2'".into(), 0.005)].into();
         let masses = Masses { mass: 20.0, inertia: 1.0, mass_offset: 0.1, wheels, ..Masses::default() };
@@ -240,7 +267,7 @@ mod tests {
         let robot = robot.driven_by(&["wheel_torque_left", "wheel_torque_right"]).unwrap();
         let robot = robot.with_laws("viscous", &[200.0]).unwrap().model().unwrap();
         let mass = Applied::new(effects::named("mass").unwrap(), None, vec![0.2]).freed();
-        let robot = robot.with_effect(mass);
+        let robot = more.iter().fold(robot.with_effect(mass), |robot, effect| robot.with_effect(effect.clone()));
         (robot.free_equations().unwrap(), robot.free_values())
     }
 
@@ -262,7 +289,7 @@ mod tests {
     /// Rows a tenth of a second apart end where sixteen times as many do, stiff wheels or not.
     #[test]
     fn long_rows_end_where_short_ones_do() {
-        let (equations, p) = robot();
+        let (equations, p) = robot(&[]);
         let begin: Vec<f64> = (0..equations.n()).map(|i| 0.1 * (i as f64 + 1.0)).collect();
         let [long, short] = [0.1, 0.1 / 16.0].map(|row| after(&equations, &p, &begin, row));
         for (a, b) in long.z.iter().zip(&short.z).chain(long.s.iter().zip(&short.s)) {
@@ -273,20 +300,29 @@ mod tests {
     /// The sensitivities are the derivatives of what the steps give.
     #[test]
     fn sensitivities_are_those_of_the_end() {
-        let (equations, p) = robot();
+        let hill = Applied::new(effects::named("hill").unwrap(), None, vec![0.1, 0.4]).freed();
+        // On a hill the speeds read the heading.
+        for (integrals, more) in [(3, vec![]), (2, vec![hill])] {
+            let (equations, p) = robot(&more);
+            assert_eq!(super::integrals(&equations.read_by()), integrals);
+            check_sensitivities(&equations, &p);
+        }
+    }
+
+    fn check_sensitivities(equations: &Equations, p: &[f64]) {
         let begin: Vec<f64> = (0..equations.n()).map(|i| 0.1 * (i as f64 + 1.0)).collect();
-        let exact = after(&equations, &p, &begin, 0.1);
+        let exact = after(equations, p, &begin, 0.1);
         let (n, m) = (equations.n(), equations.visible);
         let k = m + p.len();
         for c in 0..k {
             let moved = |by: f64| {
-                let (mut p, mut begin) = (p.clone(), begin.clone());
+                let (mut p, mut begin) = (p.to_vec(), begin.clone());
                 if c < m {
                     begin[c] += by
                 } else {
                     p[c - m] += by
                 }
-                after(&equations, &p, &begin, 0.1).z
+                after(equations, &p, &begin, 0.1).z
             };
             let (more, less) = (moved(1e-5), moved(-1e-5));
             for i in 0..n {
@@ -299,7 +335,7 @@ mod tests {
     /// A body that spins thousands of times a row is undefined, and so is what begins undefined, without a search for steps.
     #[test]
     fn what_spins_is_undefined() {
-        let (equations, p) = robot();
+        let (equations, p) = robot(&[]);
         let yaw = equations.states.iter().position(|s| s.as_str() == "body.omega").unwrap();
         for wild in [1e6, f64::NAN] {
             let mut begin = vec![0.1; equations.n()];

@@ -37,8 +37,8 @@ pub(crate) struct LaneStepper<'a, const L: usize> {
     total: LaneStates<L>,
     at: LaneStates<L>,
     exponential: ExponentialStepper<L>,
-    /// For vehicles that forces move.
-    collocation: CollocationStepper<L>,
+    /// Of vehicles that forces move one for each arc, of others none.
+    collocation: Vec<CollocationStepper<'a>>,
     /// Of each arc the knot of the signals that it comes to next.
     ahead: [usize; L],
     isa: Isa,
@@ -68,7 +68,11 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
             total: LaneStates::default(),
             at: LaneStates::default(),
             exponential: ExponentialStepper::default(),
-            collocation: CollocationStepper::default(),
+            collocation: p
+                .iter()
+                .filter(|_| equations.is_forced)
+                .map(|p| CollocationStepper::new(equations, signals, p))
+                .collect(),
             ahead: [0; L],
             isa: Isa::best(),
         }
@@ -158,7 +162,13 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
 
     #[inline(never)]
     fn collocate(&mut self, z: &mut [[f64; L]], s: &mut [[f64; L]], from: &[f64; L], to: &[f64; L]) {
-        self.collocation.advance(&mut self.motion, z, s, from, to);
+        let lane = |values: &[[f64; L]], l: usize| values.iter().map(|v| v[l]).collect::<Vec<f64>>();
+        for (l, arc) in self.collocation.iter_mut().enumerate() {
+            let (mut own, mut slopes) = (lane(z, l), lane(s, l));
+            arc.advance(&mut own, &mut slopes, (from[l], to[l]), self.rate.z[2][l]);
+            z.iter_mut().zip(own).for_each(|(z, own)| z[l] = own);
+            s.iter_mut().zip(slopes).for_each(|(s, own)| s[l] = own);
+        }
     }
 
     #[inline(always)]
@@ -169,10 +179,15 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
         }
         let still = motion.still_entries(s);
         at.s[..still].copy_from_slice(&s[..still]);
-        motion.rate(z, s, from, rate);
-        let Steps { equal, forgotten } = steps(motion, z, s, &rate.z, from, to);
+        // Under forces the rates alone say who steps: collocation has rates of its own.
+        let asked = if motion.is_forced() { &[][..] } else { &*s };
+        motion.rate(z, asked, from, rate);
+        let Steps { equal, forgotten } = steps(motion, z, asked, &rate.z, from, to);
         if motion.is_forced() && (forgotten.is_some() || equal.iter().any(|n| *n > FEW)) {
             return self.collocate(z, s, from, to);
+        }
+        if motion.is_forced() {
+            motion.rate(z, s, from, rate);
         }
         let (mut h, mut most) = ([0.0; L], 0.0);
         for l in 0..L {

@@ -1,5 +1,6 @@
 //! Trajectories with exact derivatives, by the variational equations beside those of the model.
 
+mod collocation_sensitivity;
 mod collocation_stepper;
 pub(crate) mod equilibrium;
 pub(crate) mod exponential_stepper;

@@ -4,7 +4,6 @@ use super::states::{LaneStates, add};
 use crate::model::{Derived, Equations, Workspace};
 use crate::motion::Signals;
 use crate::motion::inputs::lane_lookup::Lookup;
-use nalgebra::DMatrix;
 
 /// z′ and S′ as functions of time.
 pub(crate) struct VariationalEquations<'a, const L: usize> {
@@ -110,15 +109,9 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
         (0..n).map(move |i| &f[n + i * width + i])
     }
 
-    /// ∂z′/∂z of one of the arcs where the rate was last asked for; `known` where S′ was asked for, too.
-    pub fn by_states(&mut self, z: &[[f64; L]], known: bool, l: usize) -> DMatrix<f64> {
-        if !known {
-            self.equations.jacobian_here(&mut self.workspace, z, &self.lookup.value);
-        }
-        let n = z.len();
-        let width = n + self.lookup.value.len() + self.delay_slopes.len();
-        let f = self.equations.last_jacobian(&self.workspace);
-        DMatrix::from_fn(n, n, |i, j| f[n + i * width + j][l])
+    /// Which states each rate depends on.
+    pub fn read_by(&self) -> &[Vec<usize>] {
+        &self.read_by
     }
 
     /// Whether forces move the vehicle, so that its speeds may be stiff.
@@ -151,41 +144,71 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
         if s.is_empty() {
             return self.equations.rates_here(&mut self.workspace, z, &self.lookup.value, &mut rate.z);
         }
-        let (n, m, p) = (z.len(), self.lookup.value.len(), self.delay_slopes.len());
-        let (width, k) = (n + m + p, self.columns());
-        let f = self.equations.jacobian_here(&mut self.workspace, z, &self.lookup.value);
-        rate.z.copy_from_slice(&f[..n]);
+        let (n, p, k) = (z.len(), self.delay_slopes.len(), self.columns());
+        rate.z.copy_from_slice(&self.equations.jacobian_here(&mut self.workspace, z, &self.lookup.value)[..n]);
         for (i_row, read) in self.read_by.iter().enumerate().skip(self.still) {
-            let row = &f[n + i_row * width..n + (i_row + 1) * width];
+            let row = self.slopes_of(i_row, n);
             let out = &mut rate.s[i_row * k + self.first..(i_row + 1) * k];
             out.fill([0.0; L]);
             for j in read {
                 add(out, &row[*j], &s[j * k + self.first..(j + 1) * k]);
             }
-            let (by_p, out) = (&row[n + m..], &mut out[k - p - self.first..]);
-            if !self.delayed {
-                add(out, &[1.0; L], by_p);
-                continue;
+            self.add_by_parameters(i_row, n, &mut out[k - p - self.first..]);
+        }
+    }
+
+    /// z′, and row by row ∂z′/∂z and ∂z′/∂p with the inputs as the parameters delay them.
+    #[inline(always)]
+    pub fn linearised(
+        &mut self,
+        z: &[[f64; L]],
+        t: &[f64; L],
+        rates: &mut [[f64; L]],
+        [by_states, by_p]: [&mut [[f64; L]]; 2],
+    ) {
+        self.look_up(t);
+        let (n, p) = (z.len(), self.delay_slopes.len());
+        rates.copy_from_slice(&self.equations.jacobian_here(&mut self.workspace, z, &self.lookup.value)[..n]);
+        by_p.fill([0.0; L]);
+        for (i_row, by_states) in by_states.chunks_exact_mut(n).enumerate() {
+            by_states.copy_from_slice(&self.slopes_of(i_row, n)[..n]);
+            self.add_by_parameters(i_row, n, &mut by_p[i_row * p..(i_row + 1) * p]);
+        }
+    }
+
+    /// The derivatives of one of n rates by (z, u, p) where they were last asked for.
+    #[inline(always)]
+    fn slopes_of(&self, i_row: usize, n: usize) -> &[[f64; L]] {
+        let width = n + self.lookup.value.len() + self.delay_slopes.len();
+        &self.equations.last_jacobian(&self.workspace)[n + i_row * width..n + (i_row + 1) * width]
+    }
+
+    /// J_p − J_u·u̇·∂delay/∂p of one of n rates.
+    #[inline(always)]
+    fn add_by_parameters(&self, i_row: usize, n: usize, out: &mut [[f64; L]]) {
+        let (m, row) = (self.lookup.value.len(), self.slopes_of(i_row, n));
+        let by_p = &row[n + m..];
+        if !self.delayed {
+            return add(out, &[1.0; L], by_p);
+        }
+        let mut along_inputs = [0.0; L];
+        for (by_input, slope) in row[n..n + m].iter().zip(&self.lookup.slope) {
+            for l in 0..L {
+                along_inputs[l] += by_input[l] * slope[l];
             }
-            let mut along_inputs = [0.0; L];
-            for (by_input, slope) in row[n..n + m].iter().zip(&self.lookup.slope) {
-                for l in 0..L {
-                    along_inputs[l] += by_input[l] * slope[l];
-                }
+        }
+        for ((out, by_p), delay_slope) in out.iter_mut().zip(by_p).zip(&self.delay_slopes) {
+            for l in 0..L {
+                out[l] += by_p[l] - along_inputs[l] * delay_slope[l];
             }
-            for ((out, by_p), delay_slope) in out.iter_mut().zip(by_p).zip(&self.delay_slopes) {
-                for l in 0..L {
-                    out[l] += by_p[l] - along_inputs[l] * delay_slope[l];
-                }
-            }
-            for own in &self.own {
-                for i in &own.inputs {
-                    let (by_input, slope) = (&row[n + i], &self.lookup.slope[*i]);
-                    let mut along = [0.0; L];
-                    (0..L).for_each(|l| along[l] = -by_input[l] * slope[l]);
-                    for (out, delay_slope) in rate.s[(i_row + 1) * k - p..(i_row + 1) * k].iter_mut().zip(&own.slopes) {
-                        (0..L).for_each(|l| out[l] += along[l] * delay_slope[l]);
-                    }
+        }
+        for own in &self.own {
+            for i in &own.inputs {
+                let (by_input, slope) = (&row[n + i], &self.lookup.slope[*i]);
+                let mut along = [0.0; L];
+                (0..L).for_each(|l| along[l] = -by_input[l] * slope[l]);
+                for (out, delay_slope) in out.iter_mut().zip(&own.slopes) {
+                    (0..L).for_each(|l| out[l] += along[l] * delay_slope[l]);
                 }
             }
         }

@@ -23,6 +23,10 @@ const LONGEST: f64 = 20.0;
 /// How far first guesses go on along the headings, one after another until there is a plan.
 const REACHES: [f64; 3] = [1.0, 2.5, 0.5];
 
+/// How often a plan is made again for the sake of states that begin in equilibrium, and when they do.
+const MOST_STARTS: usize = 12;
+const SAME_START: f64 = 1e-11;
+
 /// What is to be planned.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Task {
@@ -166,7 +170,7 @@ impl Planner {
             let begin = task.duration.unwrap_or(usual);
             let guess = point(&on_body, &self.start, &self.equations, &task.limits, spline, begin);
             let program = self.program(task, spline, bend, (duration, begin), (&curve.poses, &spans));
-            let found = solved(&program, guess).map(|(found, cost)| (self.plan(spline, found), cost));
+            let found = self.begun_at_rest(program, guess);
             tell(progress, Stage::FirstGuesses, tried.fetch_add(1, Ordering::Relaxed) + 1, all)?;
             Ok(found)
         };
@@ -177,6 +181,26 @@ impl Planner {
             }
         }
         Ok(None)
+    }
+
+    /// The plan of a program from a guess. States that no sensor sees begin in equilibrium under the inputs that the plan begins
+    /// with, as they do where a plan is driven: planned again until both agree.
+    fn begun_at_rest(&self, mut program: Program, guess: Point) -> Option<(Plan, f64)> {
+        let visible = self.equations.visible;
+        let mut found = solved(&program, guess)?;
+        for _ in 0..MOST_STARTS {
+            let first = program.shooting.first_inputs(&found.0.coefficients, found.0.duration);
+            let hidden = initial_hidden(&self.equations, &[], &first, &self.start[..visible]);
+            let off = hidden.iter().zip(&program.start[visible..]).map(|(a, b)| (a - b).abs() / (1.0 + a.abs()));
+            if off.fold(0.0, f64::max) <= SAME_START {
+                break;
+            }
+            program.start.splice(visible.., hidden);
+            found = solved(&program, found.0)?;
+        }
+        let (Point { states, coefficients, duration }, cost) = found;
+        let states = std::iter::once(program.start).chain(states).collect();
+        Some((Plan { spline: program.shooting.spline, coefficients, duration, states }, cost))
     }
 
     /// The start, then the poses to pass, a heading that does not matter along the way to the next.
@@ -245,11 +269,6 @@ impl Planner {
             usual,
             weights: task.weights,
         }
-    }
-
-    fn plan(&self, spline: BSpline, found: Point) -> Plan {
-        let states = std::iter::once(self.start.clone()).chain(found.states).collect();
-        Plan { spline, coefficients: found.coefficients, duration: found.duration, states }
     }
 }
 

@@ -48,6 +48,11 @@ impl Shooting<'_> {
         Inputs { value, weights, slopes: slopes.iter().map(|w| w * per_second).collect(), share }
     }
 
+    /// The inputs at the beginning.
+    pub fn first_inputs(&self, coefficients: &[Vec<f64>], duration: f64) -> Vec<f64> {
+        self.inputs(coefficients, 0, 0.0, duration).value
+    }
+
     /// The state at the end of a span.
     ///
     /// # Errors

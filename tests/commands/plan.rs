@@ -46,6 +46,8 @@ fn goals_are_reached_and_the_file_that_is_written_drives_there() {
             CAR.to_string() + &effect("understeer", "gradient = 0.02") + &effect("traverse-creep", "e_tc = 0.03"),
             [0.0, -1.2, 0.0],
         ),
+        // The steering begins where the plan begins with it.
+        (CAR.to_string() + &effect("input-lag", "input = \"steering_angle\"\ntime_constant = 0.3"), [-4.0, -1.6, 0.0]),
     ] {
         let goal_text = goal.map(|v: f64| v.to_string()).join(",");
         let found = planned(dir.path(), &model, &["--goal", &goal_text, "--out", "plan.csv"]);

@@ -8,6 +8,7 @@ mod files;
 mod forces;
 mod laws;
 mod lowered;
+mod parked;
 mod simulated;
 mod sleigh;
 mod steering;

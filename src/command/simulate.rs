@@ -110,23 +110,21 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     let integrator = Integrator { method, max_steps: most_steps(inputs.time.len()), ..integrator };
     let integrator = even_steps(integrator, &inputs.time)?;
     let (signals, start) = begun(file, &inputs);
+    let by_model = |integrator: &Integrator| {
+        let model = Model::from_file(file, library, &inputs.roles)?;
+        let pose = [start.x, start.y, start.heading].into_iter().chain(start.trailer_headings.iter().copied());
+        let all: Vec<f64> = pose.chain(model.speeds_at_start(file.dynamics.as_ref())).collect();
+        simulate_model(&model, &signals, &inputs.time, &all, integrator)
+    };
     let table = match (&file.dynamics, chosen) {
         (Some(entry), _) if !file.effects.is_empty() => {
-            let model = Model::from_file(file, library, &inputs.roles)?;
             // Friction may be stiff.
             let method = if entry.friction.is_empty() { integrator.method } else { Method::Radau5 };
-            let integrator = Integrator { method: chosen.map_or(method, |_| integrator.method), ..integrator };
-            let pose: Vec<f64> = [start.x, start.y, start.heading].into_iter().chain(start.trailer_headings).collect();
-            let speeds = model.speeds_at_start(entry);
-            simulate_model(&model, &signals, &inputs.time, &[pose, speeds].concat(), &integrator)?
+            by_model(&Integrator { method: chosen.map_or(method, |_| integrator.method), ..integrator })?
         }
         (Some(_), None) => simulate_file(file, &signals, &inputs.time, &start, &integrator)?,
         (Some(_), Some(_)) => simulate_file_by(file, &signals, &inputs.time, &start, &integrator)?,
-        (None, _) => {
-            let model = Model::from_file(file, library, &inputs.roles)?;
-            let start: Vec<f64> = [start.x, start.y, start.heading].into_iter().chain(start.trailer_headings).collect();
-            simulate_model(&model, &signals, &inputs.time, &start, &integrator)?
-        }
+        (None, _) => by_model(&integrator)?,
     };
     drop(progress);
     check_defined(&table)?;

@@ -103,7 +103,6 @@ fn shared(answers: &[Answer]) -> Vec<Vote> {
 }
 
 fn answer(model: &Model, runs: &[Run]) -> Result<Answer> {
-    model.file.no_forces("fleet")?;
     VehicleModel::check_motion(&model.file)?;
     let (file, library) = (&model.file, &model.library[..]);
     let request = Request { file, runs, held_out: &[], library, horizons: &[], seed: 0 };

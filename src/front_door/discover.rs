@@ -15,7 +15,7 @@ use crate::error::Result;
 use crate::files::Run;
 use crate::formula::Symbol;
 use crate::model::Model as VehicleModel;
-use crate::motion::{Integrator, Signals, Table, simulate_model};
+use crate::motion::{Integrator, Method, Signals, Table, simulate_model};
 use crate::progress::unheard;
 
 /// Finds where a model and measured runs disagree, names the missing effect, and adds it to the model.
@@ -183,10 +183,14 @@ pub fn describe_with(model: &Model, measured: &[Symbol], at: Option<&GivenPoint>
 /// # Errors
 /// When the motion cannot be integrated.
 pub fn simulate(model: &Model, run: &Run) -> Result<Table> {
-    model.file.no_forces("simulate")?;
     let vehicle = VehicleModel::from_file(&model.file, &model.library, &run.roles)?;
     let signals = Signals::of_run(run, model.file.input_timing);
-    simulate_model(&vehicle, &signals, &run.time, &first_pose(&vehicle, run), &Integrator::default())
+    let forces = model.file.dynamics.as_ref();
+    let start = [first_pose(&vehicle, run), vehicle.speeds_at_start(forces)].concat();
+    // Friction may be stiff.
+    let is_stiff = forces.is_some_and(|forces| !forces.friction.is_empty());
+    let method = if is_stiff { Method::Radau5 } else { Integrator::default().method };
+    simulate_model(&vehicle, &signals, &run.time, &start, &Integrator { method, ..Integrator::default() })
 }
 
 /// The first pose of a run; trailers that are not measured stand in line.

@@ -58,7 +58,6 @@ impl Motions {
 /// # Errors
 /// When a name is unknown, a value is out of range, the lists of values differ in length, or the motion cannot be compiled.
 pub fn simulate_many(model: &Model, run: &Run, values: &[(&str, Vec<f64>)]) -> Result<Motions> {
-    model.file.no_forces("simulate_many")?;
     let vehicle = VehicleModel::from_file(&model.file, &model.library, &run.roles)?;
     let cases = values.first().map_or(0, |(_, of)| of.len());
     let varied = varied(model, &vehicle, values, cases)?;
@@ -68,7 +67,9 @@ pub fn simulate_many(model: &Model, run: &Run, values: &[(&str, Vec<f64>)]) -> R
         log: Some((run.roles.clone(), Signals::of_run(run, model.file.input_timing))),
         ..EnsembleInputs::default()
     };
-    let start = super::discover::first_pose(&vehicle, run);
+    let mut start = super::discover::first_pose(&vehicle, run);
+    let pose = start.len();
+    start.extend(vehicle.speeds_at_start(model.file.dynamics.as_ref()));
     let ensemble = Ensemble::new(&vehicle, &inputs, &varied, &start, run.time[0], &run.time, ERROR)?;
     let of_case = |i: usize| values.iter().map(|(_, of)| of[i]).collect::<Vec<f64>>();
     let plan = ensemble.plan(of_case, cases)?;
@@ -78,7 +79,7 @@ pub fn simulate_many(model: &Model, run: &Run, values: &[(&str, Vec<f64>)]) -> R
     };
     let starts: Vec<usize> = (0..cases).step_by(BLOCK).collect();
     let found: Vec<Vec<Case>> = starts.into_par_iter().map(block).collect::<Result<_>>()?;
-    Ok(Motions { pose: start.len(), rows: run.time.len(), cases: found.into_iter().flatten().collect() })
+    Ok(Motions { pose, rows: run.time.len(), cases: found.into_iter().flatten().collect() })
 }
 
 /// What varies, with its values held against what they may be.

@@ -67,7 +67,7 @@ impl Model {
     }
 
     /// The logged inputs, then what the formulas ask of the log beside: the time, rates of inputs.
-    fn logged_and_derived(&self, definitions: &Definitions) -> Vec<Symbol> {
+    pub(crate) fn logged_and_derived(&self, definitions: &Definitions) -> Vec<Symbol> {
         let logged: Vec<Symbol> = self.inputs.iter().map(|i| Symbol::new(i)).collect();
         if self.effects.is_empty() && self.forced.is_none() {
             return logged;

@@ -75,10 +75,17 @@ pub(crate) fn quantities(file: &ModelFile, model: &Model) -> Vec<Quantity> {
             found.push(of_model(format!("{title}.{name}"), applied.symbol(name), allowed));
         }
     }
+    for symbol in model.values().into_keys() {
+        // Masses, moments and coefficients of contacts, by the names that the equations have for them.
+        if let Some(name) = symbol.as_str().strip_prefix("stated.") {
+            found.push(of_model(name.into(), symbol.clone(), sign(name)));
+        }
+    }
     let pose = ["initial.x", "initial.y", "initial.heading"].map(String::from).into_iter();
     let pose = pose.chain((1..=model.trailer_count()).map(|i| format!("initial.trailer_headings.{i}")));
+    let speeds = model.forced.iter().flat_map(|forced| &forced.nodes).map(|speed| format!("start.{speed}"));
     let initial = |(i, name)| Quantity { name, varied: Varied::Initial(i), allowed: Allowed::ANY };
-    found.extend(pose.enumerate().map(initial));
+    found.extend(pose.chain(speeds).enumerate().map(initial));
     found
 }
 

@@ -52,7 +52,6 @@ impl Sweep {
             None => effects::all().to_vec(),
         };
         let model_file = ModelFile::read(&file.model, &dynamics::known_on(&vehicles, &library))?;
-        model_file.no_forces("a sweep")?;
         Model::check_motion(&model_file)?;
         let mut log = file.log.as_ref().map(|path| Inputs::read(path, &model_file)).transpose()?;
         let warnings = log.as_mut().map(|l| std::mem::take(&mut l.warnings)).unwrap_or_default();
@@ -61,7 +60,8 @@ impl Sweep {
         let (from, times) = times(&file, log.as_ref())?;
         let (varied, allowed) = varied(&file, &model_file, &model)?;
         let inputs = inputs(&file, &model_file, &model, log.as_ref(), &varied)?;
-        let initial = initial(&model_file, log.as_ref());
+        let mut initial = initial(&model_file, log.as_ref());
+        initial.extend(model.speeds_at_start(model_file.dynamics.as_ref()));
         let ensemble = Ensemble::new(&model, &inputs, &varied, &initial, from, &times, file.error)?;
         let cases = Cases::new(&file, &allowed[file.grid.len()..]);
         let one = |i: usize| {

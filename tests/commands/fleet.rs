@@ -2,6 +2,9 @@
 
 use crate::program::{creepage, stderr};
 use crate::simulator::{Hidden, Noise, Profile, Scenario, Signal, Timing, Tractor};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::StandardNormal;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -231,4 +234,56 @@ fn parquet_holds_what_the_table_holds() {
         rows.map(|row| row.get_column_iter().map(|(_, f)| cell(f)).collect::<Vec<_>>().join(",")).collect();
     let expected: Vec<&str> = table.lines().skip(1).collect();
     assert_eq!(rows, expected);
+}
+
+const SLEIGH: &str = "\
+vehicle = \"sleigh\"
+[parameters]
+mass = 20.0
+inertia = 2.0
+mass_offset = 0.2
+[dynamics]
+inputs = [\"force\", \"yaw_torque\"]
+[initial]
+x = 0.0
+y = 0.0
+heading = 0.0
+speed = 1.5
+";
+
+/// Sleighs that forces move, each heavier than its file says by its own share.
+#[test]
+fn a_fleet_knows_forces() {
+    let dir = tempfile::tempdir().unwrap();
+    let at = |name: &str| dir.path().join(name);
+    fs::write(at("model.toml"), SLEIGH.split("[initial]").next().unwrap()).unwrap();
+    let mut inputs = String::from("time,force,yaw_torque\n");
+    for i in 0..=500 {
+        let t = 0.04 * f64::from(i);
+        inputs += &format!("{t:.2},{:.6},{:.6}\n", 8.0 * (0.7 * t).sin(), 1.5 * (0.45 * t + 1.0).sin());
+    }
+    fs::write(at("inputs.csv"), &inputs).unwrap();
+    let mut manifest = String::from("robot,run,log,model\n");
+    for (robot, scale) in [0.05, 0.08, 0.11].into_iter().enumerate() {
+        let truth = format!("{SLEIGH}[[effects]]\nid = \"mass\"\nscale = {scale}\n");
+        fs::write(at("truth.toml"), truth).unwrap();
+        done(dir.path(), &["simulate", "truth.toml", "--inputs", "inputs.csv", "--out", "path.csv"]);
+        let mut random = ChaCha8Rng::seed_from_u64(robot as u64);
+        let mut noisy = |cell: &str| cell.parse::<f64>().unwrap() + 0.002 * random.sample::<f64, _>(StandardNormal);
+        let mut log = String::from("time,force,yaw_torque,x,y,heading\n");
+        let path = fs::read_to_string(at("path.csv")).unwrap();
+        for (inputs, pose) in inputs.lines().zip(path.lines()).skip(1) {
+            let pose: Vec<String> = pose.split(',').skip(1).take(3).map(|c| format!("{:.6}", noisy(c))).collect();
+            log += &format!("{inputs},{}\n", pose.join(","));
+        }
+        fs::write(at(&format!("log_{robot}.csv")), log).unwrap();
+        manifest += &format!("sleigh{robot},run1,log_{robot}.csv,model.toml\n");
+    }
+    fs::write(at("fleet.csv"), manifest).unwrap();
+    done(dir.path(), &["fleet", "map", "fleet.csv", "--out", "rows"]);
+    done(dir.path(), &["fleet", "join", "rows", "--out", "fleet"]);
+    let found = report(&at("fleet"));
+    assert_eq!(names(&found["effects"], "effect"), ["mass"]);
+    let mean = found["effects"][0]["parameters"]["scale"]["mean"]["value"].as_f64().unwrap();
+    assert!((mean - 0.08).abs() < 0.005, "{found:#}");
 }

@@ -503,15 +503,6 @@ fn elsewhere() -> TempDir {
 }
 
 #[test]
-fn forces_are_refused_with_a_place() {
-    let dir = folder(SPEC);
-    let forces = "vehicle = \"disk\"\n[parameters]\nwheel_radius = 0.5\n[dynamics]\nmass = 2.0\n";
-    std::fs::write(dir.path().join("model.toml"), forces).unwrap();
-    let message = refused(dir.path(), &["--out", "all.csv"]);
-    assert!(message.contains("model.toml:4:1: a sweep knows no forces"), "{message}");
-}
-
-#[test]
 fn an_undefined_case_is_blank_and_counted() {
     let dir = folder(&SPEC.replace("u_0 + sin(t)", "sqrt(u_0 - 0.5*t)"));
     let said = good(dir.path(), &["--out", "all.csv"]);
@@ -535,4 +526,74 @@ fn parquet_holds_the_same_and_its_parts_join_to_the_same_bytes() {
     let mut expected = names(dir.path());
     expected.retain(|n| !n.ends_with(".parquet"));
     assert_eq!(expected, ["model.toml", "spec.toml"]);
+}
+
+const CAR_OF_FORCES: &str = "\
+vehicle = \"car\"
+[parameters]
+wheel_radius = 0.3
+wheelbase = 2.6
+[dynamics]
+mass = 1200.0
+inertia = 1500.0
+mass_offset = 1.2
+wheel_inertia = 2.0
+inputs = [\"wheel_torque\"]
+[dynamics.friction]
+rolling = { law = \"viscous\", coefficient = 20000.0 }
+direction = { law = \"elastic\", stiffness = 60000.0, relaxation_length = 0.4 }
+front-axle-direction = { law = \"rocard\", stiffness = 80000.0 }
+[initial]
+x = 0.0
+y = 0.0
+heading = 0.0
+speed = 8.0
+";
+
+const PUSHED: &str = "\
+model = \"model.toml\"
+duration = 4.0
+error = 1e-9
+[inputs]
+wheel_torque = \"200*sin(t)\"
+steering_angle = \"0.1*sin(0.7*t)\"
+[grid]
+body.mass = [1200.0, 1500.0]
+start.body.u = [8.0, 5.0]
+";
+
+/// Forces move the cases of a sweep as they move the vehicle of `simulate`; masses, contacts and first speeds may vary.
+#[test]
+fn a_sweep_knows_forces() {
+    let dir = folder(PUSHED);
+    std::fs::write(dir.path().join("model.toml"), CAR_OF_FORCES).unwrap();
+    good(dir.path(), &["--out", "table.csv"]);
+    let table = std::fs::read_to_string(dir.path().join("table.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(&rows[0][..6], ["case", "body.mass", "start.body.u", "time", "x", "y"]);
+    assert_eq!(rows.len(), 5);
+    let mut log = String::from("time,wheel_torque,steering_angle\n");
+    for i in 0..=400 {
+        let t = 0.01 * f64::from(i);
+        log += &format!("{t:.2},{:?},{:?}\n", 200.0 * t.sin(), 0.1 * (0.7 * t).sin());
+    }
+    std::fs::write(dir.path().join("log.csv"), log).unwrap();
+    for (row, (mass, speed)) in rows[1..].iter().zip([(1200.0, 8.0), (1200.0, 5.0), (1500.0, 8.0), (1500.0, 5.0)]) {
+        let model = CAR_OF_FORCES.replace("mass = 1200.0", &format!("mass = {mass:?}"));
+        let model = model.replace("speed = 8.0", &format!("speed = {speed:?}"));
+        std::fs::write(dir.path().join("one.toml"), model).unwrap();
+        let one = Command::new(env!("CARGO_BIN_EXE_creepage"))
+            .current_dir(dir.path())
+            .args(["simulate", "one.toml", "--inputs", "log.csv", "--out", "path.csv"])
+            .output()
+            .unwrap();
+        assert!(one.status.success(), "{}", String::from_utf8_lossy(&one.stderr));
+        let path = std::fs::read_to_string(dir.path().join("path.csv")).unwrap();
+        let last: Vec<f64> = path.lines().last().unwrap().split(',').map(|v| v.parse().unwrap()).collect();
+        assert_eq!(row.last(), Some(&"ok"));
+        for (k, there) in last[1..4].iter().enumerate() {
+            let here: f64 = row[4 + k].parse().unwrap();
+            assert!((here - there).abs() < 1e-6 * (1.0 + there.abs()), "{mass} {speed}: {here} {there}");
+        }
+    }
 }

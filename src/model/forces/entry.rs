@@ -19,9 +19,10 @@ impl Model {
         Dynamics::of_entry(entry, self)?.model()
     }
 
-    /// The speeds that are free at the start, as the section of a file gives them; those of trailers and wheels at rest.
-    pub fn speeds_at_start(&self, entry: &DynamicsEntry) -> Vec<f64> {
-        let start = entry.start;
+    /// The speeds that are free at the start, as the section of a file gives them, those of trailers and wheels at rest; none
+    /// without the section.
+    pub fn speeds_at_start(&self, entry: Option<&DynamicsEntry>) -> Vec<f64> {
+        let start = entry.map(|entry| entry.start).unwrap_or_default();
         let speed = |name: &Symbol| match name.as_str() {
             "body.u" => start.speed,
             "body.w" => start.lateral_speed.unwrap_or(0.0),

@@ -41,7 +41,7 @@ pub(crate) struct LaneEquations {
     pub visible: usize,
     pub hidden_names: Vec<String>,
     pub rates: Lanes,
-    /// Visible readings, v_l, v_t, phi', then the inputs.
+    /// Visible readings, v_l, v_t, phi', then the inputs and what is derived of them.
     pub readings: Lanes,
     /// States that the rates read.
     pub read: Vec<usize>,
@@ -113,6 +113,14 @@ impl LaneEquations {
             graph.define(Symbol::new(input), node);
             driven.push(node);
         }
+        let channels: Vec<String> =
+            inputs.log.iter().flat_map(|(names, _)| names).map(|n| format!("log.{n}")).collect();
+        for derived in model.logged_and_derived(&definitions).split_off(model.inputs.len()) {
+            let of = model.inputs.iter().position(|i| Symbol::new(i).rate() == derived);
+            let node = of.map_or(time, |c| rate_of(&mut graph, driven[c], &clock, &channels));
+            graph.define(derived, node);
+            driven.push(node);
+        }
         definitions.insert_into(&mut graph)?;
         let (states, visible) = (model.states(), 3 + model.trailer_count());
         let rates: Vec<NodeId> = model.state_rates().iter().map(|rate| graph.insert(rate)).collect();
@@ -123,8 +131,7 @@ impl LaneEquations {
         let plain_sensor = readings.iter().zip(&states).all(shows_state);
         readings.extend(["v_l", "v_t", "phi'"].map(|s| graph.insert(&Expr::sym(s))));
         readings.extend(driven);
-        let channels: Vec<Symbol> =
-            inputs.log.iter().flat_map(|(names, _)| names).map(|n| Symbol::new(&format!("log.{n}"))).collect();
+        let channels = channels.iter().flat_map(|n| [Symbol::new(n), Symbol::new(n).rate()]);
         // A component of the initial pose has a slot too, so that slots and cases agree; no formula reads it.
         let slot = |v: &Varied| v.symbol().unwrap_or_else(|| Symbol::new("initial pose"));
         let slots: Vec<Symbol> =
@@ -178,10 +185,23 @@ impl LaneEquations {
         if let Some(log) = &self.log {
             log.at(t - self.delay, logged, slopes);
             for (c, value) in logged.iter().enumerate() {
-                memory.clock(self.time_slot + 1 + c, *value);
+                memory.clock(self.time_slot + 1 + 2 * c, *value);
+                memory.clock(self.time_slot + 2 + 2 * c, slopes[c]);
             }
         }
     }
+}
+
+/// The rate of what drives: by the time, and by the slopes of logged channels.
+fn rate_of(graph: &mut Graph, driven: NodeId, clock: &Symbol, channels: &[String]) -> NodeId {
+    let mut rate = graph.derivatives(&[driven], clock)[0];
+    for name in channels {
+        let name = Symbol::new(name);
+        let (by, slope) = (graph.derivatives(&[driven], &name)[0], graph.symbol(name.rate()));
+        let part = graph.mul(by, slope);
+        rate = graph.add(rate, part);
+    }
+    rate
 }
 
 fn clock_name() -> Symbol {

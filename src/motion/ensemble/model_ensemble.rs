@@ -66,7 +66,7 @@ impl Ensemble {
     /// | symbol | unit | meaning |
     /// |---|---|---|
     /// | varied | | what a case gives a value for |
-    /// | initial | m, rad | measured x, y, heading and trailer headings at the start, unless varied |
+    /// | initial | m, rad | measured x, y, heading and trailer headings at the start, unless varied; then speeds that forces change |
     /// | from | s | when the motion begins |
     /// | times | s | times of the rows, rising, not before `from` |
     /// | tolerance | | the error asked for |
@@ -83,7 +83,7 @@ impl Ensemble {
         times: &[f64],
         tolerance: f64,
     ) -> Result<Self> {
-        let wanted = 3 + model.trailer_count();
+        let wanted = 3 + model.trailer_count() + model.forced.as_ref().map_or(0, |forced| forced.nodes.len());
         if initial.len() != wanted || inputs.formulas.len() != model.inputs.len() {
             return Err(Error::input("the initial pose or the inputs do not fit the model"));
         }

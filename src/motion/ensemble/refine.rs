@@ -49,12 +49,14 @@ impl Ensemble {
         let (stages, spans) = (work.scheme.stages, self.spans(e));
         let cost = |steps| (stages * spans.iter().map(|s| self.steps_in(s, steps)).sum::<usize>()) as f64;
         let shared = spans.len().checked_ilog2().unwrap_or(0);
-        let last = PILOT_DOUBLINGS.saturating_sub(shared).max(MAX_DOUBLINGS).min(self.most_doublings(e, 1.0));
+        let last = PILOT_DOUBLINGS.saturating_sub(shared).max(MAX_DOUBLINGS);
         let z0 = self.begin(&mut work, cases)?;
-        let (mut doublings, (mut coarse, _)) = (0, self.integrate(&mut work, &z0, (1.0, 0)));
+        let first = self.stable_steps(e, &mut work.readings, &z0, cases);
+        let last = last.min(self.most_doublings(e, first));
+        let (mut doublings, (mut coarse, _)) = (0, self.integrate(&mut work, &z0, (first, 0)));
         let mut before: Vec<Option<f64>> = vec![None; cases.len()];
         let needed = loop {
-            let (fine, floor) = self.integrate(&mut work, &z0, (1.0, doublings + 1));
+            let (fine, floor) = self.integrate(&mut work, &z0, (first, doublings + 1));
             let found = estimates([&coarse, &fine], &floor, cases.len(), order);
             let defined = found.iter().filter(|e| !e.error.is_nan()).count();
             let good = found.iter().filter(|e| e.error <= self.tolerance);
@@ -63,15 +65,15 @@ impl Ensemble {
                 let worst = good.clone().map(|e| e.truncation).fold(0.0, f64::max);
                 // Where rounding alone is more than the error asked for, this number is as good as any larger one.
                 let share = if good.count() > 0 { worst / self.tolerance } else { 1.0 };
-                let steps = f64::from(1u32 << doublings) * STEP_MARGIN;
-                break (steps * share.powf(1.0 / f64::from(order))).max(1.0);
+                let steps = first * f64::from(1u32 << doublings) * STEP_MARGIN;
+                break (steps * share.powf(1.0 / f64::from(order))).max(first);
             }
             before = found.iter().map(|e| Some(e.truncation)).collect();
             if defined == 0 && doublings == UNDEFINED_DOUBLINGS {
-                break 1.0;
+                break first;
             }
-            if doublings == last || cost((1.0, doublings)) >= most {
-                return Ok((1.0, f64::INFINITY));
+            if doublings == last || cost((first, doublings)) >= most {
+                return Ok((first, f64::INFINITY));
             }
             (doublings, coarse) = (doublings + 1, fine);
         };

@@ -143,7 +143,9 @@ pub fn after_fitting(
 }
 
 fn fitted(choice: &Selected, after: &[ConstraintResiduals], clocks: &[Drift], has_noisy_inputs: bool) -> Outcome {
-    if let Some(reason) = sliding(after).or_else(|| mismatched(clocks)) {
+    // Under forces sliding is in the model.
+    let slides = || if choice.before.model.forced.is_some() { None } else { sliding(after) };
+    if let Some(reason) = slides().or_else(|| mismatched(clocks)) {
         return Outcome::new(Verdict::UnusableData, reason, None);
     }
     let without_name = choice.chosen.iter().any(|c| effect_equation::is_term(&c.applied));

@@ -45,7 +45,8 @@ pub fn speeds_at(equations: &Equations, record: &Record, row: usize, around: [f6
     let squares = Stretch { equations, record, channels: record.channels(), rows, row };
     let begin = pose_of(equations, &record.smoothed(first));
     let Minimum { here, step, is_settled, .. } = minimise(&squares, squares.at(begin)?, &Damping::USUAL, MOST_STEPS);
-    let step = step.filter(|_| is_settled)?;
+    // Where the steps end before it settles the last point still fits the rows better than slopes do.
+    let step = step.filter(|_| is_settled).unwrap_or_else(|| DVector::zeros(equations.visible));
     let covariance_at_first = Cholesky::new(here.information.clone())?.inverse();
     let m = equations.visible;
     let all = &here.there * &covariance_at_first * here.there.transpose();
@@ -151,7 +152,8 @@ impl LeastSquares for Stretch<'_> {
     }
 
     fn is_small(&self, here: &Along, step: &DVector<f64>, _: Option<f64>) -> bool {
-        -here.gradient.dot(step) < SETTLED
+        // A model that misses something leaves more than noise: then less is asked for.
+        -here.gradient.dot(step) < SETTLED * (here.half / self.rows.len() as f64).max(1.0)
     }
 }
 

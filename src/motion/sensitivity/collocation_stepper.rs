@@ -22,7 +22,7 @@ const LONGEST: f64 = 0.1;
 /// The largest angle the vehicle may turn within a step, rad.
 const TURN_PER_STEP: f64 = 0.3;
 /// The most steps between two knots.
-const MAX_STEPS: f64 = 256.0;
+const MAX_STEPS: f64 = 32.0;
 /// How often a step is halved before the motion counts as undefined.
 const MAX_HALVINGS: u32 = 6;
 

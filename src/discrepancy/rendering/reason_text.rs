@@ -23,7 +23,7 @@ pub fn sentence(reason: &Reason) -> String {
             "These runs are too short to tell: {windows} windows of one second, and at least {needed} are needed."
         ),
         Reason::UndefinedMotion => {
-            "The model is undefined somewhere along these runs (a steering angle of 90°, say), so it \
+            "The model is undefined somewhere along these runs (a steering angle of 90°, or Rocard's friction at rest, say), so it \
                                     cannot be fitted."
                 .into()
         }

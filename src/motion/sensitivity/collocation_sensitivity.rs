@@ -1,6 +1,6 @@
 //! The sensitivities of a step of collocation, exact for the stages that were found, by the implicit function theorem.
 
-use super::collocation_stepper::{STAGES, Tableau};
+use super::radau_tableau::{STAGES, Tableau};
 use crate::numerics::row_factors::RowFactors;
 
 /// Derivatives of the rates at the stages of a step.

@@ -2,6 +2,7 @@
 //! Differential Equations II, IV.5 and IV.8).
 
 use super::collocation_sensitivity::{SensitivityMemory, StageSlopes};
+use super::radau_tableau::{STAGES, Tableau, tableau};
 use super::states::LaneStates;
 use super::variational_equations::VariationalEquations;
 use crate::formula::{Isa, Kernel};
@@ -9,8 +10,6 @@ use crate::model::Equations;
 use crate::motion::Signals;
 use crate::numerics::row_factors::RowFactors;
 
-/// Stages of the method.
-pub(super) const STAGES: usize = 3;
 /// The stages are evaluated side by side; a vector has one lane more.
 const LANES: usize = 4;
 /// Steps of Newton's method before a step is halved.
@@ -25,24 +24,6 @@ const TURN_PER_STEP: f64 = 0.3;
 const MAX_STEPS: f64 = 32.0;
 /// How often a step is halved before the motion counts as undefined.
 const MAX_HALVINGS: u32 = 6;
-
-/// The nodes and the matrix of the method; its last row are the weights, for the last stage is the end.
-pub(super) struct Tableau {
-    c: [f64; STAGES],
-    pub a: [[f64; STAGES]; STAGES],
-}
-
-fn tableau() -> Tableau {
-    let r = 6.0_f64.sqrt();
-    Tableau {
-        c: [(4.0 - r) / 10.0, (4.0 + r) / 10.0, 1.0],
-        a: [
-            [(88.0 - 7.0 * r) / 360.0, (296.0 - 169.0 * r) / 1800.0, (-2.0 + 3.0 * r) / 225.0],
-            [(296.0 + 169.0 * r) / 1800.0, (88.0 + 7.0 * r) / 360.0, (-2.0 - 3.0 * r) / 225.0],
-            [(16.0 - r) / 36.0, (16.0 + r) / 36.0, 1.0 / 9.0],
-        ],
-    }
-}
 
 /// Steps of the method for one arc.
 ///

@@ -6,6 +6,7 @@ pub(crate) mod equilibrium;
 pub(crate) mod exponential_stepper;
 pub(crate) mod exponential_weights;
 pub(crate) mod lane_stepper;
+mod radau_tableau;
 pub(crate) mod single_stepper;
 pub(crate) mod states;
 pub(crate) mod variational_equations;

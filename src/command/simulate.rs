@@ -118,9 +118,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
     };
     let table = match (&file.dynamics, chosen) {
         (Some(entry), _) if !file.effects.is_empty() => {
-            // Friction may be stiff.
-            let method = if entry.friction.is_empty() { integrator.method } else { Method::Radau5 };
-            by_model(&Integrator { method: chosen.map_or(method, |_| integrator.method), ..integrator })?
+            by_model(&integrator.for_friction(chosen.is_none() && !entry.friction.is_empty()))?
         }
         (Some(_), None) => simulate_file(file, &signals, &inputs.time, &start, &integrator)?,
         (Some(_), Some(_)) => simulate_file_by(file, &signals, &inputs.time, &start, &integrator)?,

@@ -7,7 +7,7 @@ use crate::files::{DynamicsEntry, Initial, Known, KnownDynamics, KnownLaw, Model
 use crate::model;
 use crate::model::forces::{castors, rate_role, roles, slug};
 use crate::model::{Model, mechanism};
-use crate::motion::{Drive, Integrator, Method, Table};
+use crate::motion::{Drive, Integrator, Table};
 use crate::vehicles;
 use crate::vehicles::Vehicle;
 
@@ -104,8 +104,7 @@ pub fn simulate_file(
     integrator: &Integrator,
 ) -> Result<Table> {
     let dynamics = Dynamics::from_file(file)?;
-    let method = if dynamics.has_friction() { Method::Radau5 } else { integrator.method };
-    run_of(&dynamics, file, inputs, times, pose, &Integrator { method, ..*integrator })
+    run_of(&dynamics, file, inputs, times, pose, &integrator.for_friction(dynamics.has_friction()))
 }
 
 /// As [`simulate_file`], by the method given even where friction is stiff.

@@ -15,7 +15,7 @@ use crate::error::Result;
 use crate::files::Run;
 use crate::formula::Symbol;
 use crate::model::Model as VehicleModel;
-use crate::motion::{Integrator, Method, Signals, Table, simulate_model};
+use crate::motion::{Integrator, Signals, Table, simulate_model};
 use crate::progress::unheard;
 
 /// Finds where a model and measured runs disagree, names the missing effect, and adds it to the model.
@@ -185,18 +185,16 @@ pub fn describe_with(model: &Model, measured: &[Symbol], at: Option<&GivenPoint>
 pub fn simulate(model: &Model, run: &Run) -> Result<Table> {
     let vehicle = VehicleModel::from_file(&model.file, &model.library, &run.roles)?;
     let signals = Signals::of_run(run, model.file.input_timing);
-    let forces = model.file.dynamics.as_ref();
-    let start = [first_pose(&vehicle, run), vehicle.speeds_at_start(forces)].concat();
-    // Friction may be stiff.
-    let is_stiff = forces.is_some_and(|forces| !forces.friction.is_empty());
-    let method = if is_stiff { Method::Radau5 } else { Integrator::default().method };
-    simulate_model(&vehicle, &signals, &run.time, &start, &Integrator { method, ..Integrator::default() })
+    let has_friction = model.file.dynamics.as_ref().is_some_and(|forces| !forces.friction.is_empty());
+    let integrator = Integrator::default().for_friction(has_friction);
+    simulate_model(&vehicle, &signals, &run.time, &start(model, &vehicle, run), &integrator)
 }
 
-/// The first pose of a run; trailers that are not measured stand in line.
-pub(super) fn first_pose(vehicle: &VehicleModel, run: &Run) -> Vec<f64> {
+/// The first pose of a run, trailers that are not measured in line, then the speeds that forces change.
+pub(super) fn start(model: &Model, vehicle: &VehicleModel, run: &Run) -> Vec<f64> {
     let heading = run.heading.as_ref().map_or(0.0, |h| h[0]);
     let measured = run.trailer_headings.iter().map(|h| h[0]);
     let trailers = measured.chain(std::iter::repeat(heading)).take(vehicle.trailer_count());
-    [run.x[0], run.y[0], heading].into_iter().chain(trailers).collect()
+    let pose = [run.x[0], run.y[0], heading].into_iter().chain(trailers);
+    pose.chain(vehicle.speeds_at_start(model.file.dynamics.as_ref())).collect()
 }

@@ -67,9 +67,7 @@ pub fn simulate_many(model: &Model, run: &Run, values: &[(&str, Vec<f64>)]) -> R
         log: Some((run.roles.clone(), Signals::of_run(run, model.file.input_timing))),
         ..EnsembleInputs::default()
     };
-    let mut start = super::discover::first_pose(&vehicle, run);
-    let pose = start.len();
-    start.extend(vehicle.speeds_at_start(model.file.dynamics.as_ref()));
+    let start = super::discover::start(model, &vehicle, run);
     let ensemble = Ensemble::new(&vehicle, &inputs, &varied, &start, run.time[0], &run.time, ERROR)?;
     let of_case = |i: usize| values.iter().map(|(_, of)| of[i]).collect::<Vec<f64>>();
     let plan = ensemble.plan(of_case, cases)?;
@@ -79,7 +77,11 @@ pub fn simulate_many(model: &Model, run: &Run, values: &[(&str, Vec<f64>)]) -> R
     };
     let starts: Vec<usize> = (0..cases).step_by(BLOCK).collect();
     let found: Vec<Vec<Case>> = starts.into_par_iter().map(block).collect::<Result<_>>()?;
-    Ok(Motions { pose, rows: run.time.len(), cases: found.into_iter().flatten().collect() })
+    Ok(Motions {
+        pose: 3 + vehicle.trailer_count(),
+        rows: run.time.len(),
+        cases: found.into_iter().flatten().collect(),
+    })
 }
 
 /// What varies, with its values held against what they may be.

@@ -260,3 +260,19 @@ fn no_forces_are_known_for_a_vehicle_of_sections() {
     let error = Dynamics::new(&bus, &creepage::dynamics::Masses::default()).unwrap_err().to_string();
     assert!(error.contains("which has sections of its own"), "{error}");
 }
+
+/// The library simulates a model with forces along a run, one by one and many at once.
+#[test]
+fn many_motions_under_forces_are_those_of_one() {
+    let example = |name: &str| format!("{}/examples/dynamics/robot.{name}", env!("CARGO_MANIFEST_DIR"));
+    let model = creepage::Model::read(example("toml")).unwrap();
+    let run = creepage::Run::read(example("csv"), &model).unwrap();
+    let one = creepage::simulate(&model, &run).unwrap();
+    let many = creepage::simulate_many(&model, &run, &[("body.mass", vec![18.232, 25.0])]).unwrap();
+    let last = many.rows - 1;
+    for (k, column) in one.columns[1..4].iter().enumerate() {
+        let [alike, heavier] = [0, 1].map(|case| many.cases[case].row(last)[k]);
+        assert!((alike - column[last]).abs() < 1e-6, "{alike} {}", column[last]);
+        assert!((heavier - column[last]).abs() > 1e-3, "{heavier}");
+    }
+}

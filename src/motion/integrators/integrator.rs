@@ -87,6 +87,11 @@ impl Integrator {
         Self { rtol, atol, ..self }
     }
 
+    /// The stiff method where contacts have friction, which may be stiff; else the same.
+    pub(crate) fn for_friction(self, has_friction: bool) -> Self {
+        if has_friction { Self { method: Method::Radau5, ..self } } else { self }
+    }
+
     /// The states at `times`, which are visited in the order they are given, from y(t0) = y0.
     ///
     /// `rhs` writes f(t, y) into its last argument.

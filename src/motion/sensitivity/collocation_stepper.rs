@@ -140,15 +140,14 @@ impl<'a> CollocationStepper<'a> {
                 self.step.push(begin[k] + h * moved - self.at[k][i]);
             }
             self.factors.solve(&mut self.step);
+            if !self.step.iter().all(|by| by.is_finite()) {
+                return None;
+            }
             let mut largest = 0.0_f64;
             for (row, by) in self.step.iter().enumerate() {
                 let at = &mut self.at[pose + row % free][row / free];
                 *at += by;
-                // A comparison that an undefined value does not pass.
-                largest = if by.abs() / (1.0 + at.abs()) <= largest { largest } else { by.abs() / (1.0 + at.abs()) };
-            }
-            if !largest.is_finite() {
-                return None;
+                largest = largest.max(by.abs() / (1.0 + at.abs()));
             }
             // What is left goes on falling as it fell.
             let falls = before.map_or(1.0, |before: f64| largest / before);

@@ -183,10 +183,10 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
         let asked = if motion.is_forced() { &[][..] } else { &*s };
         motion.rate(z, asked, from, rate);
         let Steps { equal, forgotten } = steps(motion, z, asked, &rate.z, from, to);
-        if motion.is_forced() && (forgotten.is_some() || equal.iter().any(|n| *n > FEW)) {
-            return self.collocate(z, s, from, to);
-        }
         if motion.is_forced() {
+            if forgotten.is_some() || equal.iter().any(|n| *n > FEW) {
+                return self.collocate(z, s, from, to);
+            }
             motion.rate(z, s, from, rate);
         }
         let (mut h, mut most) = ([0.0; L], 0.0);

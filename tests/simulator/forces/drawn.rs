@@ -50,21 +50,6 @@ fn solid(mass: f64, inertia: f64, ahead: f64) -> Solid {
     Solid { mass: rounded(mass), inertia: rounded(inertia), centre: [rounded(ahead), 0.0] }
 }
 
-fn machine(solids: Vec<Solid>, wheels: Vec<Wheel>, contacts: Vec<Contact>, hitches: Vec<Hitch>) -> Machine {
-    Machine {
-        trailing: vec![0.0; solids.len() - 1],
-        solids,
-        wheels,
-        contacts,
-        hitches,
-        pushes: [None; 3],
-        rolling: 0.0,
-        drag: [0.0; 2],
-        turning: 0.0,
-        hill: [0.0; 2],
-    }
-}
-
 fn wheel(radius: f64, inertia: f64, input: usize) -> Wheel {
     Wheel {
         radius: rounded(radius),
@@ -135,7 +120,7 @@ fn sleigh(random: &mut ChaCha8Rng) -> Drawn {
         false => viscous(about(random, 6.0) * mass),
     };
     let blade = Contact { body: 0, at: [0.0; 2], steered: None, rolls: None, side: Some(side) };
-    let mut machine = machine(vec![body], vec![], vec![blade], vec![]);
+    let mut machine = Machine::of(vec![body], vec![], vec![blade], vec![]);
     machine.pushes = [Some(0), None, Some(1)];
     // A runner on ice is braked a little.
     let model = format!(
@@ -163,7 +148,7 @@ fn one_wheel(random: &mut ChaCha8Rng) -> Drawn {
     let (roll, side) = (viscous(about(random, 10.0) * mass), viscous(about(random, 6.0) * mass));
     let wheel = wheel(radius, 0.1 * mass * radius * radius, 0);
     let contact = Contact { body: 0, at: [0.0; 2], steered: None, rolls: Some((0, roll)), side: Some(side) };
-    let mut machine = machine(vec![body], vec![wheel], vec![contact], vec![]);
+    let mut machine = Machine::of(vec![body], vec![wheel], vec![contact], vec![]);
     machine.pushes = [None, None, Some(1)];
     let model = format!(
         "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = {:?}\n{}inputs = [\"wheel_torque\", \"yaw_torque\"]\n[dynamics.friction]\nrolling = {}\n\
@@ -187,7 +172,7 @@ fn differential_drive(random: &mut ChaCha8Rng) -> Drawn {
         |left: f64, i: usize| Contact { body: 0, at: [0.0, left], steered: None, rolls: Some((i, roll)), side: None };
     let axle = Contact { body: 0, at: [0.0; 2], steered: None, rolls: None, side: Some(side) };
     let contacts = vec![touch(-track / 2.0, 0), touch(track / 2.0, 1), axle];
-    let machine = machine(vec![body], wheels.clone(), contacts, vec![]);
+    let machine = Machine::of(vec![body], wheels.clone(), contacts, vec![]);
     let model = format!(
         "vehicle = \"differential-drive\"\n[parameters]\nwheel_radius = {:?}\ntrack_width = {track:?}\n{}inputs = [\"wheel_torque_left\", \"wheel_torque_right\"]\n[dynamics.friction]\nrolling = {}\ndirection = {}\n",
         wheels[0].radius,
@@ -236,7 +221,7 @@ fn car(random: &mut ChaCha8Rng) -> Drawn {
         wheel.radius,
         weights(&body, &wheel)
     );
-    let machine = machine(vec![body], vec![wheel], contacts, vec![]);
+    let machine = Machine::of(vec![body], vec![wheel], contacts, vec![]);
     let sizes = vec![0.5 * body.mass * wheel.radius, 0.06];
     Drawn { machine, model, roles: vec!["wheel_torque", "steering_angle"], sizes, speed: 7.0, noise: [0.01, 0.002] }
 }
@@ -273,7 +258,7 @@ fn train(random: &mut ChaCha8Rng) -> Drawn {
         law(side)
     );
     let sizes = vec![0.4 * (body.mass + 1000.0) * wheel.radius, 0.08];
-    let machine = machine(solids, vec![wheel], contacts, hitches);
+    let machine = Machine::of(solids, vec![wheel], contacts, hitches);
     Drawn { machine, model, roles: vec!["wheel_torque", "steering_angle"], sizes, speed: 6.0, noise: [0.01, 0.002] }
 }
 
@@ -309,7 +294,7 @@ fn skid_steer(random: &mut ChaCha8Rng) -> Drawn {
         law(side)
     );
     let size = 0.2 * body.mass * wheels[0].radius;
-    let machine = machine(vec![body], wheels, contacts, vec![]);
+    let machine = Machine::of(vec![body], wheels, contacts, vec![]);
     Drawn { machine, model, roles, sizes: vec![size; 4], speed: 0.8, noise: [0.003, 0.002] }
 }
 

@@ -125,3 +125,21 @@ pub struct Machine {
     /// Gravity along the ground for the towing body, N, in the world's axes.
     pub hill: [f64; 2],
 }
+
+impl Machine {
+    /// Of these parts, pushed and braked by its wheels alone.
+    pub fn of(solids: Vec<Solid>, wheels: Vec<Wheel>, contacts: Vec<Contact>, hitches: Vec<Hitch>) -> Self {
+        Self {
+            trailing: vec![0.0; solids.len() - 1],
+            solids,
+            wheels,
+            contacts,
+            hitches,
+            pushes: [None; 3],
+            rolling: 0.0,
+            drag: [0.0; 2],
+            turning: 0.0,
+            hill: [0.0; 2],
+        }
+    }
+}

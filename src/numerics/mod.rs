@@ -1,5 +1,6 @@
 //! Methods of numerical mathematics that know nothing of vehicles.
 
+pub mod bounded_inverse;
 pub mod levenberg_marquardt;
 pub mod row_factors;
 mod usual_step;

@@ -5,4 +5,5 @@ pub mod heading_from_path;
 pub(crate) mod hidden_state_fit;
 pub mod hidden_states;
 pub mod pose;
+pub(crate) mod slow_manifold;
 pub mod speed_fit;

@@ -1,5 +1,6 @@
 //! Some windows row by row, and what is summed over their rows.
 
+use crate::discrepancy::initial_state::slow_manifold::FORGOTTEN;
 use crate::discrepancy::record::angle::wrapped;
 use crate::discrepancy::record::run_record::{Channel, Record};
 use crate::discrepancy::shooting::block_sums::{Blocks, Run};
@@ -7,6 +8,7 @@ use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
 use crate::formula::Kernel;
 use crate::model::{observation, state};
 use crate::motion::{LaneStates, LaneStepper, StateSensitivity};
+use crate::numerics::bounded_inverse::bounded_inverse;
 use nalgebra::DMatrix;
 use std::ops::Range;
 
@@ -257,7 +259,7 @@ fn body_axes(heading: f64, visible: usize) -> DMatrix<f64> {
 /// δz = F⁻¹(δz̃ − B·δp − c) as a matrix on (δz̃, δp, 1).
 fn backwards(s: &[f64], c: &[f64], visible: usize, k: usize) -> Option<DMatrix<f64>> {
     let f = DMatrix::from_fn(visible, visible, |i, j| s[i * k + j]);
-    let inverse = f.try_inverse()?;
+    let inverse = bounded_inverse(&f, FORGOTTEN)?;
     let mut right = DMatrix::zeros(visible, k + 1);
     for i in 0..visible {
         right[(i, i)] = 1.0;

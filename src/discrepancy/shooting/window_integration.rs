@@ -2,6 +2,7 @@
 
 use super::row_sums::{NormalEquations, WindowKernel};
 use crate::discrepancy::initial_state::hidden_states;
+use crate::discrepancy::initial_state::slow_manifold::moved_along;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
 use crate::discrepancy::shooting::windows::{Segment, WindowStates};
@@ -151,7 +152,10 @@ impl Along<'_> {
                 let arc = arcs.one(l);
                 take(sums.linear(l, record, rows, &arc, next(l))?)?;
                 let end = match (self.equations.has_speeds(), next(l)) {
-                    (true, Some(begin)) => hidden_states::moved_along(&arc, visible, begin),
+                    (true, Some(begin)) => {
+                        let u = stepper.inputs(&[record.time[rows.end]; L]);
+                        moved_along(self.equations, self.p, &arc, begin, &u.iter().map(|u| u[l]).collect::<Vec<_>>())
+                    }
                     _ => arc.hidden(visible),
                 };
                 if L > 1 && hidden.get(k + l + 1).is_some_and(|taken| !taken.is_same(&end, visible)) {

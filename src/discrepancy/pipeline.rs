@@ -20,6 +20,7 @@ use super::experiment::design;
 use super::experiment::next_step::NextStep;
 use super::localisation::constraint_residuals::ConstraintResiduals;
 use super::localisation::driving_regimes;
+use super::localisation::sensor_residuals::{missed, remaining_sensors};
 use super::localisation::unexplained_motion::remaining;
 use super::preprocessing::dataset::{Data, FITTED_SHARE};
 use super::preprocessing::driving::driving;
@@ -29,7 +30,7 @@ use super::preprocessing::quantisation::{CoarseInput, coarse_inputs};
 use super::preprocessing::{slips, unit_errors};
 use super::record::run_record::Record;
 use super::rendering::{figure_data, plain_text};
-use super::report::{Named, PathPicture, Pictures, Unnamed, Verdict, middle};
+use super::report::{Named, PathPicture, Pictures, Remaining, Unnamed, Verdict, middle};
 use super::request::{Request, common_roles, horizons};
 use super::selection::choice::{Selected, SelectedEffect};
 use super::selection::odd_run::{is_sought, odd_runs};
@@ -113,9 +114,10 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
     let drifts = if remains { problem.drifts(&selected.after)? } else { vec![] };
     let jumps = selected.after.variances.process();
     let unseen = ConstraintResiduals::beside_jumps(&selected.after.model, &data.held_out, &noise, jumps)?;
+    let sensors = remaining_sensors(&problem, &selected.after)?;
     let outcome = match other {
         Some(other) => Outcome::new(Verdict::Unexplained, Reason::OtherVehicle(Box::new(other)), None),
-        None => verdict::after_fitting(&problem, &selected, &after, &drifts)?,
+        None => verdict::after_fitting(&problem, &selected, &after, &drifts)?.beside_sensors(&sensors),
     };
     let relatives = relatives(&selected, request.library, measured(&data.fitted[0]));
     let usable = outcome.verdict != Verdict::UnusableData;
@@ -137,6 +139,7 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
         warnings.extend(verdict::restated(&selected));
         warnings.extend(plausibility::warnings(&selected, &problem.records)?);
     }
+    warnings.extend(missed(&sensors).cloned().map(Warning::SensorMissed));
     let steps = |run| if remains { coarse_inputs(&model, run) } else { vec![] };
     let coarse: Vec<CoarseInput> = request.runs.iter().flat_map(steps).collect();
     begin(progress, Stage::Experiment)?;
@@ -156,7 +159,7 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
         odd,
         motion,
         refused: selected.refused.iter().filter(|_| usable).cloned().collect(),
-        remaining: Some(remaining(&selected.after, data.fitted[0].measures_heading(), &after)),
+        remaining: Some(Remaining { sensors, ..remaining(&selected.after, data.fitted[0].measures_heading(), &after) }),
         steps: comparison.steps(&selected, &gap)?,
         gap,
         warnings,

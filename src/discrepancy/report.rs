@@ -471,6 +471,29 @@ pub struct Remaining {
     pub windows_alike: f64,
     /// Constraint by constraint.
     pub constraints: Vec<RemainingConstraint>,
+    /// Quantity by quantity that is measured beside the pose.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sensors: Vec<RemainingSensor>,
+}
+
+/// What remains of a quantity that is measured beside the pose.
+///
+/// ```
+/// use creepage::report::RemainingSensor;
+/// fn is_noise(left: &RemainingSensor) -> bool {
+///     left.rms <= 2.0 * left.noise
+/// }
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RemainingSensor {
+    /// Its name in the model file.
+    pub name: String,
+    /// Its SI unit; empty where nothing says it.
+    pub unit: String,
+    /// RMS of what the last model says minus what is measured.
+    pub rms: f64,
+    /// The noise that its rows show.
+    pub noise: f64,
 }
 
 /// What remains of one constraint.

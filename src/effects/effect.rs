@@ -39,6 +39,10 @@ pub struct Effect {
     /// size and its starts are shares of the input's own size.
     #[serde(default)]
     pub per_input: bool,
+    /// Whether it acts on one of the quantities that are measured beside the pose, which its formulas call `{input}`, and
+    /// whose unit `input` is.
+    #[serde(default)]
+    pub per_quantity: bool,
     /// Whether it may act on one input, too, and not on all of them alike.
     #[serde(default)]
     pub input_optional: bool,
@@ -212,7 +216,7 @@ impl Effect {
     /// ```
     pub fn on_input(&self, role: &str, unit: &str, size: f64) -> Self {
         let mut effect = self.clone();
-        if !self.per_input && !self.input_optional {
+        if !self.per_input && !self.input_optional && !self.per_quantity {
             return effect;
         }
         effect.on = Some(role.to_string());

@@ -62,6 +62,7 @@ impl Run {
             y: pose.y,
             heading: pose.heading,
             trailer_headings: pose.trailer_headings,
+            measured: vec![],
             differences: vec![None; roles.len()],
             roles,
             inputs,
@@ -72,6 +73,18 @@ impl Run {
             warnings: vec![],
             apart: None,
         })
+    }
+
+    /// The run with what was measured beside the pose, in the order of `[measured]` in the model file and in SI units.
+    ///
+    /// # Errors
+    /// When a column has not one finite value a row.
+    pub fn measuring(mut self, columns: Vec<Vec<f64>>) -> Result<Self> {
+        for (i, column) in columns.iter().enumerate() {
+            check(&format!("measured column {}", i + 1), column, self.time.len())?;
+        }
+        self.measured = columns;
+        Ok(self)
     }
 
     /// Reads several logs by the columns of one model.

@@ -40,6 +40,7 @@ impl Model {
             forced.without_idle_losses(&mut d);
             forced.turned.iter().for_each(|angle| d.define(angle.rate(), self.rate_by_inputs(angle, &d)));
         }
+        self.define_measured_rates(&mut d);
         Ok(d)
     }
 
@@ -104,6 +105,7 @@ impl Model {
     /// What an effect rewrites on this vehicle; `None` when it does not apply.
     pub(crate) fn targets(&self, e: &Effect, trailer: Option<usize>, names: &[Symbol]) -> Option<Vec<(Symbol, Expr)>> {
         let found = match &e.on {
+            Some(name) if self.measured_quantity(name).is_some() => e.targets(&[acting(name)], trailer),
             Some(role) if self.inputs.contains(role) => {
                 let own = [acting(role), delaying(role)];
                 let known = names.iter().filter(|n| !own.contains(n)).cloned();
@@ -148,6 +150,7 @@ impl Model {
     }
 
     fn with_effects(&self, mut d: Definitions) -> Result<Definitions> {
+        self.define_measured(&mut d);
         let mut effects: Vec<_> = self.effects.iter().collect();
         if effects.iter().any(|e| e.gate().is_some_and(|g| REFERENCE.iter().any(|name| g.mentions(&(*name).into())))) {
             self.define_reference_speeds(&mut d)?;

@@ -46,7 +46,7 @@ impl Model {
     /// What of the vehicle is free at the start of every window.
     pub(crate) fn freedom(&self) -> Freedom {
         let speeds = self.forced.iter().flat_map(|forced| &forced.nodes).map(Speed::named).collect();
-        Freedom { trailers: self.trailer_count(), speeds }
+        Freedom { trailers: self.trailer_count(), speeds, quantities: self.measured.iter().map(|m| m.noise).collect() }
     }
 
     /// The rates of the states, in their order.
@@ -159,6 +159,9 @@ impl Model {
         let measured: Vec<NodeId> = outputs.map(|y| graph.insert(&Expr::sym(y.symbol_among(speeds)))).collect();
         let measured = with_derivatives(&mut graph, &measured, &[&states[..visible], free].concat());
         let outputs = compile(&graph, &measured)?;
+        let quantities: Vec<NodeId> = self.measured.iter().map(|m| graph.insert(&Expr::sym(m.symbol()))).collect();
+        let quantities = with_derivatives(&mut graph, &quantities, &[&states[..], &inputs, free].concat());
+        let quantities = compile(&graph, &quantities)?;
         let own = |role: &String| definitions.get(&delaying(role)).filter(|f| !f.is_zero()).cloned();
         let own_delays = if self.inputs.iter().any(|role| own(role).is_some()) { self.inputs.len() } else { 0 };
         let own = self.inputs.iter().take(own_delays).map(|role| own(role).unwrap_or_default());
@@ -179,6 +182,8 @@ impl Model {
             jacobian,
             live: read,
             outputs,
+            quantities,
+            quantity_count: self.measured.len(),
             delay,
             own_delays,
             carried: None,

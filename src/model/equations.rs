@@ -35,6 +35,10 @@ pub struct Equations {
     /// Which of the derivatives are not zero by their formula.
     pub(super) live: Vec<usize>,
     pub(super) outputs: Lanes,
+    /// What is measured beside the pose, with its derivatives by (z, u, p).
+    pub(super) quantities: Lanes,
+    /// How many quantities those are.
+    pub quantity_count: usize,
     pub(super) delay: Lanes,
     /// How many inputs have a delay of their own beside that of all: none, or all that are logged.
     pub(crate) own_delays: usize,
@@ -60,10 +64,13 @@ pub struct Workspace<const L: usize = 1> {
     rates: Memory<L>,
     jacobian: Memory<L>,
     outputs: Memory<L>,
+    quantities: Memory<L>,
     delay: Memory<L>,
     /// Rates and derivatives of the last evaluation; those that are always zero stay so.
     slopes: Rows<L>,
     results: Rows<L>,
+    /// What is measured beside the pose, and its derivatives.
+    quantity_values: Rows<L>,
 }
 
 impl Equations {
@@ -132,9 +139,11 @@ impl Equations {
             rates: self.memory(&self.rates, p),
             jacobian: self.memory(&self.jacobian, p),
             outputs: self.memory(&self.outputs, p),
+            quantities: self.memory(&self.quantities, p),
             delay: self.memory(&self.delay, p),
             slopes: Rows::new(self.jacobian.outputs()),
             results: Rows::new(self.outputs.outputs().max(self.delay.outputs())),
+            quantity_values: Rows::new(self.quantities.outputs()),
         }
     }
 
@@ -258,6 +267,28 @@ impl Equations {
             *result = defined(self.outputs.output(&w.outputs, k));
         }
         &w.results[..self.outputs.outputs()]
+    }
+
+    /// Evaluates what is measured beside the pose at L states and inputs, inlined into a kernel of the caller.
+    #[inline(always)]
+    pub(crate) fn evaluate_quantities<const L: usize>(&self, w: &mut Workspace<L>, z: &[[f64; L]], u: &[[f64; L]]) {
+        load(&mut w.quantities, z, u);
+        self.quantities.run_here(&mut w.quantities);
+        for (k, result) in w.quantity_values.iter_mut().enumerate() {
+            *result = defined(self.quantities.output(&w.quantities, k));
+        }
+    }
+
+    /// What [`Equations::evaluate_quantities`] gave last: the quantities, then the rows of their derivatives by (z, u, p).
+    #[inline(always)]
+    pub(crate) fn last_quantities<'w, const L: usize>(&self, w: &'w Workspace<L>) -> &'w [[f64; L]] {
+        &w.quantity_values
+    }
+
+    /// What is measured beside the pose at a state and inputs.
+    pub(crate) fn quantities(&self, w: &mut Workspace, z: &[f64], u: &[f64]) -> Vec<f64> {
+        self.evaluate_quantities(w, z.as_chunks().0, u.as_chunks().0);
+        self.last_quantities(w).as_flattened()[..self.quantity_count].to_vec()
     }
 
     /// The delay of all inputs, s, those that each has beside it, and their derivatives with respect to p, row by row.

@@ -1,5 +1,6 @@
 //! Models from files: what a file may say, and the model it says.
 
+use super::measured::MeasuredQuantity;
 use super::terms;
 use super::trailer::Trailer;
 use super::vehicle_model::{Model, Sensor};
@@ -78,6 +79,7 @@ fn known_effect(e: &Effect) -> KnownEffect {
         parameters: e.parameters.iter().map(parameter).collect(),
         per_trailer: e.per_trailer,
         per_input: e.per_input,
+        per_quantity: e.per_quantity,
         input_optional: e.input_optional,
     }
 }
@@ -116,6 +118,7 @@ impl Model {
             trailers: trailers.map(|(length, hitch)| Trailer { length: *length, hitch: *hitch }).collect(),
             parameters: file.parameters.clone(),
             sensor: Sensor { lever_arm: file.sensor.lever_arm, heading_offset: file.sensor.heading_offset },
+            measured: vec![],
             inputs: roles.to_vec(),
             effects: vec![],
             forced: None,
@@ -128,9 +131,13 @@ impl Model {
             let (line, column) = entry.place;
             model = model.with_forces(entry).map_err(|e| e.at_file(&file.path).at(line, column))?;
         }
+        let measured = file.measured.iter().map(|entry| MeasuredQuantity::of_entry(entry, vehicle));
+        model.measured = measured.collect::<Result<_>>().map_err(|e| e.at_file(&file.path))?;
+        model.check_measured(file)?;
         for entry in &file.effects {
             let term = if entry.id.starts_with(terms::PREFIX) { model.term(&entry.id)? } else { None };
-            let known = applied(entry, library, vehicle).or_else(|| applied(entry, term.as_slice(), vehicle));
+            let of = (vehicle, &model.measured[..]);
+            let known = applied(entry, library, of).or_else(|| applied(entry, term.as_slice(), of));
             model.effects.push(known.ok_or_else(|| {
                 Error::input(format!("unknown effect {:?}", entry.id)).at_file(&file.path).at(entry.line, 1)
             })?);
@@ -143,11 +150,17 @@ impl Model {
     }
 }
 
-fn applied(entry: &EffectEntry, library: &[Effect], vehicle: &Vehicle) -> Option<Applied> {
+fn applied(
+    entry: &EffectEntry,
+    library: &[Effect],
+    (vehicle, measured): (&Vehicle, &[MeasuredQuantity]),
+) -> Option<Applied> {
+    let of_quantity = |role: &str| measured.iter().find(|m| m.name == role).map(|m| m.unit.as_str());
+    let unit = |role: &str| of_quantity(role).unwrap_or_else(|| vehicle.unit_of(role));
     let effect = library.iter().find(|e| e.id == entry.id)?;
     let mut effect = effect.clone();
     if let Some(role) = &entry.input {
-        effect = effect.on_input(role, vehicle.unit_of(role), 1.0);
+        effect = effect.on_input(role, unit(role), 1.0);
     }
     let mut per_s = None;
     match entry.course.as_ref().map(|c| (c.parameter.clone(), c.motion)) {
@@ -183,6 +196,7 @@ impl Applied {
             id: self.effect.id.clone(),
             trailer: self.trailer,
             input: self.effect.on.clone(),
+            of_sensor: self.effect.per_quantity,
             scope: self.effect.scope.clone(),
             course: course.or(walk),
             parameters,

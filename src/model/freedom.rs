@@ -31,17 +31,20 @@ impl Speed {
     }
 }
 
-/// What of a vehicle is free at the start of every window: its pose, headings of trailers, speeds that forces change.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+/// What of a vehicle is free at the start of every window, its pose, headings of trailers, speeds that forces change, and what
+/// is measured beside.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Freedom {
     /// How many trailers it has.
     pub trailers: usize,
     /// The speeds; none where the inputs say how it moves.
     pub speeds: Arc<[Speed]>,
+    /// The quantities that a log measures beside its pose: the standard deviation of each, where it is known.
+    pub quantities: Arc<[Option<f64>]>,
 }
 
 impl From<usize> for Freedom {
     fn from(trailers: usize) -> Self {
-        Self { trailers, speeds: Arc::default() }
+        Self { trailers, speeds: Arc::default(), quantities: Arc::default() }
     }
 }

@@ -15,6 +15,7 @@ mod forced_motion;
 pub(crate) mod forces;
 mod free;
 pub mod freedom;
+pub mod measured;
 pub mod observation;
 mod own;
 pub(crate) mod reference_speeds;

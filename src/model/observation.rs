@@ -2,6 +2,7 @@
 
 use super::freedom::{Freedom, Speed};
 use super::trailer::trailer_heading;
+use crate::files::MAX_MEASURED;
 use crate::formula::Symbol;
 
 /// A component of the measurement noise: outputs that name the same one share a variance.
@@ -124,7 +125,7 @@ pub fn outputs(of: impl Into<Freedom>) -> impl Iterator<Item = Output> {
 /// let line = Observation::new(0, true, 3).defining([1, BODY_HEADING]);
 /// assert_eq!((line.columns(), line.measured()), (&[0, 1, 2][..], &[0][..]));
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Observation {
     freedom: Freedom,
     columns: Vec<usize>,
@@ -181,6 +182,29 @@ impl Observation {
     pub fn measures_trailers(&self) -> bool {
         self.measured.iter().any(|i| *i > BODY_HEADING && *i <= BODY_HEADING + self.freedom.trailers)
     }
+}
+
+/// The components of the noise of quantities that a model file declares, one each; their units are the quantities' own.
+const QUANTITY_NOISE: [SensorNoise; MAX_MEASURED] = [
+    SensorNoise { id: "measured-1", unit: "" },
+    SensorNoise { id: "measured-2", unit: "" },
+    SensorNoise { id: "measured-3", unit: "" },
+    SensorNoise { id: "measured-4", unit: "" },
+    SensorNoise { id: "measured-5", unit: "" },
+    SensorNoise { id: "measured-6", unit: "" },
+    SensorNoise { id: "measured-7", unit: "" },
+    SensorNoise { id: "measured-8", unit: "" },
+    SensorNoise { id: "measured-9", unit: "" },
+    SensorNoise { id: "measured-10", unit: "" },
+    SensorNoise { id: "measured-11", unit: "" },
+    SensorNoise { id: "measured-12", unit: "" },
+];
+
+/// The components of the measurement noise of these outputs, then those of the quantities measured beside the pose.
+pub fn measurement_noise(of: impl Into<Freedom>) -> impl Iterator<Item = SensorNoise> {
+    let of = of.into();
+    let quantities = of.quantities.len();
+    sensor_noise(of).iter().chain(&QUANTITY_NOISE[..quantities]).copied()
 }
 
 /// The components of the measurement noise that these outputs have.

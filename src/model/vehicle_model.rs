@@ -1,6 +1,7 @@
 //! A vehicle with its parameters, its sensor and the effects it includes.
 
 use super::forced_motion::ForcedMotion;
+use super::measured::MeasuredQuantity;
 use super::solution::Solution;
 use super::trailer::Trailer;
 use crate::effects::Applied;
@@ -37,6 +38,8 @@ pub struct Model {
     pub parameters: BTreeMap<String, f64>,
     /// The sensor as far as it is known.
     pub sensor: Sensor,
+    /// What a log measures beside the pose.
+    pub measured: Vec<MeasuredQuantity>,
     /// Inputs as they are logged.
     pub inputs: Vec<String>,
     /// The effects the model includes.
@@ -88,6 +91,7 @@ impl Model {
             trailers: vec![],
             parameters,
             sensor: Sensor::default(),
+            measured: vec![],
             inputs: found.inputs.keys().cloned().collect(),
             effects: vec![],
             forced: None,

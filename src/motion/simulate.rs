@@ -44,6 +44,7 @@ impl Table {
 /// | `lateral_speed` | m/s | v_t, its speed to the left |
 /// | `yaw_rate` | rad/s | rate of the body's heading |
 /// | the states of the effects by their symbols | | such as `cornering_creep.w` |
+/// | what is measured beside the pose, by name | | the quantities of `[measured]` in the model file |
 ///
 /// `start` holds what the sensor measures at the first time: x, y, heading, trailer headings. States that no
 /// sensor sees begin at their quasi-static values, see [`initial_hidden`].
@@ -84,10 +85,14 @@ pub fn simulate_model(
     let mut z0 = visible_state(&equations, &[], start)?;
     z0.extend(initial_hidden(&equations, &[], &at(first), &z0));
     let speeds = Speeds::new(model, &equations)?;
-    let names = names(&equations);
+    let mut names = names(&equations);
+    let beside: Vec<&str> = model.measured.iter().map(|m| m.name.as_str()).collect();
+    // What the table has anyway is measured by the same formula under the same name.
+    let more: Vec<usize> = (0..beside.len()).filter(|i| names.iter().all(|name| name != beside[*i])).collect();
+    names.extend(more.iter().map(|i| beside[*i].to_string()));
     let mut columns: Vec<Vec<f64>> = names.iter().map(|_| Vec::with_capacity(times.len())).collect();
     simulate_by(&equations, &[], inputs, &z0, times, integrator, &mut |t, z| {
-        let row = row(t, z, &at(t), &equations, &mut w, &speeds)?;
+        let row = row((t, z, &at(t)), &equations, &mut w, &speeds, &more)?;
         columns.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
         Ok(())
     })?;
@@ -102,9 +107,19 @@ fn names(equations: &Equations) -> Vec<String> {
     pose.chain(speeds).chain(hidden).collect()
 }
 
-fn row(t: f64, z: &[f64], u: &[f64], equations: &Equations, w: &mut Workspace, speeds: &Speeds) -> Result<Vec<f64>> {
+fn row(
+    (t, z, u): (f64, &[f64], &[f64]),
+    equations: &Equations,
+    w: &mut Workspace,
+    speeds: &Speeds,
+    more: &[usize],
+) -> Result<Vec<f64>> {
     let measured = &equations.outputs(w, z)[..equations.poses];
-    let row = [&[t], measured, &speeds.at(z, u), &z[equations.poses..]].concat();
+    let mut row = [&[t], measured, &speeds.at(z, u), &z[equations.poses..]].concat();
+    if !more.is_empty() {
+        let all = equations.quantities(w, z, u);
+        row.extend(more.iter().map(|i| all[*i]));
+    }
     match row.iter().all(|v| v.is_finite()) {
         true => Ok(row),
         false => Err(Error::run(format!("the motion is undefined at t = {t}"))),

@@ -58,6 +58,8 @@ pub enum Reason {
     Inconsistent,
     /// Model and data disagree, and neither an effect nor a law explains it.
     Unexplained,
+    /// The poses are explained, and sensors beside them, by these names, disagree with the model.
+    SensorsDisagree(Vec<String>),
     /// Another vehicle explains the runs to their noise.
     OtherVehicle(Box<OtherVehicle>),
     /// An effect of plausible size would have been missed.

@@ -8,10 +8,11 @@ use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::estimation::unexplained;
 use crate::discrepancy::localisation::clock_drift::Drift;
 use crate::discrepancy::localisation::constraint_residuals::ConstraintResiduals;
+use crate::discrepancy::localisation::sensor_residuals::missed as missed_sensors;
 use crate::discrepancy::localisation::unexplained_motion::{disagrees, is_random, visible};
 use crate::discrepancy::preprocessing::slip_angle::longest_slide;
 use crate::discrepancy::preprocessing::unit_errors::{self, Slip};
-use crate::discrepancy::report::Verdict;
+use crate::discrepancy::report::{RemainingSensor, Verdict};
 use crate::discrepancy::selection::choice::Selected;
 use crate::discrepancy::selection::search::find;
 use crate::discrepancy::selection::select::Candidate;
@@ -35,6 +36,15 @@ pub struct Outcome {
 impl Outcome {
     pub(crate) fn new(verdict: Verdict, reason: Reason, next: Option<Advice>) -> Self {
         Self { verdict, reason: Some(reason), next }
+    }
+
+    /// The verdict beside what sensors other than that of the pose show: what they contradict is not explained.
+    pub(crate) fn beside_sensors(self, sensors: &[RemainingSensor]) -> Self {
+        let missed: Vec<String> = missed_sensors(sensors).map(|s| s.name.clone()).collect();
+        match self.verdict == Verdict::NoMissingEffect && !missed.is_empty() {
+            true => Self::new(Verdict::Unexplained, Reason::SensorsDisagree(missed), None),
+            false => self,
+        }
     }
 }
 

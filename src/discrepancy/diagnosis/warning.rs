@@ -3,6 +3,7 @@
 use crate::discrepancy::preprocessing::dataset::DatasetNote;
 use crate::discrepancy::preprocessing::quantisation::CoarseInput;
 use crate::discrepancy::preprocessing::unit_errors::Slip;
+use crate::discrepancy::report::RemainingSensor;
 use crate::discrepancy::selection::choice::Growth;
 use crate::discrepancy::selection::choice::Refused;
 use crate::effects::Applied;
@@ -49,6 +50,8 @@ pub enum Warning {
     Refuted(Box<Refused>),
     /// The held-out gap grew.
     HeldOutGapGrew(Growth),
+    /// A quantity measured beside the pose that the last model misses by more than its noise.
+    SensorMissed(RemainingSensor),
     /// An input in coarse steps.
     CoarseInput(CoarseInput),
     /// Another offset of a run's clocks, s, fits nearly as well as its own.

@@ -64,7 +64,7 @@ impl NoiseModel {
     pub fn starting(of: impl Into<Freedom>, sensor: impl IntoIterator<Item = Start>) -> Self {
         let of: Freedom = of.into();
         let starts: Vec<Start> = sensor.into_iter().collect();
-        let measured = observation::sensor_noise(of.clone()).iter().zip(&starts).map(|(of, start)| Component {
+        let measured = observation::measurement_noise(of.clone()).zip(&starts).map(|(of, start)| Component {
             id: of.id,
             unit: of.unit,
             variance: start.variance,
@@ -83,7 +83,7 @@ impl NoiseModel {
             scale: Some(jump.scale),
         });
         let components: Vec<Component> = measured.chain(jumps).collect();
-        let sensor = observation::sensor_noise(of.clone()).len();
+        let sensor = observation::measurement_noise(of.clone()).count();
         let jumps = state::nodes(of).map(|node| node.jump).collect();
         Self { components, sensor, jumps }
     }
@@ -96,6 +96,11 @@ impl NoiseModel {
     /// Those of the measurement noise, as the outputs name them.
     pub fn measurement(&self) -> &[Component] {
         &self.components[..self.sensor]
+    }
+
+    /// Those of the quantities measured beside the pose, of so many.
+    pub fn of_quantities(&self, quantities: usize) -> &[Component] {
+        &self.components[self.sensor - quantities..self.sensor]
     }
 
     /// Those of the process noise, as the nodes name them.

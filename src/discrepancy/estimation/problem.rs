@@ -43,6 +43,12 @@ impl Problem {
         let plan = windows::plan(&records);
         let freedom = records.first().map_or(Freedom::default(), |r| r.freedom().clone());
         let is_defined = !records.is_empty() && records.iter().all(|r| r.has_heading() && !r.measures_heading());
+        let of_quantity = |(i, known): (usize, &Option<f64>)| Start {
+            variance: known.unwrap_or_else(|| noise_of_quantity(&records, i)).powi(2),
+            is_measured: records.iter().any(|r| i < r.quantities.len()),
+            is_known: known.is_some(),
+        };
+        let of_quantities = freedom.quantities.iter().enumerate().map(of_quantity);
         let starts = observation::sensor_noise(freedom.clone()).iter().enumerate().map(|(k, noise)| {
             let known = if noise.unit == "m" { position } else { heading };
             let given = (k == HEADING && is_defined).then_some(DEFINED);
@@ -52,7 +58,7 @@ impl Problem {
                 is_known: known.is_some(),
             }
         });
-        let mut variances = NoiseModel::starting(freedom.clone(), starts);
+        let mut variances = NoiseModel::starting(freedom.clone(), starts.chain(of_quantities));
         if !records.iter().any(|r| r.has_heading())
             && let Some(yaw) = yaw_told(&records, &plan, variances.measurement()[POSITION].variance)
         {
@@ -118,6 +124,11 @@ impl Problem {
         self.records.iter().any(|r| r.input_noise.is_there())
     }
 
+    /// The noise of a quantity that is measured beside the pose, as its rows show it.
+    pub(crate) fn quantity_noise(&self, quantity: usize) -> f64 {
+        noise_of_quantity(&self.records, quantity)
+    }
+
     /// How many windows there are.
     pub fn windows(&self) -> usize {
         self.plan.iter().map(|s| s.windows.len()).sum()
@@ -128,7 +139,9 @@ impl Problem {
         let of_segment = |s: &Segment| {
             let rows: usize = s.windows.iter().map(std::ops::Range::len).sum();
             let each = self.records[s.record].channels().into_iter().map(|c| v.measurement()[c.noise].variance.ln());
-            rows as f64 * each.sum::<f64>()
+            let record = &self.records[s.record];
+            let beside = v.of_quantities(record.quantities.len()).iter().map(|c| c.variance.ln());
+            rows as f64 * each.chain(beside).sum::<f64>()
         };
         self.plan.iter().map(of_segment).sum()
     }
@@ -165,11 +178,20 @@ fn yaw_told(records: &[Record], plan: &[Segment], variance: f64) -> Option<f64> 
 
 /// The median over the runs of the noise of the columns that share a component.
 fn noise_of(records: &[Record], component: usize) -> f64 {
-    let mut found: Vec<f64> = Vec::new();
-    for r in records {
-        let columns = r.channels().into_iter().filter(|c| c.noise == component).map(|c| &r.columns[c.column]);
-        found.extend(columns.filter_map(|y| local_polynomial::noise(&r.time[r.rows.clone()], &y[r.rows.clone()])));
-    }
+    let columns = |r: &Record| -> Vec<usize> {
+        r.channels().into_iter().filter(|c| c.noise == component).map(|c| c.column).collect()
+    };
+    median_noise(records.iter().flat_map(|r| columns(r).into_iter().map(move |c| (r, &r.columns[c]))))
+}
+
+/// The median over the runs of the noise of a quantity that is measured beside the pose.
+fn noise_of_quantity(records: &[Record], quantity: usize) -> f64 {
+    median_noise(records.iter().filter_map(|r| Some((r, r.quantities.get(quantity)?))))
+}
+
+fn median_noise<'r>(columns: impl Iterator<Item = (&'r Record, &'r Vec<f64>)>) -> f64 {
+    let noise = |(r, y): (&Record, &Vec<f64>)| local_polynomial::noise(&r.time[r.rows.clone()], &y[r.rows.clone()]);
+    let mut found: Vec<f64> = columns.filter_map(noise).collect();
     // A column without any noise still has its last digit.
     local_polynomial::median(&mut found).unwrap_or(1e-3).max(1e-9)
 }

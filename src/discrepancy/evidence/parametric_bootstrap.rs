@@ -170,6 +170,15 @@ impl Problem {
                         let noise = sigma * record.weights.deviation(channel.column, i) * normal(random);
                         record.columns[channel.column][i] = y[channel.output] + noise;
                     }
+                    let quantities = record.quantities.len();
+                    if quantities > 0 {
+                        let there = stepper.quantities(&arc, record.time[i]);
+                        for ((column, (value, _)), noise) in
+                            record.quantities.iter_mut().zip(there).zip(v.of_quantities(quantities))
+                        {
+                            column[i] = value + noise.variance.sqrt() * normal(random);
+                        }
+                    }
                     if i + 1 < record.time.len() {
                         stepper.advance(&mut arc, record.time[i], record.time[i + 1]);
                     }

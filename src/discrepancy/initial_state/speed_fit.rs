@@ -116,10 +116,14 @@ impl Stretch<'_> {
                 let slopes = DMatrix::from_row_slice(1, m, &y[m + channel.output * m..][..m]) * all.rows(0, m);
                 let sigma = record.noise_of(channel.column) * record.weights.deviation(channel.column, i);
                 let off = channel.difference(y[channel.output] - record.columns[channel.column][i]) / sigma;
-                let line = slopes.transpose() / sigma;
-                along.information.ger(1.0, &line.column(0), &line.column(0), 1.0);
-                along.gradient.axpy(off, &line.column(0), 1.0);
-                along.half += 0.5 * off * off;
+                along.add(off, &(slopes.transpose().column(0) / sigma));
+            }
+            if !record.quantities.is_empty() {
+                let there = stepper.quantities(&arc, record.time[i]);
+                for (k, (value, slopes)) in there.into_iter().enumerate() {
+                    let sigma = record.noise_of_quantity(k);
+                    along.add((value - record.quantities[k][i]) / sigma, &(DVector::from_vec(slopes) / sigma));
+                }
             }
             if i == self.row {
                 (along.state, along.there) = (arc.z.clone(), all);
@@ -129,6 +133,15 @@ impl Stretch<'_> {
             }
         }
         along.half.is_finite().then_some(along)
+    }
+}
+
+impl Along {
+    /// Adds a residual and its slopes by the nodes, in units of its noise.
+    fn add(&mut self, off: f64, slopes: &DVector<f64>) {
+        self.information.ger(1.0, slopes, slopes, 1.0);
+        self.gradient.axpy(off, slopes, 1.0);
+        self.half += 0.5 * off * off;
     }
 }
 

@@ -33,6 +33,7 @@ pub fn remaining(fit: &Fit, has_heading: bool, after: &[ConstraintResiduals]) ->
         rows_alike: fit.noise_correlation_time,
         windows_alike: fit.residual_correlation_time,
         constraints: constraints.collect(),
+        sensors: vec![],
     }
 }
 

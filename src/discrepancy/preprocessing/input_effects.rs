@@ -14,6 +14,10 @@ const BEYOND: f64 = 0.01;
 pub(crate) fn on_inputs(library: &[Effect], model: &Model, runs: &[Run]) -> Vec<Effect> {
     let mut found: Vec<Effect> = vec![];
     for effect in library {
+        if effect.per_quantity {
+            found.extend((0..model.measured.len()).filter_map(|k| on_quantity(effect, k, model, runs)));
+            continue;
+        }
         if !effect.per_input && !effect.unsought {
             found.push(effect.clone());
         }
@@ -34,6 +38,13 @@ fn on_input(effect: &Effect, role: &str, model: &Model, runs: &[Run]) -> Option<
     let in_steps = || columns.iter().any(|c| step_of(c).is_some());
     let stands = size > 0.0 && effect.coarse.is_none_or(|coarse| coarse == in_steps());
     stands.then(|| effect.on_input(role, model.vehicle.unit_of(role), size))
+}
+
+/// The effect on a quantity that is measured beside the pose, where a run has it.
+fn on_quantity(effect: &Effect, k: usize, model: &Model, runs: &[Run]) -> Option<Effect> {
+    let columns: Vec<&[f64]> = runs.iter().filter_map(|run| Some(run.measured.get(k)?.as_slice())).collect();
+    let (size, quantity) = (size(&columns), &model.measured[k]);
+    (size > 0.0).then(|| effect.on_input(&quantity.name, &quantity.unit, size))
 }
 
 fn column<'r>(run: &'r Run, role: &str) -> Option<&'r [f64]> {

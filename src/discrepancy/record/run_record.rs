@@ -26,6 +26,8 @@ pub struct Record {
     pub time: Vec<f64>,
     /// Measured x, y and, when measured, heading and trailer headings, or what they are by definition; angles unwrapped.
     pub columns: Vec<Vec<f64>>,
+    /// What is measured beside the pose, in the order of the model; empty where the log has none of it.
+    pub quantities: Vec<Vec<f64>>,
     /// Which outputs of the vehicle they are.
     pub observation: Observation,
     /// How much each row of a column counts.
@@ -44,6 +46,7 @@ pub struct Record {
 pub(crate) struct Known {
     step: OnceLock<f64>,
     noise: OnceLock<Vec<Option<f64>>>,
+    quantity_noise: OnceLock<Vec<Option<f64>>>,
 }
 
 impl Clone for Known {
@@ -90,7 +93,8 @@ impl Record {
         let observation = Observation::new(trailers, has_heading, columns.len());
         let (name, known) = (name.to_string(), Known::default());
         let weights = RowWeights::default();
-        Self { name, time, columns, observation, weights, signals, input_noise, rows, known }
+        let quantities = vec![];
+        Self { name, time, columns, quantities, observation, weights, signals, input_noise, rows, known }
     }
 
     /// A run as it was read, of a vehicle with some trailers, or with that freedom.
@@ -102,10 +106,12 @@ impl Record {
         let input_noise = Arc::new(InputNoise::of(run.input_time(), &run.inputs, &timings(&run.differences, timing)));
         let defined = [(PLACE[1], run.defined.y), (BODY_HEADING, run.defined.heading)];
         let defined = defined.into_iter().filter_map(|(output, is_defined)| is_defined.then_some(output));
+        let of: Freedom = of.into();
+        let quantities = if run.measured.len() == of.quantities.len() { run.measured.clone() } else { vec![] };
         let observation = Observation::new(of, run.heading.is_some(), columns.len()).defining(defined);
         let (name, time, rows) = (run.name.clone(), run.time.clone(), 0..run.time.len());
         let (weights, known) = (RowWeights::of_run(run), Known::default());
-        Self { name, time, columns, observation, weights, signals, input_noise, rows, known }
+        Self { name, time, columns, quantities, observation, weights, signals, input_noise, rows, known }
     }
 
     /// The run with inputs that are as noisy again.
@@ -139,6 +145,7 @@ impl Record {
         Record {
             time: pick(&self.time),
             columns: self.columns.iter().map(|c| pick(c)).collect(),
+            quantities: self.quantities.iter().map(|c| pick(c)).collect(),
             weights: self.weights.keeping(pick),
             rows: before(self.rows.start)..before(self.rows.end),
             ..self.clone()
@@ -197,6 +204,18 @@ impl Record {
     /// Standard deviation of a column, as its rows show it.
     pub(crate) fn noise_of(&self, column: usize) -> f64 {
         self.noises()[column].unwrap_or(UNTOLD_NOISE).max(LEAST_NOISE)
+    }
+
+    /// Standard deviation of a quantity that is measured beside the pose, as its rows show it, or as it is known.
+    pub(crate) fn noise_of_quantity(&self, quantity: usize) -> f64 {
+        let known = self.freedom().quantities.get(quantity).copied().flatten();
+        known.or(self.quantity_noises()[quantity]).unwrap_or(UNTOLD_NOISE).max(LEAST_NOISE)
+    }
+
+    fn quantity_noises(&self) -> &[Option<f64>] {
+        let rows = || self.rows.clone();
+        let of = |column: &Vec<f64>| local_polynomial::noise(&self.time[rows()], column.get(rows())?);
+        self.known.quantity_noise.get_or_init(|| self.quantities.iter().map(of).collect())
     }
 
     fn noises(&self) -> &[Option<f64>] {

@@ -53,6 +53,11 @@ pub fn sentence(reason: &Reason) -> String {
         Reason::Unexplained => "Model and measurement disagree, and neither an effect of the library nor a simple law \
                                 explains it."
             .into(),
+        Reason::SensorsDisagree(names) => format!(
+            "The poses are explained, but what is measured of {} disagrees with the model by more than its noise, and no effect \
+             of the library explains it.",
+            listed(names.iter().cloned())
+        ),
         Reason::OtherVehicle(other) => other_vehicle_text::sentence(other),
         Reason::Missed(effect) => {
             let label = effect.label();

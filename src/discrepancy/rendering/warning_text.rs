@@ -47,6 +47,11 @@ pub fn line(warning: &Warning) -> String {
         Warning::Dataset(DatasetNote::NotFitted { run }) => {
             format!("{run}: too short for a window of one second; it is not fitted")
         }
+        Warning::SensorMissed(sensor) => {
+            let number = |x: f64| format!("{} {}", significant(x, 2), sensor.unit).trim_end().to_string();
+            let (rms, noise) = (number(sensor.rms), number(sensor.noise));
+            format!("{}: the last model says it to {rms} (RMS), its rows scatter by {noise} alone", sensor.name)
+        }
         Warning::HorizonTooLong(h) => format!("the runs are too short for a gap after {h} s"),
         Warning::Inconsistent(effects) => format!("{}, so that is not named", inconsistent(effects)),
         Warning::SamplingSensitive(effects) => format!("{}, so that is not named", sampling_sensitive(effects)),

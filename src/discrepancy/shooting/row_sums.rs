@@ -17,6 +17,9 @@ pub(crate) struct NormalEquations<const L: usize> {
     /// Columns (z, p, 1).
     width: usize,
     channels: Vec<Channel>,
+    /// How many quantities are measured beside the pose, and the first component of their noise.
+    quantities: usize,
+    first_quantity: usize,
     /// Upper halves of Σ (J, r)ᵀ(J, r) for each component of the noise, column by column; empty where nothing has it.
     gram: Vec<Vec<[f64; L]>>,
     blocks: Vec<[Blocks; L]>,
@@ -28,13 +31,18 @@ impl<const L: usize> NormalEquations<L> {
     pub fn new(columns: usize, record: &Record) -> Self {
         let channels = record.channels();
         let width = columns + 1;
-        let entries = |kind: usize| if channels.iter().any(|c| c.noise == kind) { width * (width + 1) / 2 } else { 0 };
-        let kinds = observation::sensor_noise(record.freedom().clone()).len();
+        let first_quantity = observation::sensor_noise(record.freedom().clone()).len();
+        let (quantities, kinds) = (record.quantities.len(), first_quantity + record.freedom().quantities.len());
+        let is_there =
+            |kind: usize| channels.iter().any(|c| c.noise == kind) || kind >= first_quantity && quantities > 0;
+        let entries = |kind: usize| if is_there(kind) { width * (width + 1) / 2 } else { 0 };
         Self {
             width,
+            quantities,
+            first_quantity,
             gram: (0..kinds).map(|kind| vec![[0.0; L]; entries(kind)]).collect(),
             blocks: vec![[Blocks::default(); L]; kinds],
-            runs: vec![[Run::default(); L]; channels.len()],
+            runs: vec![[Run::default(); L]; channels.len() + quantities],
             line: vec![[0.0; L]; width],
             channels,
         }
@@ -61,7 +69,9 @@ impl<const L: usize> NormalEquations<L> {
         if !arc.z.iter().chain(&arc.s).all(|x| x.is_finite()) || !gram.iter().all(|g| g.iter().all(|x| x.is_finite())) {
             return None;
         }
-        let columns = |kind: usize| self.channels.iter().filter(|c| c.noise == kind).count();
+        let of_pose = |kind: usize| self.channels.iter().filter(|c| c.noise == kind).count();
+        let of_quantities = |kind: usize| usize::from(kind >= self.first_quantity && self.quantities > 0);
+        let columns = |kind: usize| of_pose(kind) + of_quantities(kind);
         let count = kinds.map(|kind| columns(kind) * rows.len()).collect();
         let axes = body_axes(arc.z[state::DIRECTION], visible);
         let last = if next.is_some() { rows.end } else { rows.end - 1 };
@@ -134,6 +144,10 @@ impl<const L: usize> Kernel for WindowKernel<'_, '_, L> {
                 to[l] = time[at[l] + usize::from(moves)];
             }
             sums.add(y, &arcs.s, record, &at, &active);
+            if sums.quantities > 0 {
+                stepper.evaluate_quantities(&arcs.z, &from);
+                sums.add_quantities(stepper, arcs, record, &at, &active);
+            }
             stepper.advance_here(&mut arcs.z, &mut arcs.s, &from, &to);
         }
     }
@@ -145,7 +159,8 @@ impl<const L: usize> NormalEquations<L> {
     fn add(&mut self, y: &[[f64; L]], s: &[[f64; L]], record: &Record, at: &[usize; L], active: &[bool; L]) {
         let k = self.width - 1;
         let visible = visible_of(record);
-        for (c, channel) in self.channels.iter().enumerate() {
+        for c in 0..self.channels.len() {
+            let channel = self.channels[c];
             output_line(y, channel.output, visible, k, s, &mut self.line);
             let measured = &record.columns[channel.column];
             let (kind, rest) = (channel.noise, &mut self.line[k]);
@@ -164,23 +179,49 @@ impl<const L: usize> NormalEquations<L> {
                     }
                 }
             }
-            let rest = self.line[k];
-            let mut all = true;
-            for l in 0..L {
-                all &= active[l];
-                if active[l] {
-                    self.runs[c][l].push(rest[l], &mut self.blocks[kind][l]);
-                }
-            }
-            if !all {
-                for line in &mut self.line {
-                    for l in 0..L {
-                        line[l] = if active[l] { line[l] } else { 0.0 };
-                    }
-                }
-            }
-            add_square(&mut self.gram[kind], &self.line);
+            self.sum(c, kind, active);
         }
+    }
+
+    /// Adds what is measured beside the pose, evaluated at a row of each window.
+    #[inline(always)]
+    fn add_quantities(
+        &mut self,
+        stepper: &LaneStepper<L>,
+        arcs: &LaneStates<L>,
+        record: &Record,
+        at: &[usize; L],
+        active: &[bool; L],
+    ) {
+        let k = self.width - 1;
+        for (i, measured) in record.quantities.iter().enumerate() {
+            let value = stepper.quantity(i, arcs.z.len(), &arcs.s, &mut self.line[..k]);
+            for l in 0..L {
+                self.line[k][l] = value[l] - measured[at[l]];
+            }
+            self.sum(self.channels.len() + i, self.first_quantity + i, active);
+        }
+    }
+
+    /// Adds the line of a column, whose noise is of a kind, where its window has a row.
+    #[inline(always)]
+    fn sum(&mut self, column: usize, kind: usize, active: &[bool; L]) {
+        let rest = self.line[self.width - 1];
+        let mut all = true;
+        for l in 0..L {
+            all &= active[l];
+            if active[l] {
+                self.runs[column][l].push(rest[l], &mut self.blocks[kind][l]);
+            }
+        }
+        if !all {
+            for line in &mut self.line {
+                for l in 0..L {
+                    line[l] = if active[l] { line[l] } else { 0.0 };
+                }
+            }
+        }
+        add_square(&mut self.gram[kind], &self.line);
     }
 }
 

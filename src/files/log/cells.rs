@@ -19,6 +19,8 @@ pub struct Cells {
     pub wraps: bool,
 }
 
+/// What stands before the name of a quantity of `[measured]` where it is a role.
+pub(crate) const MEASURED: &str = "measured.";
 /// A standard deviation that a row does not have, among finite numbers.
 const ABSENT: f64 = -1.0;
 /// What stands between the name of a quaternion and its four letters.
@@ -92,6 +94,19 @@ impl Cells {
     /// An input from its positions at the times of its rows.
     pub(crate) fn rates(&self, time: &[f64], positions: Vec<f64>) -> Vec<f64> {
         if self.reading.is_difference() { counts::mean_rates(time, &positions) } else { positions }
+    }
+
+    /// A rate at the times of its rows; of counts and positions by what lies on either side of a row.
+    pub(crate) fn central_rates(&self, time: &[f64], positions: Vec<f64>) -> Vec<f64> {
+        if !self.reading.is_difference() {
+            return positions;
+        }
+        let last = time.len() - 1;
+        let of = |i: usize| {
+            let (before, after) = (i.saturating_sub(1), (i + 1).min(last));
+            (positions[after] - positions[before]) / (time[after] - time[before])
+        };
+        (0..=last).map(of).collect()
     }
 }
 
@@ -177,16 +192,20 @@ pub(crate) fn missing(header: &[String], role: &str, column: &str, instead: Opti
     let names: Vec<&str> = header.iter().map(String::as_str).collect();
     let advice = suggestions::advice(column, "the file has", &names);
     let or = instead.map(|other| format!(" or \"{other}\"")).unwrap_or_default();
+    let (table, key) = match role.strip_prefix(MEASURED) {
+        Some(name) => ("[measured]", name),
+        None => ("[columns]", role),
+    };
     let purpose = if role == column { String::new() } else { format!(" for {role}") };
     let error = Error::input(format!("column \"{column}\"{or}{purpose} is missing"));
     if is_without_names(header) {
         let n = names.len();
         return error.help(format!(
-            "the file has no names of columns: they are called 1 to {n}; name the right one under [columns] of the model \
-             file: {role} = 1"
+            "the file has no names of columns: they are called 1 to {n}; name the right one under {table} of the model \
+             file: {key} = 1"
         ));
     }
-    error.help(format!("{advice}; name the right one under [columns] of the model file: {role} = \"…\""))
+    error.help(format!("{advice}; name the right one under {table} of the model file: {key} = \"…\""))
 }
 
 #[cfg(test)]

@@ -72,9 +72,14 @@ pub(crate) fn name(value: &Value) -> Result<String> {
 
 /// An entry of a role whose quantity has this dimension.
 pub(crate) fn read(value: &Value, dimension: Option<Dimension>) -> Result<ColumnEntry> {
+    read_with(value, dimension, &[])
+}
+
+/// The same of an entry that may have further keys, which its reader knows.
+pub(crate) fn read_with(value: &Value, dimension: Option<Dimension>, more: &[&'static str]) -> Result<ColumnEntry> {
     let time = dimension == Some(Dimension::Time);
     if value.is_table() {
-        return table(value, dimension);
+        return table(value, dimension, more);
     }
     if time && !value.is_text() && !value.is_number() {
         return pair(value);
@@ -102,10 +107,10 @@ fn pair(value: &Value) -> Result<ColumnEntry> {
     }
 }
 
-fn table(value: &Value, dimension: Option<Dimension>) -> Result<ColumnEntry> {
+fn table(value: &Value, dimension: Option<Dimension>, more: &[&'static str]) -> Result<ColumnEntry> {
     let role = &value.name;
     let section = value.section_like(role.clone(), &format!("{role} = {{ column = \"…\", unit = \"…\" }}"))?;
-    section.only(&keys(dimension))?;
+    section.only(&[&keys(dimension)[..], more].concat())?;
     let sources: Vec<&str> =
         ["column", "quaternion", "ticks", "angle"].into_iter().filter(|key| section.get(key).is_some()).collect();
     let example = format!("{role} = {{ column = \"…\" }}");

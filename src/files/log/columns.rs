@@ -5,6 +5,7 @@ use super::column_entry::{self, ColumnEntry, Kind, Reading};
 use super::unit::Dimension;
 use crate::error::Result;
 use crate::files::model::known::KnownInput;
+use crate::files::model::measured::MeasuredEntry;
 use crate::files::model::parameters::{Machine, one_per_trailer};
 use crate::files::toml::spanned_table::{Section, Value};
 use std::collections::BTreeMap;
@@ -25,6 +26,8 @@ pub struct Columns {
     pub heading: Option<String>,
     /// Measured absolute headings of the trailers, rad: one each, or none at all.
     pub trailer_headings: Vec<String>,
+    /// What is measured beside the pose: its key among `entries`.
+    pub measured: Vec<String>,
     /// The inputs, in the order of the catalogue.
     pub inputs: Vec<InputColumn>,
     /// How roles are read of which the file says more than a name; trailers are `trailer_headings[1]` and so on.
@@ -62,6 +65,8 @@ pub struct Resolved {
     pub heading: Option<Cells>,
     /// Measured headings of the trailers.
     pub trailer_headings: Vec<Cells>,
+    /// What is measured beside the pose.
+    pub measured: Vec<Cells>,
     /// Standard deviations of x, y and heading, where the log has them.
     pub deviations: [Option<Cells>; 3],
     /// The inputs, in the order of [`Columns::inputs`].
@@ -123,6 +128,7 @@ impl Columns {
             y: y.unwrap_or_else(|| "y".into()),
             heading,
             trailer_headings,
+            measured: vec![],
             inputs: inputs.iter().map(|known| input(known, &get, &mut entries)).collect::<Result<_>>()?,
             entries,
             geographic,
@@ -130,6 +136,22 @@ impl Columns {
         };
         columns.distinct(top, section.as_ref())?;
         Ok(columns)
+    }
+
+    /// Adds what is measured beside the pose.
+    pub(crate) fn measure(&mut self, top: &Section, measured: &[MeasuredEntry]) -> Result<()> {
+        for entry in measured {
+            let column = &entry.column.columns[0];
+            if let Some((other, _)) = self.pairs().find(|(_, name)| name == column) {
+                let (line, at) = entry.place;
+                let message = format!("{other} and {} are both read from column \"{column}\"", entry.role());
+                let error = top.error(message).moved_to(line, at);
+                return Err(error.help("give each its own column under [columns] and [measured]"));
+            }
+            self.measured.push(entry.role());
+            self.entries.insert(entry.role(), entry.column.clone());
+        }
+        Ok(())
     }
 
     /// Finds the columns in the header of a log; errors do not know the file yet.
@@ -168,6 +190,11 @@ impl Columns {
             geographic: self.geographic,
             heading,
             trailer_headings: self.trailer_headings.iter().enumerate().map(trailer).collect::<Result<_>>()?,
+            measured: self
+                .measured
+                .iter()
+                .map(|role| find(role, &self.entries[role].columns[0]))
+                .collect::<Result<_>>()?,
             deviations: [deviation(DEVIATIONS[0])?, deviation(DEVIATIONS[1])?, deviation(DEVIATIONS[2])?],
             inputs: vec![],
         })
@@ -223,7 +250,8 @@ impl Columns {
         let heading = self.heading.iter().map(|c| ("heading", c));
         let trailers = self.trailer_headings.iter().map(|c| ("trailer_headings", c));
         let inputs = self.inputs.iter().map(|i| (i.role.as_str(), &i.column));
-        let first = pose.chain(heading).chain(trailers).chain(inputs);
+        let measured = self.measured.iter().map(|role| (role.as_str(), &self.entries[role].columns[0]));
+        let first = pose.chain(heading).chain(trailers).chain(measured).chain(inputs);
         let more = self.entries.iter().filter(|(role, _)| *role != "truth_time");
         let more = more.flat_map(|(role, entry)| entry.columns.iter().skip(1).map(move |c| (role.as_str(), c)));
         first.chain(more).map(|(role, column)| (role, column.as_str()))
@@ -248,6 +276,7 @@ impl Resolved {
         pose.extend(&self.y);
         pose.extend(&self.heading);
         pose.extend(&self.trailer_headings);
+        pose.extend(&self.measured);
         pose
     }
 
@@ -335,6 +364,7 @@ mod tests {
             y: "y".into(),
             heading: None,
             trailer_headings: vec!["phi_1".into()],
+            measured: vec![],
             inputs: vec![drive],
             entries: BTreeMap::new(),
             geographic: false,

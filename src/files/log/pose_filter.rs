@@ -48,6 +48,14 @@ impl Run {
             };
             rows.iter().map(of).collect()
         };
+        // What is measured beside the pose has no filter: it is taken at the new times.
+        let there = |column: &Vec<f64>| {
+            let of = |i: &usize| match filter {
+                PoseFilter::Continuous(_) => (column[*i] + column[i + 1]) / 2.0,
+                PoseFilter::OfRows(_) => column[i + 1],
+            };
+            rows.iter().map(of).collect()
+        };
         let at = |i: &usize| match filter {
             PoseFilter::Continuous(_) => (self.time[*i] + self.time[i + 1]) / 2.0,
             PoseFilter::OfRows(_) => self.time[i + 1],
@@ -60,6 +68,7 @@ impl Run {
             y: before(&self.y),
             heading: self.heading.as_ref().map(before),
             trailer_headings: self.trailer_headings.iter().map(before).collect(),
+            measured: self.measured.iter().map(there).collect(),
             deviations: Deviations {
                 x: self.deviations.x.as_ref().map(grown),
                 y: self.deviations.y.as_ref().map(grown),

@@ -34,6 +34,8 @@ pub struct Run {
     pub heading: Option<Vec<f64>>,
     /// Measured absolute headings of each trailer, rad, without jumps; empty when not measured.
     pub trailer_headings: Vec<Vec<f64>>,
+    /// What is measured beside the pose, in the order of the model file, SI units.
+    pub measured: Vec<Vec<f64>>,
     /// Which of them no sensor measures, and the line of the vehicle defines.
     pub defined: Defined,
     /// Standard deviations of the pose that the log gives.
@@ -162,6 +164,7 @@ impl Run {
         let defined = Defined { y: found.y.is_none(), heading: found.y.is_none() && heading.is_none() };
         let heading = heading.or_else(|| defined.heading.then(zeros));
         let trailer_headings = found.trailer_headings.iter().map(|_| cells::unwrapped(next())).collect();
+        let measured = found.measured.iter().map(|cells| cells.central_rates(&time, cells.positions(next()))).collect();
         let driven: Vec<&Cells> = found.inputs.iter().map(|input| &input.cells).collect();
         let inputs = inputs(&time, columns.by_ref(), &driven);
         let mut deviation = |cells: &Option<Cells>| {
@@ -179,6 +182,7 @@ impl Run {
             y,
             heading,
             trailer_headings,
+            measured,
             defined,
             deviations,
             inputs,

@@ -30,6 +30,7 @@ pub(crate) fn recognised(header: &[String], origin: Origin) -> Option<Resolved> 
         geographic: false,
         heading: Some(cells(turn, Kind::Quaternion)),
         trailer_headings: vec![],
+        measured: vec![],
         deviations: [None, None, None],
         inputs: vec![],
     };
@@ -96,6 +97,7 @@ pub(crate) fn kitti(log: Log, path: &Path) -> Result<(Resolved, Numbers)> {
         geographic: false,
         heading: Some(one(3)),
         trailer_headings: vec![],
+        measured: vec![],
         deviations: [None, None, None],
         inputs: vec![],
     };

@@ -155,6 +155,7 @@ impl Run {
             y: take(&self.y),
             heading: self.heading.as_ref().map(&take),
             trailer_headings: self.trailer_headings.iter().map(&take).collect(),
+            measured: self.measured.iter().map(&take).collect(),
             deviations: Deviations {
                 x: self.deviations.x.as_ref().map(&take),
                 y: self.deviations.y.as_ref().map(&take),

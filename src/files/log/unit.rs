@@ -13,11 +13,13 @@ pub(crate) enum Dimension {
     Rate,
     /// m/s
     Speed,
+    /// m/s²
+    Acceleration,
     /// s
     Time,
 }
 
-use Dimension::{Angle, Length, Rate, Speed, Time};
+use Dimension::{Acceleration, Angle, Length, Rate, Speed, Time};
 
 /// Name, dimension, SI units in one of it.
 const UNITS: &[(&str, Dimension, f64)] = &[
@@ -36,6 +38,8 @@ const UNITS: &[(&str, Dimension, f64)] = &[
     ("m/s", Speed, 1.0),
     ("km/h", Speed, 1.0 / 3.6),
     ("mph", Speed, 0.44704),
+    ("m/s^2", Acceleration, 1.0),
+    ("g", Acceleration, 9.80665),
     ("s", Time, 1.0),
     ("ms", Time, 1e-3),
     ("us", Time, 1e-6),
@@ -48,6 +52,11 @@ impl Dimension {
         UNITS.iter().find(|(name, _, factor)| *name == unit && *factor == 1.0).map(|(_, dimension, _)| *dimension)
     }
 
+    /// The dimension of a unit.
+    pub fn of(unit: &str) -> Option<Self> {
+        UNITS.iter().find(|(name, _, _)| *name == unit).map(|(_, dimension, _)| *dimension)
+    }
+
     /// What it is called.
     pub fn noun(self) -> &'static str {
         match self {
@@ -55,6 +64,7 @@ impl Dimension {
             Angle => "an angle",
             Rate => "an angular rate",
             Speed => "a speed",
+            Acceleration => "an acceleration",
             Time => "time",
         }
     }

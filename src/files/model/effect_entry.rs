@@ -1,6 +1,7 @@
 //! `[[effects]]`: the effects that a model already includes, with their values.
 
 use super::known::{Known, KnownEffect, KnownInput, KnownParameter};
+use super::measured::MeasuredEntry;
 use super::prior_entry::{KnownBefore, read_known};
 use super::scope_entry::{CourseEntry, read_course, read_scope};
 use crate::effects::Scope;
@@ -17,8 +18,10 @@ pub struct EffectEntry {
     pub id: String,
     /// The trailer it acts on, 1 = nearest the tractor, for an effect that acts on one.
     pub trailer: Option<usize>,
-    /// The role of the input it acts on, for an effect that acts on one.
+    /// The role of the input it acts on, or the name of the measured quantity, for an effect that acts on one.
     pub input: Option<String>,
+    /// Whether that is a quantity measured beside the pose, named by the key `measured`.
+    pub of_sensor: bool,
     /// When, where or in which regime it holds.
     pub scope: Option<Scope>,
     /// Which of its parameters moves with time.
@@ -55,12 +58,13 @@ pub(crate) fn read_effects(
     known: &Known,
     trailers: usize,
     inputs: &[&KnownInput],
+    measured: &[MeasuredEntry],
 ) -> Result<Vec<EffectEntry>> {
     let Some(value) = top.get("effects") else { return Ok(Vec::new()) };
     let mut entries: Vec<EffectEntry> = Vec::new();
     for element in value.list("[[effects]], with double brackets, before each effect")? {
         let section = element.section("[[effects]]".into())?;
-        let entry = read_entry(&section, known, trailers, inputs)?;
+        let entry = read_entry(&section, known, trailers, (inputs, measured))?;
         if let Some(first) = entries.iter().find(|e| e.same_target(&entry)) {
             return Err(section
                 .error(format!("effect {} is listed twice, first at line {}", entry.title(), first.line))
@@ -71,17 +75,27 @@ pub(crate) fn read_effects(
     Ok(entries)
 }
 
-fn read_entry(section: &Section, known: &Known, trailers: usize, inputs: &[&KnownInput]) -> Result<EffectEntry> {
+fn read_entry(
+    section: &Section,
+    known: &Known,
+    trailers: usize,
+    (inputs, measured): (&[&KnownInput], &[MeasuredEntry]),
+) -> Result<EffectEntry> {
     let id = section.need("id", "id = \"…\"; `creepage effects` lists the ids")?;
     let effect = find(&id, known)?;
     let mut keys = vec!["id", "scope", "course", "prior", "bounds"];
     keys.extend((effect.per_input || effect.input_optional).then_some("input"));
+    keys.extend(effect.per_quantity.then_some("measured"));
     keys.extend(effect.per_trailer.then_some("trailer"));
     keys.extend(effect.parameters.iter().map(|p| p.name.as_str()));
     section.only(&keys)?;
     let trailer = if effect.per_trailer { Some(read_trailer(section, &id, trailers)?) } else { None };
     let named = effect.per_input || effect.input_optional && section.get("input").is_some();
-    let input = if named { Some(read_input(section, &id, inputs)?) } else { None };
+    let input = match (named, effect.per_quantity) {
+        (true, _) => Some(read_input(section, &id, inputs)?),
+        (false, true) => Some(read_measured(section, &id, measured)?),
+        (false, false) => None,
+    };
     let mut parameters = BTreeMap::new();
     for parameter in &effect.parameters {
         parameters.insert(parameter.name.clone(), read_parameter(section, effect, parameter)?);
@@ -90,6 +104,7 @@ fn read_entry(section: &Section, known: &Known, trailers: usize, inputs: &[&Know
         id: effect.id.clone(),
         trailer,
         input,
+        of_sensor: effect.per_quantity,
         scope: read_scope(section)?,
         course: read_course(section, effect)?,
         known: read_known(section, effect)?,
@@ -138,6 +153,23 @@ fn read_input(section: &Section, id: &Value, inputs: &[&KnownInput]) -> Result<S
         false => Err(value
             .error(format!("this vehicle has no input {:?}", suggestions::shown(role)))
             .help(suggestions::advice(role, "its inputs", &roles))),
+    }
+}
+
+fn read_measured(section: &Section, id: &Value, measured: &[MeasuredEntry]) -> Result<String> {
+    let names: Vec<&str> = measured.iter().map(|m| m.name.as_str()).collect();
+    if names.is_empty() {
+        return Err(id
+            .error(format!("{} acts on a measured quantity, but [measured] names none", id.text()?))
+            .help("remove the entry, or name the column of the sensor under [measured]"));
+    }
+    let value = section.need("measured", &format!("measured = {:?}", names[0]))?;
+    let name = value.text()?;
+    match names.contains(&name) {
+        true => Ok(name.to_string()),
+        false => Err(value
+            .error(format!("[measured] has no {:?}", suggestions::shown(name)))
+            .help(suggestions::advice(name, "it has", &names))),
     }
 }
 

@@ -103,6 +103,8 @@ pub struct KnownEffect {
     pub per_input: bool,
     /// It may act on one input, named by the key `input`.
     pub input_optional: bool,
+    /// It acts on one quantity that is measured beside the pose, named by the key `measured`.
+    pub per_quantity: bool,
 }
 
 /// A parameter of an effect and the values it may take, bounds included.

@@ -3,6 +3,7 @@
 pub(crate) mod dynamics;
 pub(crate) mod effect_entry;
 pub(crate) mod known;
+pub(crate) mod measured;
 pub(crate) mod measurement;
 pub(crate) mod model_file;
 pub(crate) mod parameters;

@@ -3,6 +3,7 @@
 use super::dynamics::DynamicsEntry;
 use super::effect_entry::{EffectEntry, read_effects};
 use super::known::Known;
+use super::measured::MeasuredEntry;
 use super::measurement::{Initial, InputTiming, Noise, Sensor};
 use super::parameters::{Machine, Parameters};
 use super::patch;
@@ -44,6 +45,8 @@ pub struct ModelFile {
     pub hitch_offsets: Vec<f64>,
     /// Where a log holds what.
     pub columns: Columns,
+    /// What a log measures of the motion beside the pose.
+    pub measured: Vec<MeasuredEntry>,
     /// Where the measured pose sits on the body.
     pub sensor: Sensor,
     /// Where a simulation begins, if the file says so.
@@ -112,6 +115,9 @@ impl ModelFile {
             // Under forces the motion of the wheels is what comes out.
             columns.inputs.clone_from(&entry.inputs);
         }
+        let driven: Vec<&str> = columns.inputs.iter().map(|i| i.role.as_str()).collect();
+        let measured = MeasuredEntry::read(&top, &machine, &driven)?;
+        columns.measure(&top, &measured)?;
         Ok(Self {
             path: source.path.to_path_buf(),
             text: text.to_string(),
@@ -131,7 +137,8 @@ impl ModelFile {
                 &forced(&top, DynamicsEntry::initial_keys(&machine)),
             )?,
             noise: Noise::read(&top)?,
-            effects: read_effects(&top, known, trailers, &machine.inputs())?,
+            effects: read_effects(&top, known, trailers, &machine.inputs(), &measured)?,
+            measured,
             parameters: parameters.values,
             trailer_lengths: parameters.trailer_lengths,
             hitch_offsets: parameters.hitch_offsets,
@@ -228,8 +235,18 @@ fn forced(top: &Section, names: Vec<String>) -> Vec<String> {
 }
 
 fn top_keys(machine: &Machine) -> Vec<&'static str> {
-    let mut keys =
-        vec!["vehicle", "vehicles", "input_timing", "parameters", "columns", "sensor", "initial", "noise", "effects"];
+    let mut keys = vec![
+        "vehicle",
+        "vehicles",
+        "input_timing",
+        "parameters",
+        "columns",
+        "measured",
+        "sensor",
+        "initial",
+        "noise",
+        "effects",
+    ];
     keys.extend(machine.tractor.map(|_| "tractor"));
     keys.extend(machine.tractor.unwrap_or(machine.vehicle).dynamics.allowed.then_some("dynamics"));
     keys

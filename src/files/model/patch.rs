@@ -110,7 +110,7 @@ fn update(document: &mut DocumentMut, entry: &EffectEntry) -> bool {
 fn speaks_of(table: &dyn TableLike, entry: &EffectEntry) -> bool {
     let id = table.get("id").and_then(Item::as_str).is_some_and(|id| id.trim() == entry.id);
     let trailer = table.get("trailer").and_then(Item::as_integer).and_then(|n| usize::try_from(n).ok());
-    let input = table.get("input").and_then(Item::as_str).map(str::trim);
+    let input = table.get(key_of_target(entry)).and_then(Item::as_str).map(str::trim);
     id && trailer == entry.trailer && input == entry.input.as_deref()
 }
 
@@ -196,11 +196,16 @@ fn prefix(decor: &Decor) -> &str {
     decor.prefix().and_then(|raw| raw.as_str()).unwrap_or_default()
 }
 
+/// The key by which an entry names the input or the quantity that it acts on.
+fn key_of_target(entry: &EffectEntry) -> &'static str {
+    if entry.of_sensor { "measured" } else { "input" }
+}
+
 /// What an entry says, by key.
 fn fields(entry: &EffectEntry) -> Vec<(String, Value)> {
     let mut fields = vec![("id".to_string(), Value::from(&entry.id))];
     fields.extend(entry.trailer.and_then(|n| i64::try_from(n).ok()).map(|n| ("trailer".to_string(), n.into())));
-    fields.extend(entry.input.iter().map(|role| ("input".to_string(), role.into())));
+    fields.extend(entry.input.iter().map(|role| (key_of_target(entry).to_string(), role.into())));
     fields.extend(entry.parameters.iter().map(|(name, value)| (name.clone(), spelled(*value))));
     fields.extend(partly(entry).into_iter().filter_map(|(name, value)| Some((name.to_string(), value?))));
     fields

@@ -215,6 +215,18 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
         }
     }
 
+    /// Evaluates what is measured beside the pose at some states and times.
+    #[inline(always)]
+    pub fn evaluate_quantities(&mut self, z: &[[f64; L]], t: &[f64; L]) {
+        self.motion.evaluate_quantities(z, t);
+    }
+
+    /// One of the quantities that were evaluated last at n states, and its derivatives by the columns of their sensitivities.
+    #[inline(always)]
+    pub fn quantity(&self, i: usize, n: usize, s: &[[f64; L]], slopes: &mut [[f64; L]]) -> [f64; L] {
+        self.motion.quantity(i, n, s, slopes)
+    }
+
     /// What the sensor measures at some states, and the rows of its derivatives with respect to (visible z, p).
     #[inline(always)]
     pub fn outputs_here(&mut self, z: &[[f64; L]]) -> &[[f64; L]] {

@@ -55,6 +55,19 @@ impl<'a> Stepper<'a> {
         self.lanes.advance(arc.z.as_chunks_mut().0, arc.s.as_chunks_mut().0, &[from], &[to]);
     }
 
+    /// What is measured beside the pose at a state and a time, one after another, each with its derivatives by the columns of
+    /// the sensitivities.
+    pub fn quantities(&mut self, arc: &StateSensitivity, t: f64) -> Vec<(f64, Vec<f64>)> {
+        let (z, s, k) = (arc.z.as_chunks().0, arc.s.as_chunks().0, self.columns());
+        self.lanes.evaluate_quantities(z, &[t]);
+        let one = |i: usize| {
+            let mut slopes = vec![[0.0]; k];
+            let [value] = self.lanes.quantity(i, z.len(), s, &mut slopes);
+            (value, slopes.into_flattened())
+        };
+        (0..self.equations.quantity_count).map(|i| one(i)).collect()
+    }
+
     /// What the sensor measures at a state, and the rows of its derivatives with respect to (visible z, p).
     pub fn outputs(&mut self, z: &[f64]) -> &[f64] {
         self.lanes.outputs_here(z.as_chunks().0).as_flattened()

@@ -97,6 +97,29 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
         self.equations.outputs_here(&mut self.workspace, z)
     }
 
+    /// Evaluates what is measured beside the pose at some states and times.
+    #[inline(always)]
+    pub fn evaluate_quantities(&mut self, z: &[[f64; L]], t: &[f64; L]) {
+        self.look_up(t);
+        self.equations.evaluate_quantities(&mut self.workspace, z, &self.lookup.value);
+    }
+
+    /// One of the quantities that were evaluated last, and its derivatives by the columns of the sensitivities S of n states:
+    /// J_z·S + J_p.
+    #[inline(always)]
+    pub fn quantity(&self, i: usize, n: usize, s: &[[f64; L]], slopes: &mut [[f64; L]]) -> [f64; L] {
+        let all = self.equations.last_quantities(&self.workspace);
+        let width = n + self.lookup.value.len() + self.delay_slopes.len();
+        let row = &all[self.equations.quantity_count + i * width..][..width];
+        let k = self.columns();
+        slopes.fill([0.0; L]);
+        for (slope, s) in row[..n].iter().zip(s.chunks_exact(k)) {
+            add(slopes, slope, s);
+        }
+        self.add_by_parameters(row, n, &mut slopes[k - self.delay_slopes.len()..]);
+        all[i]
+    }
+
     /// ∂z′ᵢ/∂zᵢ of every state where the rate was last asked for; `known` where S′ was asked for, too.
     #[inline(always)]
     pub fn own_slopes(&mut self, z: &[[f64; L]], known: bool) -> impl Iterator<Item = &[f64; L]> {
@@ -153,7 +176,7 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
             for j in read {
                 add(out, &row[*j], &s[j * k + self.first..(j + 1) * k]);
             }
-            self.add_by_parameters(i_row, n, &mut out[k - p - self.first..]);
+            self.add_by_parameters(self.slopes_of(i_row, n), n, &mut out[k - p - self.first..]);
         }
     }
 
@@ -172,7 +195,7 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
         by_p.fill([0.0; L]);
         for (i_row, by_states) in by_states.chunks_exact_mut(n).enumerate() {
             by_states.copy_from_slice(&self.slopes_of(i_row, n)[..n]);
-            self.add_by_parameters(i_row, n, &mut by_p[i_row * p..(i_row + 1) * p]);
+            self.add_by_parameters(self.slopes_of(i_row, n), n, &mut by_p[i_row * p..(i_row + 1) * p]);
         }
     }
 
@@ -183,10 +206,10 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
         &self.equations.last_jacobian(&self.workspace)[n + i_row * width..n + (i_row + 1) * width]
     }
 
-    /// J_p − J_u·u̇·∂delay/∂p of one of n rates.
+    /// J_p − J_u·u̇·∂delay/∂p of what has these derivatives by (z, u, p), of n states.
     #[inline(always)]
-    fn add_by_parameters(&self, i_row: usize, n: usize, out: &mut [[f64; L]]) {
-        let (m, row) = (self.lookup.value.len(), self.slopes_of(i_row, n));
+    fn add_by_parameters(&self, row: &[[f64; L]], n: usize, out: &mut [[f64; L]]) {
+        let m = self.lookup.value.len();
         let by_p = &row[n + m..];
         if !self.delayed {
             return add(out, &[1.0; L], by_p);

@@ -18,7 +18,7 @@ pub fn effects(report: &Report, pictures: &Pictures) -> Vec<Element> {
 
 /// The violated constraints: the figure of them over time, then where and how far they are.
 pub fn residuals(report: &Report, figure: Option<Element>) -> Vec<Element> {
-    [figure, disagreement(report), remaining(report)].into_iter().flatten().collect()
+    [figure, disagreement(report), remaining(report), sensors(report)].into_iter().flatten().collect()
 }
 
 fn named(report: &Report) -> Option<Element> {
@@ -117,6 +117,17 @@ fn disagreement(report: &Report) -> Option<Element> {
     };
     let headings = ["run", "constraint", "#time, s", "what the vehicle did", "#share of the disagreement"];
     table("Before anything is added", &headings, report.disagreement.iter().map(row).collect())
+}
+
+/// What the last model leaves of what is measured beside the pose.
+fn sensors(report: &Report) -> Option<Element> {
+    let row = |s: &report::RemainingSensor| {
+        let number = |x: f64| Cell::Number(format!("{} {}", significant(x, 3), s.unit).trim_end().into());
+        vec![Cell::text(&s.name), number(s.rms), number(s.noise)]
+    };
+    let headings = ["measured beside the pose", "#residual, RMS", "#its rows scatter by"];
+    let all = &report.remaining.as_ref()?.sensors;
+    table("After all that is added", &headings, all.iter().map(row).collect())
 }
 
 fn remaining(report: &Report) -> Option<Element> {

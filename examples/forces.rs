@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! cargo run --release --example forces -- [--null 60] [--effects 10] [--seed S] [--threads N] [--only MAKE/EFFECT]
-//!                                         [--case MAKE/EFFECT/INDEX --out DIR]
+//!                                         [--measured] [--case MAKE/EFFECT/INDEX --out DIR]
 //! ```
 //! `--effects` counts the runs of every effect, the makes by turns. Prints false alarms, names by effect, the coverage of
 //! intervals and times; `--case` writes the files of one case.
@@ -51,6 +51,9 @@ struct Arguments {
     /// Only this make and effect; either may be left out: `car/`, `/mass`
     #[arg(long, value_name = "MAKE/EFFECT", default_value = "/")]
     only: String,
+    /// With a gyro and encoders of the driven wheels measured beside the pose
+    #[arg(long)]
+    measured: bool,
     /// The files of one case, and no more
     #[arg(long, value_name = "MAKE/EFFECT/INDEX")]
     case: Option<String>,
@@ -109,7 +112,7 @@ fn cases(arguments: &Arguments) -> Vec<Case> {
     let mut found = Vec::new();
     let case = |make: Make, id: &str, k: u64, secret: Option<Secret>, number: u64| Case {
         label: format!("{}/{id}/{k}", make.name()),
-        drive: Drive { make, seed: seed(number), seconds: arguments.seconds, secret },
+        drive: Drive { make, seed: seed(number), seconds: arguments.seconds, secret, sensors: arguments.measured },
     };
     for k in 0..arguments.null {
         let make = MAKES[k as usize % MAKES.len()];

@@ -10,8 +10,10 @@
 //! ```
 
 pub use crate::discrepancy::identifiability::{Health, Pair, Parameter, Prospect, RunHealth, Seen, Standing};
+#[doc(hidden)]
+pub use crate::discrepancy::report::RemainingSensor;
 pub use crate::discrepancy::report::{
     AboveSpeed, BeforeAfter, CourseFound, Covariance, DataSummary, Disagreement, Estimate, Evidence, Finding, Floor,
-    Gap, Named, NextExperiment, OddRun, PerRun, Provenance, Refuted, Remaining, RemainingConstraint, RemainingSensor,
-    Remains, Rival, RunClock, RunEstimate, ScopeFound, Step, Unnamed,
+    Gap, Named, NextExperiment, OddRun, PerRun, Provenance, Refuted, Remaining, RemainingConstraint, Remains, Rival,
+    RunClock, RunEstimate, ScopeFound, Step, Unnamed,
 };

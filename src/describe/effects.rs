@@ -58,9 +58,10 @@ fn applies_to<'v>(e: &Effect, vehicles: &'v [Vehicle]) -> Result<Vec<&'v str>> {
     Ok(found)
 }
 
-/// Whether an effect applies to a model; one that acts on an input, on any of its inputs.
+/// Whether an effect applies to a model; one that acts on an input, on any of its inputs, and one on a sensor beside the
+/// pose wherever there is one.
 fn applies(e: &Effect, model: &Model) -> bool {
-    !model.applicable(&model.on_each_input(e)).is_empty()
+    e.per_quantity || !model.applicable(&model.on_each_input(e)).is_empty()
 }
 
 /// Every effect of a library as JSON.

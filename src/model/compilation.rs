@@ -69,7 +69,7 @@ impl Model {
     /// The logged inputs, then what the formulas ask of the log beside: the time, rates of inputs.
     pub(crate) fn logged_and_derived(&self, definitions: &Definitions) -> Vec<Symbol> {
         let logged: Vec<Symbol> = self.inputs.iter().map(|i| Symbol::new(i)).collect();
-        if self.effects.is_empty() && self.forced.is_none() {
+        if self.effects.is_empty() && self.forced.is_none() && self.measured.is_empty() {
             return logged;
         }
         let values = self.values();

@@ -1,14 +1,10 @@
 //! What a log measures of the motion beside the pose: any formula of the model, each with a noise of its own.
 
-use super::build::TIME;
-use super::vehicle_model::Model;
 use crate::effects::acting;
 use crate::error::{Error, Result};
-use crate::files::{MeasuredEntry, ModelFile, advice};
+use crate::files::MeasuredEntry;
 use crate::formula::{Expr, Symbol};
-use crate::mechanism::Definitions;
 use crate::vehicles::Vehicle;
-use std::collections::BTreeSet;
 
 /// A quantity of the motion that a column of a log measures.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,80 +41,5 @@ impl MeasuredQuantity {
     /// The definition that it is compared with, which an effect may rewrite.
     pub fn symbol(&self) -> Symbol {
         acting(&self.name)
-    }
-}
-
-impl Model {
-    /// That the formulas of the measured quantities are of this model.
-    ///
-    /// # Errors
-    /// At the entry of the file whose formula uses a name that nothing defines.
-    pub(super) fn check_measured(&self, file: &ModelFile) -> Result<()> {
-        let Ok(d) = self.definitions() else { return Ok(()) };
-        let (values, states) = (self.values(), self.states());
-        let rate_of_input = |s: &Symbol| self.inputs.iter().any(|i| Symbol::new(i).rate() == *s);
-        let is_known = |s: &Symbol| {
-            let stands = d.get(s).is_some() || values.contains_key(s) || states.contains(s) || rate_of_input(s);
-            stands || s.as_str() == TIME || self.inputs.iter().any(|i| i == s.as_str())
-        };
-        for (measured, entry) in self.measured.iter().zip(&file.measured) {
-            let Some(name) = measured.formula.symbols().into_iter().find(|s| !is_known(s)) else { continue };
-            let message = format!("the formula of {} uses {name}, which nothing in this model is", measured.name);
-            let all: Vec<&str> = d.iter().map(|(name, _)| name.as_str()).filter(|n| !n.contains('.')).collect();
-            return Err(Error::input(message).at_file(&file.path).at(entry.place.0, entry.place.1).help(advice(
-                name.as_str(),
-                "it may use",
-                &all,
-            )));
-        }
-        Ok(())
-    }
-
-    /// The measured quantities among the definitions.
-    pub(super) fn define_measured(&self, d: &mut Definitions) {
-        self.measured.iter().for_each(|m| d.define(m.symbol(), m.formula.clone()));
-    }
-
-    /// A measured quantity by its name.
-    pub fn measured_quantity(&self, name: &str) -> Option<&MeasuredQuantity> {
-        self.measured.iter().find(|m| m.name == name)
-    }
-
-    /// Defines the rates that measured quantities ask for and nothing defines, such as `v_l'`, by the chain rule:
-    /// f' = Σ ∂f/∂s·s' over states, inputs and what is defined by them.
-    pub(super) fn define_measured_rates(&self, d: &mut Definitions) {
-        let formulas = self.measured.iter().filter_map(|m| d.get(&m.symbol()).cloned());
-        let asked: BTreeSet<Symbol> = formulas.flat_map(|f| f.symbols()).collect();
-        for stem in asked.iter().filter_map(|s| s.as_str().strip_suffix('\'')).map(Symbol::new) {
-            self.rate_along_motion(&stem, d);
-        }
-    }
-
-    /// The rate of a symbol along the motion; zero where nothing moves it.
-    fn rate_along_motion(&self, name: &Symbol, d: &mut Definitions) -> Expr {
-        let rate = name.rate();
-        if d.get(&rate).is_some() || self.inputs.iter().any(|role| role == name.as_str()) {
-            return Expr::sym(rate);
-        }
-        if name.as_str() == TIME {
-            return Expr::int(1);
-        }
-        if let Some((_, rate)) = self.effects.iter().flat_map(|e| e.states()).find(|(state, _)| state == name) {
-            return rate;
-        }
-        let Some(formula) = d.get(name).cloned() else { return Expr::int(0) };
-        let mut sum = Expr::int(0);
-        for s in formula.symbols() {
-            let slope = formula.derivative(&s).tidy();
-            let moves = if slope.is_zero() { Expr::int(0) } else { self.rate_along_motion(&s, d) };
-            if !moves.is_zero() {
-                sum = &sum + &(&slope * &moves);
-            }
-        }
-        if sum.is_zero() {
-            return sum;
-        }
-        d.define(rate.clone(), sum);
-        Expr::sym(rate)
     }
 }

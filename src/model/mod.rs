@@ -16,6 +16,7 @@ pub(crate) mod forces;
 mod free;
 pub mod freedom;
 pub mod measured;
+mod measured_definitions;
 pub mod observation;
 mod own;
 pub(crate) mod reference_speeds;

@@ -306,6 +306,8 @@ fn the_catalogues_parse_and_hold_these_entries() {
         "input-delay",
         "heading-misalignment",
         "lever-arm",
+        "sensor-bias",
+        "sensor-scale",
         "drift",
         "trailer-traverse-creep",
         "trailer-length",
@@ -345,8 +347,8 @@ fn the_catalogues_parse_and_hold_these_entries() {
         "trailer-cornering-stiffness",
     ];
     assert_eq!(ids, expected);
-    // An effect on one input is one of a vehicle only once the input is named.
-    for e in effects::all().iter().filter(|e| !e.per_input) {
+    // An effect on one input or one sensor is one of a vehicle only once that is named.
+    for e in effects::all().iter().filter(|e| !e.per_input && !e.per_quantity) {
         assert!(e.parameters.values().all(|p| Unit::parse(&p.unit).is_some() && p.range[0] < p.range[1]), "{}", e.id);
         let applies = |m: &Model| !m.applicable(std::slice::from_ref(e)).is_empty();
         assert!(machines().iter().any(applies) || applies(&forced_train()), "{}", e.id);

@@ -12,7 +12,7 @@ use creepage::progress::unheard;
 
 /// A run, and what `discover` says of it; the model that it patched, too.
 fn found(make: Make, seed: u64, secret: Option<Secret>) -> (Report, ModelFile, Run) {
-    let run = Drive { make, seed, seconds: 24.0, secret }.runs(1).remove(0);
+    let run = Drive { make, seed, seconds: 24.0, secret, sensors: false }.runs(1).remove(0);
     let file = parse(&run.model);
     let run = Run::parse("run.csv", &run.csv, &file).unwrap();
     let discovery = asked(&file, &run);

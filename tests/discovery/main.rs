@@ -21,6 +21,7 @@ mod gross_errors;
 mod hidden_forces;
 mod laws;
 mod logs_of_another_vehicle;
+mod measured;
 mod names;
 mod next_experiment;
 #[path = "../support/noisy_run.rs"]

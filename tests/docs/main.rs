@@ -107,7 +107,7 @@ fn commands_of_daily_use_run() {
 
 #[test]
 fn commands_of_the_theory_run() {
-    for page in ["verify", "figures", "forces"] {
+    for page in ["verify", "figures", "forces", "measured"] {
         runs(&format!("book/src/guide/{page}.md"));
     }
 }
@@ -136,6 +136,7 @@ fn no_document_with_commands_is_left_out() {
         "book/src/guide/verify.md",
         "book/src/guide/figures.md",
         "book/src/guide/forces.md",
+        "book/src/guide/measured.md",
     ];
     let left: Vec<String> = all()
         .iter()

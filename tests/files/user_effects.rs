@@ -243,9 +243,10 @@ fn a_rigid_motion_of_the_plane_moves_the_path_and_changes_nothing_else() {
 fn the_effects_of_the_catalogue_pass_the_checks_of_a_users_own() {
     let mut passed = 0;
     for block in include_str!("../../src/effects/catalogue.toml").split("[[effect]]").skip(1) {
-        // A user's own acts on no single input, and is sought.
+        // A user's own acts on no single input or sensor, and is sought.
         if block.contains("unsought = true")
             || block.contains("per_input = true")
+            || block.contains("per_quantity = true")
             || block.contains("input_optional = true")
         {
             continue;

@@ -255,6 +255,7 @@ fn remaining() -> Remaining {
         heading_noise: Some(0.0021),
         rows_alike: 1.0,
         windows_alike: 1.0,
+        sensors: vec![],
         constraints: vec![rotation, traverse],
     }
 }

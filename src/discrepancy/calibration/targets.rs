@@ -21,7 +21,7 @@ use std::str::FromStr;
 pub struct Target {
     /// The effect's id.
     pub id: String,
-    /// The role of an input, or the number of a trailer.
+    /// The role of an input, the name of a measured quantity, or the number of a trailer.
     pub on: Option<String>,
 }
 

@@ -178,6 +178,7 @@ pub(crate) mod samples {
             rows: 0..time.len(),
             time,
             columns: vec![],
+            quantities: vec![],
             observation: Observation::new(0, false, 0),
             weights: RowWeights::default(),
             signals,

@@ -83,6 +83,7 @@ pub fn turning(vehicle: &str, seed: u64, has_heading: bool, much: f64) -> Option
         y,
         heading: has_heading.then_some(heading),
         trailer_headings: vec![],
+        measured: vec![],
         roles,
         inputs,
         rows_dropped: 0,

@@ -58,7 +58,7 @@ fn in_the_mean(of: &FleetEffect) -> Option<String> {
         effect.parameters.keys().map(|name| Some(of.parameters.get(name)?.mean?.value)).collect::<Option<_>>()?;
     let unknown = TypicalMotion { speed: f64::NAN, turning: f64::NAN, until: f64::NAN };
     let trailer = on.parse().ok();
-    if effect.per_input || (!on.is_empty() && trailer.is_none()) {
+    if effect.per_input || effect.per_quantity || (!on.is_empty() && trailer.is_none()) {
         return None;
     }
     Applied::new(effect, trailer, values).in_plain_words(unknown)

@@ -73,3 +73,54 @@ impl<'a> Stepper<'a> {
         self.lanes.outputs_here(z.as_chunks().0).as_flattened()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::{self, Applied};
+    use crate::formula::Expr;
+    use crate::model::Model;
+    use crate::model::measured::MeasuredQuantity;
+    use crate::motion::Timing;
+
+    fn quantity(formula: &str) -> MeasuredQuantity {
+        let formula = Expr::parse(formula).unwrap();
+        MeasuredQuantity { name: format!("{formula}"), formula, unit: String::new(), noise: None }
+    }
+
+    /// Quantities of hidden states, inputs, their rates and a delay have the derivatives that differences have.
+    #[test]
+    fn quantities_have_the_derivatives_of_what_they_say() {
+        let mut model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+        model.measured = ["v_t' + v_l*phi'", "v_l'", "theta'*v_t + x"].map(quantity).to_vec();
+        for (id, value) in [("cornering-creep", 0.3), ("input-delay", 0.07), ("wheel-radius", 0.02)] {
+            model = model.with_effect(Applied::new(effects::named(id).unwrap(), None, vec![value]).freed());
+        }
+        let equations = model.free_equations().unwrap();
+        let time: Vec<f64> = (0..=30).map(|i| 0.1 * f64::from(i)).collect();
+        let column = |w: f64| time.iter().map(|t| 2.0 + (w * t).sin()).collect::<Vec<f64>>();
+        let signals = Signals::new(&time, &[column(1.0), column(1.7)], Timing::Sample);
+        // Within a piece of the inputs: at a knot their rates jump.
+        let (begin, end) = (0.33, 1.345);
+        let after = |z: &[f64], p: &[f64]| {
+            let mut stepper = Stepper::new(&equations, &signals, p);
+            let mut arc = stepper.start(z, None);
+            stepper.advance(&mut arc, begin, end);
+            stepper.quantities(&arc, end)
+        };
+        let (z, p) = (vec![0.1, 0.2, 0.3, 0.05], model.free_values());
+        let exact = after(&z, &p);
+        assert_eq!((exact.len(), exact[0].1.len()), (3, equations.visible + p.len()));
+        for c in 0..equations.visible + p.len() {
+            let moved = |by: f64| {
+                let (mut z, mut p) = (z.clone(), p.clone());
+                *(if c < equations.visible { &mut z[c] } else { &mut p[c - equations.visible] }) += by;
+                after(&z, &p)
+            };
+            for (k, (more, less)) in moved(1e-5).iter().zip(&moved(-1e-5)).enumerate() {
+                let (said, slope) = ((more.0 - less.0) / 2e-5, exact[k].1[c]);
+                assert!((slope - said).abs() < 1e-5 * (1.0 + said.abs()), "{k} by {c}: {slope}, not {said}");
+            }
+        }
+    }
+}

@@ -11,6 +11,9 @@ pub enum Law {
     Rocard(f64),
 }
 
+/// Below this speed Rocard's law, which has no slip angle at rest, grows no stiffer, m/s.
+pub const NEARLY_AT_REST: f64 = 0.02;
+
 /// A law with a limit of its force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grip {
@@ -31,7 +34,7 @@ impl Grip {
         let force = match self.law {
             Law::Ideal => return 0.0,
             Law::Viscous(b) => -b * slip,
-            Law::Rocard(k) => -k * slip / speed.abs(),
+            Law::Rocard(k) => -k * slip / speed.abs().max(NEARLY_AT_REST),
         };
         force / (1.0 + (force / self.limit).powi(2)).sqrt()
     }

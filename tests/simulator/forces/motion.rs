@@ -1,6 +1,6 @@
 //! A motion: the classical Runge–Kutta method with constraints projected after every step.
 
-use super::machine::{Law, Machine};
+use super::machine::{Law, Machine, NEARLY_AT_REST};
 use super::newton::Inputs;
 
 /// Places of the centres of mass with headings, body by body; velocities in the same order, then rates of the wheels.
@@ -10,20 +10,25 @@ pub struct State {
     pub speed: Vec<f64>,
 }
 
+/// A machine slows down by no more than this from one row to the next, m/s.
+const SLOWER_BY: f64 = 0.2;
+
 /// Inputs as a function of time: values and rates.
 pub type Signal<'s> = &'s dyn Fn(f64) -> (Vec<f64>, Vec<f64>);
 
 impl Machine {
-    /// The largest step, s: well below the fastest answer of any contact.
-    pub fn step(&self) -> f64 {
+    /// The largest step from a state, s: well below the fastest answer of any contact until the next row.
+    pub fn step(&self, state: &State) -> f64 {
         let mut fastest: f64 = 50.0;
         for contact in &self.contacts {
             let solid = &self.solids[contact.body];
             let light = 1.0 / solid.mass + (0.5 + contact.at[0].abs() + contact.at[1].abs()).powi(2) / solid.inertia;
+            let [along, across] = [0, 1].map(|k| state.speed[3 * contact.body + k]);
+            let slowest = (along.hypot(across) - SLOWER_BY).clamp(NEARLY_AT_REST, 0.3);
             let stiff = |law: Law| match law {
                 Law::Ideal => 0.0,
                 Law::Viscous(b) => b,
-                Law::Rocard(k) => k / 0.3,
+                Law::Rocard(k) => k / slowest,
             };
             fastest = fastest.max(contact.side.map_or(0.0, |g| stiff(g.law) * light));
             if let Some((wheel, grip)) = contact.rolls {
@@ -48,7 +53,7 @@ fn moved(state: &State, by: &State, h: f64) -> State {
 
 /// A machine from one time to another.
 pub fn advance(machine: &Machine, state: &mut State, from: f64, to: f64, inputs: Signal) {
-    let steps = ((to - from) / machine.step()).ceil().max(1.0);
+    let steps = ((to - from) / machine.step(state)).ceil().max(1.0);
     let h = (to - from) / steps;
     for i in 0..steps as usize {
         let t = from + h * i as f64;

@@ -19,7 +19,12 @@ pub struct Drive {
     pub seed: u64,
     pub seconds: f64,
     pub secret: Option<Secret>,
+    /// Whether a gyro and encoders of the driven wheels are logged, too.
+    pub sensors: bool,
 }
+
+/// Standard deviation of the gyro and of a wheel's rate, rad/s.
+const SENSOR_NOISE: [f64; 2] = [0.01, 0.05];
 
 /// A log with its model file.
 pub struct Run {
@@ -38,7 +43,8 @@ impl Drive {
         let of = |k: u64| {
             let mut random = ChaCha8Rng::seed_from_u64(self.seed.wrapping_mul(1000).wrapping_add(k + 1));
             let csv = self.logged(&drawn, &machine, &mut random);
-            Run { model: drawn.model.clone(), csv }
+            let measured = if self.sensors { measured(&drawn) } else { String::new() };
+            Run { model: drawn.model.clone() + &measured, csv }
         };
         (0..count).map(of).collect()
     }
@@ -55,6 +61,13 @@ impl Drive {
         let trailers = machine.solids.len() - 1;
         let mut csv = format!("time,{},x,y,heading", drawn.roles.join(","));
         (1..=trailers).for_each(|i| write!(csv, ",trailer_{i}").unwrap());
+        let turning = if self.sensors { driven(drawn) } else { vec![] };
+        if self.sensors {
+            csv += ",gyro";
+            turning.iter().for_each(|(name, _)| write!(csv, ",{name}").unwrap());
+        }
+        // Of their own, so that the poses are the same without them.
+        let mut of_sensors = ChaCha8Rng::seed_from_u64(self.seed);
         csv.push('\n');
         let rows = (self.seconds / STEP).round() as usize;
         for i in 0..=rows {
@@ -66,11 +79,36 @@ impl Drive {
             let [x, y] = machine.place(&state, 0);
             write!(csv, ",{:.6},{:.6}", noisy(x, place), noisy(y, place)).unwrap();
             (0..=trailers).for_each(|k| write!(csv, ",{:.6}", noisy(state.place[3 * k + 2], angle)).unwrap());
+            let mut read = |value: f64, sigma: f64| value + sigma * of_sensors.sample::<f64, _>(StandardNormal);
+            if self.sensors {
+                let [of_gyro, of_wheel] = SENSOR_NOISE;
+                write!(csv, ",{:.6}", read(state.speed[2], of_gyro)).unwrap();
+                let first = state.place.len();
+                turning
+                    .iter()
+                    .for_each(|(_, k)| write!(csv, ",{:.6}", read(state.speed[first + k], of_wheel)).unwrap());
+            }
             csv.push('\n');
             advance(machine, &mut state, t, STEP * (i + 1) as f64, &inputs);
         }
         csv
     }
+}
+
+/// The rates of the driven wheels by the names that they have as inputs, and which wheels they are.
+fn driven(drawn: &Drawn) -> Vec<(String, usize)> {
+    let wheels = drawn.machine.wheels.iter().enumerate();
+    let named = |(k, wheel): (usize, &super::machine::Wheel)| {
+        let role = &drawn.roles[wheel.input?];
+        role.contains("wheel_torque").then(|| (role.replace("torque", "rate"), k))
+    };
+    wheels.filter_map(named).collect()
+}
+
+/// What a model file says of the gyro and of the encoders.
+fn measured(drawn: &Drawn) -> String {
+    let wheels: String = driven(drawn).iter().map(|(name, _)| format!("{name} = \"{name}\"\n")).collect();
+    format!("\n[measured]\nyaw_rate = \"gyro\"\n{wheels}")
 }
 
 /// Straight ahead at a speed, wheels rolling.

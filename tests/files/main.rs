@@ -17,6 +17,7 @@ mod kept;
 #[path = "../support/known.rs"]
 mod known;
 mod log_formats;
+mod measured;
 mod model_terms;
 #[path = "../models/mod.rs"]
 mod models;

@@ -95,9 +95,12 @@ impl MeasuredEntry {
     }
 }
 
-/// The SI unit of what the unit of an entry's column measures.
+/// The SI unit of what the unit of an entry's column measures; counts and positions are read as rates.
 fn unit_of(value: &Value) -> Result<String> {
     let section = value.section(value.name.clone())?;
+    if section.get("ticks").is_some() || section.get("angle").is_some() {
+        return Ok("rad/s".into());
+    }
     let Some(unit) = section.get("unit") else { return Ok(String::new()) };
     let text = unit.text()?;
     let dimension = Dimension::of(text).ok_or_else(|| {

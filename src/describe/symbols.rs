@@ -108,6 +108,20 @@ fn look_up(model: &Model, symbol: &Symbol) -> Option<(Kind, String, String)> {
         .or_else(|| of_constraint(model, symbol))
         .or_else(|| model.effects.iter().find_map(|e| of_effect(e, symbol)))
         .or_else(|| meaning::of(name, model.trailer_count()))
+        .or_else(|| measured(model, symbol))
+}
+
+/// A quantity that is measured beside the pose, or the rate of another name that one asks for.
+fn measured(model: &Model, symbol: &Symbol) -> Option<(Kind, String, String)> {
+    if let Some(quantity) = model.measured.iter().find(|m| m.symbol() == *symbol) {
+        return Some((Kind::Measured, quantity.unit.clone(), format!("measured {}", quantity.name)));
+    }
+    let (_, unit, meaning) = look_up(model, &Symbol::new(symbol.as_str().strip_suffix('\'')?))?;
+    let unit = match unit.strip_suffix("/s") {
+        Some(of) => format!("{of}/s^2"),
+        None => format!("{unit}/s"),
+    };
+    Some((Kind::Rate, unit, format!("rate of the {meaning}")))
 }
 
 /// A name of a wheel: a coefficient of its creep, its angles and their rates where nothing defines them.

@@ -190,6 +190,11 @@ pub fn acting(role: &str) -> Symbol {
     Symbol::new(&format!("{role}.acting"))
 }
 
+/// The definition of a quantity that is measured beside the pose, as its sensor gives it.
+pub fn measuring(name: &str) -> Symbol {
+    Symbol::new(&format!("{name}.measured"))
+}
+
 /// Points at which an effect is looked at for where it vanishes.
 const POINTS: u32 = 3;
 
@@ -277,7 +282,8 @@ impl Effect {
             let pattern = match &self.on {
                 Some(role) => {
                     let own = pattern.replace(DELAY_PATTERN, delaying(role).as_str());
-                    own.replace(INPUT_PATTERN, acting(role).as_str())
+                    let target = if self.per_quantity { measuring(role) } else { acting(role) };
+                    own.replace(INPUT_PATTERN, target.as_str())
                 }
                 None => pattern,
             };

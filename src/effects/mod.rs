@@ -13,7 +13,7 @@ mod scope;
 pub use applied::Applied;
 pub use course::Course;
 pub use effect::{Effect, Parameter, State};
-pub(crate) use effect::{acting, delaying};
+pub(crate) use effect::{acting, delaying, measuring};
 pub use plain::{PlainSentence, TypicalMotion};
 pub use random_walk::RandomWalk;
 pub use scope::{DrivingRegime, Scope};

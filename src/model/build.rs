@@ -105,7 +105,10 @@ impl Model {
     /// What an effect rewrites on this vehicle; `None` when it does not apply.
     pub(crate) fn targets(&self, e: &Effect, trailer: Option<usize>, names: &[Symbol]) -> Option<Vec<(Symbol, Expr)>> {
         let found = match &e.on {
-            Some(name) if self.measured_quantity(name).is_some() => e.targets(&[acting(name)], trailer),
+            Some(name) if e.per_quantity => {
+                let quantity = self.measured_quantity(name)?;
+                e.targets(&[quantity.symbol()], trailer)
+            }
             Some(role) if self.inputs.contains(role) => {
                 let own = [acting(role), delaying(role)];
                 let known = names.iter().filter(|n| !own.contains(n)).cloned();
@@ -155,7 +158,8 @@ impl Model {
         if effects.iter().any(|e| e.gate().is_some_and(|g| REFERENCE.iter().any(|name| g.mentions(&(*name).into())))) {
             self.define_reference_speeds(&mut d)?;
         }
-        effects.iter().filter_map(|e| e.effect.on.as_ref()).for_each(|role| define_acting(role, &mut d));
+        let of_inputs = effects.iter().filter(|e| !e.effect.per_quantity);
+        of_inputs.filter_map(|e| e.effect.on.as_ref()).for_each(|role| define_acting(role, &mut d));
         effects.sort_by_key(|e| (e.effect.order, e.trailer));
         for applied in effects {
             let names: Vec<Symbol> = d.iter().map(|(n, _)| n.clone()).collect();

@@ -1,6 +1,6 @@
 //! What a log measures of the motion beside the pose: any formula of the model, each with a noise of its own.
 
-use crate::effects::acting;
+use crate::effects::measuring;
 use crate::error::{Error, Result};
 use crate::files::MeasuredEntry;
 use crate::formula::{Expr, Symbol};
@@ -40,6 +40,6 @@ impl MeasuredQuantity {
 
     /// The definition that it is compared with, which an effect may rewrite.
     pub fn symbol(&self) -> Symbol {
-        acting(&self.name)
+        measuring(&self.name)
     }
 }

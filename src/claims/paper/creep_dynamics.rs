@@ -8,7 +8,7 @@ use crate::dynamics::Dynamics;
 use crate::error::{Error, Result};
 use crate::formula::Graph;
 
-const CHAPTER: &str = "10a-creep-dynamics";
+pub(super) const CHAPTER: &str = "10a-creep-dynamics";
 
 pub(crate) fn claims() -> Vec<Claim> {
     vec![quasi_velocities()]

@@ -16,6 +16,7 @@ mod hinge_chain;
 mod ideal_limit;
 mod introduction;
 mod laws;
+mod limits_of_creep;
 mod planned_vehicles;
 mod planning;
 mod platforms;
@@ -76,6 +77,7 @@ pub fn all() -> Vec<Claim> {
         laws::claims(),
         power::claims(),
         creep_dynamics::claims(),
+        limits_of_creep::claims(),
         viscous::claims(),
         viscous_limit::claims(),
         sentences::claims(),

@@ -65,7 +65,7 @@ impl<'a> Stepper<'a> {
             let [value] = self.lanes.quantity(i, z.len(), s, &mut slopes);
             (value, slopes.into_flattened())
         };
-        (0..self.equations.quantity_count).map(|i| one(i)).collect()
+        (0..self.equations.quantity_count).map(one).collect()
     }
 
     /// What the sensor measures at a state, and the rows of its derivatives with respect to (visible z, p).

@@ -210,6 +210,28 @@ fn a_car_is_driven_by_a_torque() {
 }
 
 /// A vehicle whose constraints do not determine its motion moves by forces.
+/// A column in amperes with the motor constant for its scale drives as one in newton metres.
+#[test]
+fn a_current_is_a_torque_in_another_unit() {
+    let car = format!("{CAR}[dynamics]\nmass = 1000.0\ninertia = 1500.0\ninputs = [\"wheel_torque\"]\n");
+    let torque = simulated(&car, "time,wheel_torque,steering_angle\n0,60,0.1\n2,120,0.1\n").unwrap();
+    let by_current = format!(
+        "{car}[columns]\nwheel_torque = {{ column = \"amps\", scale = 12.0 }}\nsteering_angle = {{ column = \"steer\", unit = \"deg\" }}\n"
+    );
+    let steer = 0.1_f64.to_degrees();
+    let current = simulated(&by_current, &format!("time,amps,steer\n0,5,{steer}\n2,10,{steer}\n")).unwrap();
+    assert_eq!(torque[0], current[0]);
+    for name in ["x", "y", "heading", "speed"] {
+        assert!(
+            (last(&torque, name) - last(&current, name)).abs() < 1e-9 * (1.0 + last(&torque, name).abs()),
+            "{name}"
+        );
+    }
+    assert!(last(&torque, "speed") > 0.5);
+    let bad = simulated(&by_current.replace("scale = 12.0", "unit = \"A\""), "time,amps,steer\n0,5,0\n").unwrap_err();
+    assert!(bad.contains("give scale = "), "{bad}");
+}
+
 #[test]
 fn a_skid_steer_turns_by_skidding() {
     let vehicle = creepage::vehicles::named("skid-steer").unwrap();

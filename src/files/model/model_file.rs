@@ -114,6 +114,7 @@ impl ModelFile {
         if let Some(entry) = &dynamics {
             // Under forces the motion of the wheels is what comes out.
             columns.inputs.clone_from(&entry.inputs);
+            columns.entries.extend(entry.entries.clone());
         }
         let driven: Vec<&str> = columns.inputs.iter().map(|i| i.role.as_str()).collect();
         let measured = MeasuredEntry::read(&top, &machine, &driven)?;

@@ -3,6 +3,7 @@
 use super::clock_alignment::aligned_run::{Aligned, aligned};
 use super::clock_alignment::refinement::refined;
 use super::estimation::problem::Problem;
+use super::kinematic_comparison::kinematic;
 use super::pipeline::unfitted;
 use super::pose_filter::discover_before_filter;
 use super::preprocessing::dataset::{Data, FITTED_SHARE};
@@ -26,14 +27,16 @@ use crate::progress::{OnProgress, Stage, tell};
 /// # Errors
 /// When runs log different inputs, or the model file's effects do not apply to its vehicle.
 pub fn discover(request: &Request, progress: &OnProgress) -> Result<Discovery> {
-    Ok(with_changes(discover_before_filter(request, Clocks::default(), progress)?, request))
+    let found = discover_before_filter(request, Clocks::default(), progress)?;
+    finished(found, request, progress)
 }
 
-/// A discovery with what it asks to be changed.
-fn with_changes(mut found: Discovery, request: &Request) -> Discovery {
+/// A discovery with the kinematic model beside it, and with what it asks to be changed.
+fn finished(mut found: Discovery, request: &Request, progress: &OnProgress) -> Result<Discovery> {
+    found.report.kinematic = kinematic(request, &found, progress)?;
     found.pictures.vehicle = request.file.title();
     found.pictures.changes = changes(&found.report, request.file, &found.added);
-    found
+    Ok(found)
 }
 
 /// As [`discover`], the clocks of inputs and poses estimated first where they stand in files of their own.
@@ -44,7 +47,7 @@ fn with_changes(mut found: Discovery, request: &Request) -> Discovery {
 /// # Errors
 /// As [`discover`]; when some runs are in one file and others in two.
 pub fn discover_aligned(request: &Request, near: Option<f64>, progress: &OnProgress) -> Result<Discovery> {
-    Ok(with_changes(by_aligned_clocks(request, near, progress)?, request))
+    finished(by_aligned_clocks(request, near, progress)?, request, progress)
 }
 
 fn by_aligned_clocks(request: &Request, near: Option<f64>, progress: &OnProgress) -> Result<Discovery> {

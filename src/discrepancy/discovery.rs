@@ -86,6 +86,7 @@ pub(crate) fn report(request: &Request, data: &Data, verdict: Verdict, found: Fi
         odd_runs: found.odd.iter().map(|o| odd_run_text::odd_run(o, found.motion)).collect(),
         remaining: found.remaining,
         gap: found.gap,
+        kinematic: None,
         next_experiment: found.next.as_ref().map(experiment_text::next_experiment),
         steps: found.steps,
         data: DataSummary {

@@ -26,6 +26,7 @@ pub mod experiment;
 mod fixtures;
 pub mod identifiability;
 pub mod initial_state;
+mod kinematic_comparison;
 pub mod localisation;
 pub mod pipeline;
 mod pose_filter;

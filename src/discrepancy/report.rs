@@ -47,6 +47,9 @@ pub struct Report {
     pub remaining: Option<Remaining>,
     /// Error of prediction over horizons, before and after.
     pub gap: Vec<Gap>,
+    /// What the kinematic model of a log with forces says, where the log measures its wheels.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kinematic: Option<KinematicComparison>,
     /// What to drive next, when the data cannot tell.
     pub next_experiment: Option<NextExperiment>,
     /// What each added effect did to the gap of the fitting data.
@@ -107,6 +110,23 @@ impl Verdict {
             Self::NoMissingEffect => "no-missing-effect",
         }
     }
+}
+
+/// The kinematic model of a log beside the one with forces.
+///
+/// ```
+/// use creepage::discrepancy::report::KinematicComparison;
+/// fn creeps(beside: &KinematicComparison) -> Vec<&str> {
+///     beside.report.effects.iter().map(|e| e.id.as_str()).collect()
+/// }
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct KinematicComparison {
+    /// What is missing in the model that the measured wheels drive.
+    pub report: Box<Report>,
+    /// The values of its effects on the motion that the model with forces makes, by effect and parameter.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub by_forces: BTreeMap<String, BTreeMap<String, f64>>,
 }
 
 /// An effect that was found.

@@ -124,7 +124,8 @@ impl Model {
             forced: None,
             solution: Default::default(),
         };
-        if roles.is_empty() {
+        // Under forces the inputs of a log are those of the motion with forces.
+        if roles.is_empty() || file.dynamics.is_some() {
             model.inputs = vehicle.inputs.keys().cloned().collect();
         }
         if let Some(entry) = &file.dynamics {

@@ -129,3 +129,20 @@ fn a_kinematic_vehicle_is_measured_by_formulas_of_its_motion() {
         assert!((sensor.rms / noise - 1.0).abs() < 0.15, "{sensor:?}");
     }
 }
+
+/// The kinematic model of the same log stands beside the one with forces, and its coefficients are what the forces predict.
+#[test]
+fn creep_that_wheels_show_is_what_forces_predict() {
+    let [(file, run), (bare, alone)] = robot(None);
+    let (report, _) = asked(&file, &run);
+    let beside = report.kinematic.as_ref().unwrap();
+    let found = beside.report.effects.iter().flat_map(|e| e.parameters.iter().map(move |(name, of)| (&e.id, name, of)));
+    let predicted: Vec<(f64, f64)> = found
+        .filter(|(id, _, _)| ["input-delay", "cornering-creep", "load-dependent-creep"].contains(&id.as_str()))
+        .map(|(id, name, of)| (of.value, beside.by_forces[id][name]))
+        .collect();
+    assert!(!predicted.is_empty(), "{}", beside.report.summary);
+    assert!(predicted.iter().all(|(a, b)| (a / b - 1.0).abs() < 0.15), "{predicted:?}");
+    // Where nothing of the wheels is measured there is nothing to compare with.
+    assert!(asked(&bare, &alone).0.kinematic.is_none());
+}

@@ -207,6 +207,7 @@ pub fn report() -> Report {
             gap(5.0, [0.2395, 0.0097, 0.0087]),
             gap(30.0, [1.4145, 0.0349, 0.0312]),
         ],
+        kinematic: None,
         next_experiment: Some(NextExperiment {
             why: "it separates cornering creep, which grows with speed times yaw rate, from load-dependent creep"
                 .into(),

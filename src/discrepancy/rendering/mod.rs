@@ -9,6 +9,7 @@ pub(crate) mod experiment_text;
 pub mod figure_data;
 pub(crate) mod finding_text;
 pub mod html;
+pub(crate) mod kinematic_text;
 pub mod manoeuvre_text;
 pub(crate) mod odd_run_text;
 pub(crate) mod other_vehicle_text;

@@ -1,5 +1,6 @@
 //! The report on one screen of a terminal, and the sentences every form of the report shares.
 
+use super::kinematic_text;
 use super::plain_text;
 use crate::discrepancy::report::{
     BeforeAfter, CourseFound, Estimate, Gap, Named, Report, Rival, RunClock, Unnamed, Verdict,
@@ -84,6 +85,10 @@ pub fn summary_text_in(report: &Report, columns: usize) -> String {
     );
     let gap = gap_lines(&report.gap);
     let mut tail = Vec::new();
+    if let Some(beside) = &report.kinematic {
+        tail.push(String::new());
+        tail.extend(wrapped(&kinematic_text::sentences(beside, report).join(" "), 0, 4));
+    }
     if let Some(next) = &report.next_experiment {
         tail.push(String::new());
         tail.extend(wrapped(&format!("Next: {}: {}", next.manoeuvre, next.why), 0, 5));

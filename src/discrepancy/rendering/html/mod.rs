@@ -77,6 +77,7 @@ fn evidence(report: &Report, pictures: &Pictures) -> Vec<Fold> {
         Fold::open("effects", "What was found, by name", found),
         Fold::open("columns", "The columns over time", columns::figure(&pictures.columns)),
         Fold::open("gap", "The error at every horizon", gaps),
+        Fold::open("kinematic", "Without forces", tables::kinematic(report)),
         Fold::closed("candidates", "Every candidate weighed", candidates::figure(pictures)),
         Fold::closed("residuals", "The violated constraints over time", residuals),
         Fold::closed("paths", "Every run from above", paths::figure(pictures)),

@@ -2,6 +2,7 @@
 
 use super::head::{parameter, shrinkage};
 use super::part::{Cell, holding, table};
+use crate::discrepancy::rendering::kinematic_text;
 use crate::discrepancy::rendering::summary::{seconds, why};
 use crate::discrepancy::rendering::title_text;
 use crate::discrepancy::report;
@@ -145,6 +146,12 @@ fn remaining(report: &Report) -> Option<Element> {
     );
     let headings = ["constraint", "#violated rate, RMS", "#noise alone gives", "#p of the rest by chance"];
     table(&caption, &headings, left.constraints.iter().map(row).collect())
+}
+
+/// The kinematic model beside the one with forces.
+pub fn kinematic(report: &Report) -> Vec<Element> {
+    let said = report.kinematic.iter().flat_map(|beside| kinematic_text::sentences(beside, report));
+    said.map(|sentence| holding("p", sentence).with("class", "plain")).collect()
 }
 
 /// What was read and what was left out of it.

@@ -3,7 +3,7 @@
 use std::borrow::Borrow;
 
 /// Why rows are left out whose measured pose is grossly wrong.
-pub(crate) const GROSS: &str = "gross error of the measured pose";
+pub(crate) const GROSS: &str = "gross error of a measurement";
 
 /// Why rows are left out around a jump of the reference.
 pub(crate) const JUMPED: &str = "the reference jumps";

@@ -87,6 +87,17 @@ fn a_sensor_that_disagrees_is_said() {
     assert!(gyro.rms > 2.0 * gyro.noise, "{gyro:?}");
 }
 
+/// A few wild cells of a sensor drop their rows, and change no verdict.
+#[test]
+fn wild_cells_of_a_sensor_go_with_their_rows() {
+    let [(file, run), _] = robot(None);
+    let mut wild = run.clone();
+    [100, 101, 330].into_iter().for_each(|i| wild.measured[0][i] += 40.0);
+    let (report, _) = asked(&file, &wild);
+    assert_eq!(report.verdict, Verdict::NoMissingEffect, "{}", report.summary);
+    assert_eq!(report.data.rows_dropped, 3, "{:?}", report.data.why_dropped);
+}
+
 /// A kinematic vehicle: a gyro of its own beside the logged yaw rate, and the sideways acceleration, whose formulas read the
 /// inputs, their rates and hidden states.
 #[test]

@@ -1,4 +1,4 @@
-//! Gross errors of the measured pose: rows that no smooth motion passes through.
+//! Gross errors of the measured pose, and of what is measured beside it: rows that no smooth motion passes through.
 
 use crate::discrepancy::record::local_polynomial;
 use crate::discrepancy::record::run_record::Record;
@@ -47,6 +47,10 @@ pub fn without_gross_errors(record: &Record, model: &Model) -> Result<(Record, u
         let windows = windows(&whole, shift);
         for column in &residuals(&whole, &predictor, &windows) {
             mark(&record.time, column, &windows, &mut gross);
+        }
+        // What is measured beside the pose is smooth by itself.
+        for column in &whole.quantities {
+            mark(&record.time, &column[..whole.rows.end], &windows, &mut gross);
         }
     }
     let first = record.rows.start;

@@ -30,7 +30,7 @@ fn asks(beside: &KinematicComparison) -> String {
 }
 
 /// The held-out errors of both after the shortest horizon that both have.
-fn gaps(kinematic: &Report, forced: &Report) -> Option<String> {
+pub fn gaps(kinematic: &Report, forced: &Report) -> Option<String> {
     let after = |gap: &Gap| gap.held_out.as_ref().map(|h: &BeforeAfter| h.position_rms_after);
     let (gap, own) = forced.gap.iter().find_map(|gap| Some((gap, after(gap)?)))?;
     let other = kinematic.gap.iter().find(|g| (g.horizon_s - gap.horizon_s).abs() < 1e-9).and_then(after)?;

@@ -148,10 +148,24 @@ fn remaining(report: &Report) -> Option<Element> {
     table(&caption, &headings, left.constraints.iter().map(row).collect())
 }
 
-/// The kinematic model beside the one with forces.
+/// The kinematic model beside the one with forces: how far each predicts, and its coefficients beside those of the forces.
 pub fn kinematic(report: &Report) -> Vec<Element> {
-    let said = report.kinematic.iter().flat_map(|beside| kinematic_text::sentences(beside, report));
-    said.map(|sentence| holding("p", sentence).with("class", "plain")).collect()
+    let Some(beside) = &report.kinematic else { return vec![] };
+    let sentence = |said: String| holding("p", said).with("class", "plain");
+    let effects = &beside.report.effects;
+    let said = match effects.is_empty() {
+        true => kinematic_text::sentences(beside, report),
+        false => kinematic_text::gaps(&beside.report, report).into_iter().collect(),
+    };
+    let predicted = |id: &str, name: &str| beside.by_forces.get(id).and_then(|of| of.get(name));
+    let row = |e: &report::Named, name: &String, of: &report::Estimate| {
+        let by_forces = predicted(&e.id, name).map_or("–".into(), |v| significant(*v, 3));
+        vec![Cell::text(&e.id), Cell::text(&parameter(name, of)), Cell::Number(by_forces)]
+    };
+    let rows = effects.iter().flat_map(|e| e.parameters.iter().map(move |(name, of)| row(e, name, of)));
+    let caption = "What the model asks for where what is measured of its wheels drives it";
+    let coefficients = table(caption, &["effect", "as fitted to the log", "#as the forces predict"], rows.collect());
+    said.into_iter().map(sentence).chain(coefficients).collect()
 }
 
 /// What was read and what was left out of it.

@@ -160,7 +160,7 @@ pub fn kinematic(report: &Report) -> Vec<Element> {
     let predicted = |id: &str, name: &str| beside.by_forces.get(id).and_then(|of| of.get(name));
     let row = |e: &report::Named, name: &String, of: &report::Estimate| {
         let by_forces = predicted(&e.id, name).map_or("–".into(), |v| significant(*v, 3));
-        vec![Cell::text(&e.id), Cell::text(&parameter(name, of)), Cell::Number(by_forces)]
+        vec![Cell::text(&e.id), Cell::text(parameter(name, of)), Cell::Number(by_forces)]
     };
     let rows = effects.iter().flat_map(|e| e.parameters.iter().map(move |(name, of)| row(e, name, of)));
     let caption = "What the model asks for where what is measured of its wheels drives it";

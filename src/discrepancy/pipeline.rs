@@ -131,7 +131,7 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
     let mut warnings = vec![];
     if usable {
         warnings.extend(refuted(&selected));
-        warnings.extend(grown(&gap));
+        warnings.extend(grown(&gap, |h| comparison.held_out[0].windows(h)));
     }
     warnings.extend(too_long(request.horizons, &gap));
     if usable {

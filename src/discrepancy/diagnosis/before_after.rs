@@ -143,15 +143,17 @@ impl<'a> ModelComparison<'a> {
     }
 }
 
-/// Held-out runs that are predicted worse with what was found, at the horizon at which they are worst.
-pub(crate) fn grown(gaps: &[Gap]) -> Option<Warning> {
+/// Held-out runs that are predicted worse with what was found, at the horizon at which they are worst, with the windows of
+/// that horizon there are.
+pub(crate) fn grown(gaps: &[Gap], windows: impl Fn(f64) -> usize) -> Option<Warning> {
     let of = |g: &Gap| {
         let held_out = g.held_out.as_ref()?;
         let gap = [held_out.position_rms_before, held_out.position_rms_after];
         Some(Growth { horizon_s: g.horizon_s, of_heading: false, gap, floor: g.noise_floor.position_rms })
     };
     let real = gaps.iter().filter_map(of).filter(Growth::is_real);
-    real.max_by(|a, b| a.factor().total_cmp(&b.factor())).map(Warning::HeldOutGapGrew)
+    let worst = real.max_by(|a, b| a.factor().total_cmp(&b.factor()))?;
+    Some(Warning::HeldOutGapGrew { growth: worst, is_judged: windows(worst.horizon_s) >= FEWEST_WINDOWS })
 }
 
 /// The horizons asked for that no run is long enough for.
@@ -177,10 +179,12 @@ mod tests {
             }),
             noise_floor: Floor { position_rms: 0.1, heading_rms: None },
         };
-        let told = grown(&[gap(1.0, 0.2, 0.3), gap(5.0, 0.2, 0.5), gap(30.0, 1.0, 0.4)]);
-        let Some(Warning::HeldOutGapGrew(growth)) = told else { panic!("{told:?}") };
-        assert_eq!((growth.horizon_s, growth.gap), (5.0, [0.2, 0.5]));
+        for windows in [1, 2] {
+            let told = grown(&[gap(1.0, 0.2, 0.3), gap(5.0, 0.2, 0.5), gap(30.0, 1.0, 0.4)], |_| windows);
+            let Some(Warning::HeldOutGapGrew { growth, is_judged }) = told else { panic!("{told:?}") };
+            assert_eq!((growth.horizon_s, growth.gap, is_judged), (5.0, [0.2, 0.5], windows == 2));
+        }
         // Within the noise, and by a little, a gap does not grow.
-        assert!(grown(&[gap(1.0, 0.05, 0.12), gap(5.0, 1.0, 1.2)]).is_none());
+        assert!(grown(&[gap(1.0, 0.05, 0.12), gap(5.0, 1.0, 1.2)], |_| 2).is_none());
     }
 }

@@ -49,7 +49,12 @@ pub enum Warning {
     /// Held-out runs do not bear out an effect.
     Refuted(Box<Refused>),
     /// The held-out gap grew.
-    HeldOutGapGrew(Growth),
+    HeldOutGapGrew {
+        /// By how much.
+        growth: Growth,
+        /// Whether there are windows enough to judge by.
+        is_judged: bool,
+    },
     /// A quantity measured beside the pose that the last model misses by more than its noise.
     SensorMissed(RemainingSensor),
     /// An input in coarse steps.

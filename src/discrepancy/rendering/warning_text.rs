@@ -68,13 +68,12 @@ pub fn line(warning: &Warning) -> String {
             format!("{} {parameter} = {value} is far beyond the usual {usual}{doubt}", applied.label())
         }
         Warning::Refuted(refused) => refusal_text::says(refused, &[]),
-        Warning::HeldOutGapGrew(growth) => {
+        Warning::HeldOutGapGrew { growth, is_judged } => {
             let [before, after] = growth.gap.map(|gap| significant(gap, 3));
-            format!(
-                "the held-out gap after {} s grows with what was found, from {before} to {after} m: those runs do not bear \
-                 it out",
-                growth.horizon_s
-            )
+            let says =
+                if *is_judged { "those runs do not bear it out" } else { "one window of it, too few to judge by" };
+            let horizon = growth.horizon_s;
+            format!("the held-out gap after {horizon} s grows with what was found, from {before} to {after} m: {says}")
         }
         Warning::CoarseInput(input) => coarse_input(input),
         Warning::ClockOffsetInDoubt { run, own, other } => {

@@ -3,7 +3,7 @@
 use super::sampling::Fault;
 use crate::error::{Error, Result};
 use crate::model::Model;
-use crate::motion::{Integrator, Method, driven_by};
+use crate::motion::{Integrator, Method, Table, driven_by};
 
 pub use crate::motion::{Creep, assembled as model};
 
@@ -21,6 +21,14 @@ pub fn driven(
 ) -> Result<Vec<Vec<f64>>> {
     let exact = Integrator { method: Method::Dopri5, ..Integrator::default() }.with_tolerance(1e-12, 1e-13);
     driven_by(model, inputs, constants, start, times, &exact)
+}
+
+/// A column of a simulated motion.
+///
+/// # Errors
+/// When there is none of that name.
+pub fn column<'t>(table: &'t Table, name: &str) -> Result<&'t [f64]> {
+    table.column(name).ok_or_else(|| Error::run(format!("the motion has no {name}")))
 }
 
 /// A failed run of the program is never a result about the claim.

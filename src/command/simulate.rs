@@ -117,8 +117,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<()> {
         simulate_model(&model, &signals, &inputs.time, &all, integrator)
     };
     let table = match (&file.dynamics, chosen) {
-        (Some(entry), _) if !file.effects.is_empty() || !file.measured.is_empty() => {
-            by_model(&integrator.for_friction(chosen.is_none() && !entry.friction.is_empty()))?
+        (Some(_), _) if !file.effects.is_empty() || !file.measured.is_empty() => {
+            by_model(&integrator.for_friction(chosen.is_none() && file.has_friction()))?
         }
         (Some(_), None) => simulate_file(file, &signals, &inputs.time, &start, &integrator)?,
         (Some(_), Some(_)) => simulate_file_by(file, &signals, &inputs.time, &start, &integrator)?,

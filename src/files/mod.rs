@@ -34,7 +34,7 @@ pub use manifest::{FleetLog, Manifest, Robot};
 pub use model::dynamics::{ContactEntry, DynamicsEntry, StartEntry};
 pub use model::effect_entry::EffectEntry;
 pub use model::known::{Known, KnownDynamics, KnownEffect, KnownInput, KnownLaw, KnownParameter, KnownVehicle};
-pub use model::measured::{MAX_MEASURED, MeasuredEntry};
+pub use model::measured::MeasuredEntry;
 pub use model::measurement::{Initial, InputTiming, Noise, PoseFilter, Sensor};
 pub use model::model_file::ModelFile;
 pub use model::patch::VEHICLES_FILE;

@@ -185,8 +185,7 @@ pub fn describe_with(model: &Model, measured: &[Symbol], at: Option<&GivenPoint>
 pub fn simulate(model: &Model, run: &Run) -> Result<Table> {
     let vehicle = VehicleModel::from_file(&model.file, &model.library, &run.roles)?;
     let signals = Signals::of_run(run, model.file.input_timing);
-    let has_friction = model.file.dynamics.as_ref().is_some_and(|forces| !forces.friction.is_empty());
-    let integrator = Integrator::default().for_friction(has_friction);
+    let integrator = Integrator::default().for_friction(model.file.has_friction());
     simulate_model(&vehicle, &signals, &run.time, &start(model, &vehicle, run), &integrator)
 }
 

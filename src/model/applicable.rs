@@ -9,12 +9,12 @@ impl Model {
     /// An effect that acts on one input, on each input of the model, and one that acts on a measured quantity, on each of
     /// these; another one as it is.
     pub fn on_each_input(&self, effect: &Effect) -> Vec<Effect> {
-        match (effect.per_input, effect.per_quantity) {
-            (true, _) => {
-                self.inputs.iter().map(|role| effect.on_input(role, self.vehicle.unit_of(role), 1.0)).collect()
-            }
-            (false, true) => self.measured.iter().map(|m| effect.on_input(&m.name, &m.unit, 1.0)).collect(),
-            (false, false) => vec![effect.clone()],
+        if effect.per_quantity {
+            return self.measured.iter().map(|m| effect.on_input(&m.name, &m.unit, 1.0)).collect();
+        }
+        match effect.per_input {
+            true => self.inputs.iter().map(|role| effect.on_input(role, self.vehicle.unit_of(role), 1.0)).collect(),
+            false => vec![effect.clone()],
         }
     }
 

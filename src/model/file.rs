@@ -156,12 +156,14 @@ fn applied(
     library: &[Effect],
     (vehicle, measured): (&Vehicle, &[MeasuredQuantity]),
 ) -> Option<Applied> {
-    let of_quantity = |role: &str| measured.iter().find(|m| m.name == role).map(|m| m.unit.as_str());
-    let unit = |role: &str| of_quantity(role).unwrap_or_else(|| vehicle.unit_of(role));
     let effect = library.iter().find(|e| e.id == entry.id)?;
     let mut effect = effect.clone();
     if let Some(role) = &entry.input {
-        effect = effect.on_input(role, unit(role), 1.0);
+        let unit = match effect.per_quantity {
+            true => &measured.iter().find(|m| m.name == *role)?.unit,
+            false => vehicle.unit_of(role),
+        };
+        effect = effect.on_input(role, unit, 1.0);
     }
     let mut per_s = None;
     match entry.course.as_ref().map(|c| (c.parameter.clone(), c.motion)) {

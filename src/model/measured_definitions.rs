@@ -15,6 +15,9 @@ impl Model {
     /// # Errors
     /// At the entry of the file whose formula uses a name that nothing defines.
     pub(super) fn check_measured(&self, file: &ModelFile) -> Result<()> {
+        if self.measured.is_empty() {
+            return Ok(());
+        }
         let Ok(d) = self.definitions() else { return Ok(()) };
         let (values, states) = (self.values(), self.states());
         let rate_of_input = |s: &Symbol| self.inputs.iter().any(|i| Symbol::new(i).rate() == *s);
@@ -26,11 +29,9 @@ impl Model {
             let Some(name) = measured.formula.symbols().into_iter().find(|s| !is_known(s)) else { continue };
             let message = format!("the formula of {} uses {name}, which nothing in this model is", measured.name);
             let all: Vec<&str> = d.iter().map(|(name, _)| name.as_str()).filter(|n| !n.contains('.')).collect();
-            return Err(Error::input(message).at_file(&file.path).at(entry.place.0, entry.place.1).help(advice(
-                name.as_str(),
-                "it may use",
-                &all,
-            )));
+            let (line, column) = entry.place;
+            let help = advice(name.as_str(), "it may use", &all);
+            return Err(Error::input(message).at_file(&file.path).at(line, column).help(help));
         }
         Ok(())
     }

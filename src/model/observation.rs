@@ -2,7 +2,6 @@
 
 use super::freedom::{Freedom, Speed};
 use super::trailer::trailer_heading;
-use crate::files::MAX_MEASURED;
 use crate::formula::Symbol;
 
 /// A component of the measurement noise: outputs that name the same one share a variance.
@@ -184,27 +183,14 @@ impl Observation {
     }
 }
 
-/// The components of the noise of quantities that a model file declares, one each; their units are the quantities' own.
-const QUANTITY_NOISE: [SensorNoise; MAX_MEASURED] = [
-    SensorNoise { id: "measured-1", unit: "" },
-    SensorNoise { id: "measured-2", unit: "" },
-    SensorNoise { id: "measured-3", unit: "" },
-    SensorNoise { id: "measured-4", unit: "" },
-    SensorNoise { id: "measured-5", unit: "" },
-    SensorNoise { id: "measured-6", unit: "" },
-    SensorNoise { id: "measured-7", unit: "" },
-    SensorNoise { id: "measured-8", unit: "" },
-    SensorNoise { id: "measured-9", unit: "" },
-    SensorNoise { id: "measured-10", unit: "" },
-    SensorNoise { id: "measured-11", unit: "" },
-    SensorNoise { id: "measured-12", unit: "" },
-];
+/// The noise of a quantity that a model file declares; each has a component of its own, in the quantity's unit.
+const QUANTITY_NOISE: SensorNoise = SensorNoise { id: "measured", unit: "" };
 
 /// The components of the measurement noise of these outputs, then those of the quantities measured beside the pose.
 pub fn measurement_noise(of: impl Into<Freedom>) -> impl Iterator<Item = SensorNoise> {
     let of = of.into();
     let quantities = of.quantities.len();
-    sensor_noise(of).iter().chain(&QUANTITY_NOISE[..quantities]).copied()
+    sensor_noise(of).iter().copied().chain(std::iter::repeat_n(QUANTITY_NOISE, quantities))
 }
 
 /// The components of the measurement noise that these outputs have.

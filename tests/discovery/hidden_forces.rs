@@ -20,11 +20,11 @@ fn found(make: Make, seed: u64, secret: Option<Secret>) -> (Report, ModelFile, R
     (discovery.report, patched, run)
 }
 
-fn parse(text: &str) -> ModelFile {
+pub fn parse(text: &str) -> ModelFile {
     ModelFile::parse(text, "model.toml", &known(effects::all())).unwrap()
 }
 
-fn asked(file: &ModelFile, run: &Run) -> Discovery {
+pub fn asked(file: &ModelFile, run: &Run) -> Discovery {
     let runs = std::slice::from_ref(run);
     let request = Request { file, runs, held_out: &[], library: effects::all(), horizons: &[1.0], seed: 1 };
     discover(&request, &unheard).unwrap()

@@ -1,24 +1,16 @@
 //! What is measured beside the pose: a gyro, encoders of wheels, an accelerometer.
 
 use crate::forces_simulator::{Drive, Make, Secret};
+use crate::hidden_forces::{self, parse};
 use creepage::discrepancy::report::{Report, Verdict};
-use creepage::discrepancy::{discover::discover, request::Request};
-use creepage::dynamics::known;
-use creepage::effects;
 use creepage::files::{ModelFile, Run};
-use creepage::progress::unheard;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 
-fn parse(text: &str) -> ModelFile {
-    ModelFile::parse(text, "model.toml", &known(effects::all())).unwrap()
-}
-
+/// What `discover` says of a run, and the model that it patched.
 fn asked(file: &ModelFile, run: &Run) -> (Report, ModelFile) {
-    let runs = std::slice::from_ref(run);
-    let request = Request { file, runs, held_out: &[], library: effects::all(), horizons: &[1.0], seed: 1 };
-    let discovery = discover(&request, &unheard).unwrap();
+    let discovery = hidden_forces::asked(file, run);
     let patched = parse(&discovery.patched(file));
     (discovery.report, patched)
 }

@@ -209,7 +209,6 @@ fn a_car_is_driven_by_a_torque() {
     assert!(missing.contains("column \"tau\" for wheel_torque is missing"), "{missing}");
 }
 
-/// A vehicle whose constraints do not determine its motion moves by forces.
 /// A column in amperes with the motor constant for its scale drives as one in newton metres.
 #[test]
 fn a_current_is_a_torque_in_another_unit() {
@@ -232,6 +231,7 @@ fn a_current_is_a_torque_in_another_unit() {
     assert!(bad.contains("give scale = "), "{bad}");
 }
 
+/// A vehicle whose constraints do not determine its motion moves by forces.
 #[test]
 fn a_skid_steer_turns_by_skidding() {
     let vehicle = creepage::vehicles::named("skid-steer").unwrap();

@@ -1,8 +1,8 @@
 //! Beyond sections 2 and 3: the limits e_rc1, e_rc2, e_tc1, e_tc2 between creep and slip, by forces that a contact holds.
 
 use super::creep_dynamics::CHAPTER;
-use crate::claims::simulated::undefined;
-use crate::claims::{Claim, Sampling, Statement, Status, Verdict, near, value_said};
+use crate::claims::simulated::{column, undefined};
+use crate::claims::{Claim, Outcome, Sampling, Statement, Status, Verdict, near, value_said};
 use crate::dynamics::{Dynamics, Masses};
 use crate::effects::{self, Applied};
 use crate::error::{Error, Result};
@@ -74,7 +74,7 @@ fn traverse() -> Claim {
 /// Mass, another inertia, radius or speed, F_max, coefficient of the law.
 type Drawn = [f64; 5];
 
-fn over(s: &Statement, sampling: &Sampling, limits: fn(&Statement, &Drawn) -> Verdict) -> crate::claims::Outcome {
+fn over(s: &Statement, sampling: &Sampling, limits: fn(&Statement, &Drawn) -> Verdict) -> Outcome {
     let drawn = (0.5..3.0f64, 0.02..0.3f64, 0.2..1.5f64, 1.0..8.0f64, 40.0..200.0f64);
     let drawn = drawn.prop_map(|(m, j, r, f, b)| [m, j, r, f, b]);
     let show = |d: &Drawn| vec![("m, J, r or v_l, F_max, b or k".to_string(), format!("{d:?}"))];
@@ -153,10 +153,6 @@ fn pushed(model: &Model, by: f64, speed: f64, settles: f64) -> Result<Table> {
     let start = [vec![0.0; 3], model.speeds_at_start(Some(&entry))].concat();
     let input = Signals::new(&times, &[vec![by; 3]], Timing::Sample);
     simulate_model(model, &input, &times, &start, &Integrator::default().for_friction(true))
-}
-
-fn column<'t>(table: &'t Table, name: &str) -> Result<&'t [f64]> {
-    table.column(name).ok_or_else(|| Error::run(format!("the motion has no {name}")))
 }
 
 /// The force beyond which a slip grows on, and how many times the small one it is.

@@ -2,10 +2,10 @@
 
 use super::viscous::CHAPTER;
 use crate::claims::generated_forced::{Pushed, pushed};
-use crate::claims::simulated::undefined;
+use crate::claims::simulated::{column, undefined};
 use crate::claims::{Claim, Fault, Outcome, Statement, Status, Verdict, near, value_said};
 use crate::dynamics::{Dynamics, Masses, Start, simulate_dynamics};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::model::Model;
 use crate::motion::{Formulas, Integrator, Method, Table};
 use std::sync::LazyLock;
@@ -61,10 +61,6 @@ fn run(body: [f64; 3], friction: Option<f64>, speed: f64, yaw_rate: f64, times: 
     let start = Start { pose: vec![0.0; 3], speed, yaw_rate: Some(yaw_rate), ..Start::default() };
     let by = Integrator { method, ..Integrator::default() };
     simulate_dynamics(&sleigh, &Formulas::new(&[], &[])?, times, &start, &by)
-}
-
-fn column<'a>(table: &'a Table, name: &str) -> Result<&'a [f64]> {
-    table.column(name).ok_or_else(|| Error::run(format!("the run has no {name}")))
 }
 
 /// b times the largest errors within 4 s at b = 1e4, with the names of the statement.

@@ -98,15 +98,7 @@ impl Cells {
 
     /// A rate at the times of its rows; of counts and positions by what lies on either side of a row.
     pub(crate) fn central_rates(&self, time: &[f64], positions: Vec<f64>) -> Vec<f64> {
-        if !self.reading.is_difference() {
-            return positions;
-        }
-        let last = time.len() - 1;
-        let of = |i: usize| {
-            let (before, after) = (i.saturating_sub(1), (i + 1).min(last));
-            (positions[after] - positions[before]) / (time[after] - time[before])
-        };
-        (0..=last).map(of).collect()
+        if self.reading.is_difference() { counts::central_rates(time, &positions) } else { positions }
     }
 }
 

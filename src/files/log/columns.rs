@@ -292,7 +292,11 @@ impl Resolved {
 }
 
 /// The main column of a role; what else the file says of it is kept.
-fn entry(value: &Value, dimension: Option<Dimension>, entries: &mut BTreeMap<String, ColumnEntry>) -> Result<String> {
+pub(crate) fn entry(
+    value: &Value,
+    dimension: Option<Dimension>,
+    entries: &mut BTreeMap<String, ColumnEntry>,
+) -> Result<String> {
     let found = column_entry::read(value, dimension)?;
     let main = found.columns[0].clone();
     if !matches!(found.reading, Reading { kind: Kind::Number | Kind::Time, scale: 1.0, offset: 0.0 }) {

@@ -1,4 +1,4 @@
-//! Cumulative counts and positions as rates: the mean since the row before.
+//! Cumulative counts and positions as rates: the mean since the row before, or about a row.
 
 use super::row_order;
 use std::f64::consts::TAU;
@@ -52,6 +52,15 @@ pub(crate) fn mean_rates(time: &[f64], position: &[f64]) -> Vec<f64> {
     found.insert(0, found.first().copied().unwrap_or(0.0));
     found.truncate(time.len());
     found
+}
+
+/// The mean rate from the row before to the row behind; at the ends to or from the one neighbour.
+pub(crate) fn central_rates(time: &[f64], position: &[f64]) -> Vec<f64> {
+    let of = |i: usize| {
+        let (before, after) = (i.saturating_sub(1), (i + 1).min(time.len() - 1));
+        (position[after] - position[before]) / (time[after] - time[before])
+    };
+    (0..time.len()).map(of).collect()
 }
 
 #[cfg(test)]

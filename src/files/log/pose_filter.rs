@@ -48,7 +48,7 @@ impl Run {
             };
             rows.iter().map(of).collect()
         };
-        // What is measured beside the pose has no filter: it is taken at the new times.
+        // The times themselves, and what is measured beside the pose and has no filter.
         let there = |column: &Vec<f64>| {
             let of = |i: &usize| match filter {
                 PoseFilter::Continuous(_) => (column[*i] + column[i + 1]) / 2.0,
@@ -56,14 +56,10 @@ impl Run {
             };
             rows.iter().map(of).collect()
         };
-        let at = |i: &usize| match filter {
-            PoseFilter::Continuous(_) => (self.time[*i] + self.time[i + 1]) / 2.0,
-            PoseFilter::OfRows(_) => self.time[i + 1],
-        };
         let (time, truth_sha256) = (self.time.clone(), self.sha256.clone());
         let own = Apart { time, truth: self.path.clone(), truth_sha256, one_clock: true };
         Self {
-            time: rows.iter().map(at).collect(),
+            time: there(&self.time),
             x: before(&self.x),
             y: before(&self.y),
             heading: self.heading.as_ref().map(before),

@@ -3,8 +3,8 @@
 use super::known::{KnownDynamics, KnownLaw};
 use super::parameters::{Machine, Parameters, one_per_trailer};
 use crate::error::Result;
-use crate::files::log::column_entry::{self, ColumnEntry};
-use crate::files::log::columns::InputColumn;
+use crate::files::log::column_entry::ColumnEntry;
+use crate::files::log::columns::{self, InputColumn};
 use crate::files::log::unit::Dimension;
 use crate::files::toml::spanned_table::{Section, Value};
 use crate::files::toml::suggestions;
@@ -40,7 +40,7 @@ pub struct DynamicsEntry {
     pub friction: Vec<ContactEntry>,
     /// The columns of the inputs file: forces, then the steering.
     pub inputs: Vec<InputColumn>,
-    /// How they are read from there, by role, where the file names them.
+    /// How those are read from there of which the file says more than a name.
     pub entries: BTreeMap<String, ColumnEntry>,
     /// Speeds at the start.
     pub start: StartEntry,
@@ -97,7 +97,7 @@ impl DynamicsEntry {
         (read.forces, read.steered_by_rate) = driving(&section, known)?;
         read.friction = friction(&section, known, trailers)?;
         read.start = StartEntry::read(top, known, read.steered_by_rate)?;
-        (read.inputs, read.entries) = columns(top, &read, known)?;
+        (read.inputs, read.entries) = input_columns(top, &read, known)?;
         Ok(Some(read))
     }
 
@@ -269,30 +269,23 @@ impl StartEntry {
 }
 
 /// Where the inputs stand in their file, and how they are read from there.
-fn columns(
+fn input_columns(
     top: &Section,
     read: &DynamicsEntry,
     known: &KnownDynamics,
 ) -> Result<(Vec<InputColumn>, BTreeMap<String, ColumnEntry>)> {
     let section = top.section("columns")?;
-    let steering = match read.steered_by_rate {
-        true => known.steering_rates.iter().zip(std::iter::repeat(Some(Dimension::Rate))),
-        false => known.steering.iter().zip(std::iter::repeat(Some(Dimension::Angle))),
+    let (steering, of_steering) = match read.steered_by_rate {
+        true => (&known.steering_rates, Dimension::Rate),
+        false => (&known.steering, Dimension::Angle),
     };
     let mut entries = BTreeMap::new();
     let mut column = |(role, dimension): (&String, Option<Dimension>)| {
-        let column = match section.as_ref().and_then(|s| s.get(role)) {
-            Some(value) => {
-                let entry = column_entry::read(&value, dimension)?;
-                let column = entry.columns[0].clone();
-                entries.insert(role.clone(), entry);
-                column
-            }
-            None => role.clone(),
-        };
+        let named = section.as_ref().and_then(|s| s.get(role));
+        let column = named.map_or(Ok(role.clone()), |v| columns::entry(&v, dimension, &mut entries))?;
         Ok(InputColumn { role: role.clone(), column, instead: None })
     };
     let forces = read.forces.iter().map(|role| (role, None));
-    let columns = forces.chain(steering).map(&mut column).collect::<Result<_>>()?;
-    Ok((columns, entries))
+    let steering = steering.iter().map(|role| (role, Some(of_steering)));
+    Ok((forces.chain(steering).map(&mut column).collect::<Result<_>>()?, entries))
 }

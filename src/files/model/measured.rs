@@ -2,13 +2,13 @@
 
 use super::known::KnownInput;
 use super::parameters::Machine;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::files::log::cells::MEASURED;
 use crate::files::log::column_entry::{self, ColumnEntry};
 use crate::files::log::unit::Dimension;
 use crate::files::toml::formula_text::FormulaText;
 use crate::files::toml::spanned_table::{Section, Value};
-use crate::files::toml::suggestions::advice;
+use crate::files::toml::suggestions::{advice, shown};
 use crate::formula::Expr;
 
 /// A quantity that a column of a log measures in every row.
@@ -43,7 +43,7 @@ const KNOWN: [(&str, &str, &str); 5] = [
     ("lateral_acceleration", "v_t' + v_l*phi'", "m/s^2"),
 ];
 /// The most quantities beside the pose.
-pub const MAX_MEASURED: usize = 12;
+const MAX_MEASURED: usize = 12;
 
 impl MeasuredEntry {
     /// The entries of a model file whose inputs are these.
@@ -65,27 +65,20 @@ impl MeasuredEntry {
                 .key_error(format!("{name} is an input of this model, and not measured beside the pose"))
                 .help("give a second sensor of it a name of its own and a formula"));
         }
-        let own = match value.is_table() {
-            true => {
-                let example = format!("{name} = {{ column = \"…\", formula = \"…\" }}");
-                let section = value.section_like(format!("[measured.{name}]"), &example)?;
-                section.get("formula").map(|v| FormulaText::read(&v)).transpose()?
-            }
-            false => None,
-        };
+        let example = format!("{name} = {{ column = \"…\", formula = \"…\" }}");
+        let table = value.is_table().then(|| value.section_like(format!("[measured.{name}]"), &example)).transpose()?;
+        let get = |key: &str| table.as_ref().and_then(|table| table.get(key));
+        let own = get("formula").map(|v| FormulaText::read(&v)).transpose()?;
         let known = KNOWN.iter().find(|(known, _, _)| *known == name);
         let input = inputs.iter().find(|i| i.role == name);
         let (formula, unit) = match (own, known, input) {
-            (Some(own), _, _) => (Some(own.formula), unit_of(value)?),
+            (Some(own), _, _) => (Some(own.formula), own_unit(&get)?),
             (None, _, Some(input)) => (None, input.unit.clone()),
             (None, Some((_, formula, unit)), None) => (Expr::parse(formula).ok(), (*unit).to_string()),
             (None, None, None) => return Err(unknown(value, inputs, driven)),
         };
         let column = column_entry::read_with(value, Dimension::of_si(&unit), &["formula", "noise"])?;
-        let noise = match value.is_table() {
-            true => value.section(format!("[measured.{name}]"))?.get("noise").map(|v| v.positive()).transpose()?,
-            false => None,
-        };
+        let noise = get("noise").map(|v| v.positive()).transpose()?;
         Ok(Self { name: name.into(), column, formula, unit, noise, place: value.source.line_and_column(value.key_at) })
     }
 
@@ -96,21 +89,20 @@ impl MeasuredEntry {
 }
 
 /// The SI unit of what the unit of an entry's column measures; counts and positions are read as rates.
-fn unit_of(value: &Value) -> Result<String> {
-    let section = value.section(value.name.clone())?;
-    if section.get("ticks").is_some() || section.get("angle").is_some() {
+fn own_unit<'a: 'd, 'd>(get: &impl Fn(&str) -> Option<Value<'a, 'd>>) -> Result<String> {
+    if get("ticks").is_some() || get("angle").is_some() {
         return Ok("rad/s".into());
     }
-    let Some(unit) = section.get("unit") else { return Ok(String::new()) };
+    let Some(unit) = get("unit") else { return Ok(String::new()) };
     let text = unit.text()?;
     let dimension = Dimension::of(text).ok_or_else(|| {
-        let message = format!("unknown unit \"{}\"", crate::files::toml::suggestions::shown(text));
+        let message = format!("unknown unit \"{}\"", shown(text));
         unit.error(message).help("leave the unit out and give scale = … in its place")
     })?;
     Ok(dimension.units()[0].to_string())
 }
 
-fn unknown(value: &Value, inputs: &[&KnownInput], driven: &[&str]) -> crate::error::Error {
+fn unknown(value: &Value, inputs: &[&KnownInput], driven: &[&str]) -> Error {
     let roles = inputs.iter().map(|i| i.role.as_str()).filter(|role| !driven.contains(role));
     let all: Vec<&str> = KNOWN.iter().map(|(name, _, _)| *name).chain(roles).collect();
     let message = format!("nothing says which motion {} is", value.name);

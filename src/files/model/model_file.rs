@@ -181,6 +181,11 @@ impl ModelFile {
         self.sections + self.trailer_lengths.len()
     }
 
+    /// Whether a contact has a law of force: then its motion may be stiff.
+    pub fn has_friction(&self) -> bool {
+        self.dynamics.as_ref().is_some_and(|forces| !forces.friction.is_empty())
+    }
+
     /// The file of a user's own that describes the vehicle, if it is none of the catalogue.
     pub fn vehicle_origin(&self) -> Option<&Origin> {
         self.description.as_ref()?.origin.as_deref()

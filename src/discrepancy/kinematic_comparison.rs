@@ -12,8 +12,9 @@ use super::report::KinematicComparison;
 use super::request::Request;
 use crate::effects::Applied;
 use crate::error::Result;
-use crate::files::{InputColumn, ModelFile, Run};
+use crate::files::{EffectEntry, InputColumn, ModelFile, Run};
 use crate::model::Model;
+use crate::model::effect_equation::is_term;
 use crate::motion::{Integrator, Signals, simulate_model};
 use crate::progress::OnProgress;
 use std::collections::BTreeMap;
@@ -49,7 +50,7 @@ struct Rates {
 impl Rates {
     fn of(request: &Request) -> Result<Option<Self>> {
         let (file, Some(first)) = (request.file, request.runs.first()) else { return Ok(None) };
-        if file.dynamics.is_none() {
+        if file.dynamics.is_none() || file.measured.is_empty() {
             return Ok(None);
         }
         let model = Model::from_file(file, request.library, &first.roles)?.kinematic();
@@ -95,15 +96,16 @@ impl Rates {
         }
     }
 
-    /// The values of the effects that the kinematic model asks for on the motion that the forces make, without noise.
+    /// The values of the effects that the kinematic model asks for on the motion that the forces make, without noise: effect
+    /// by effect of its report.
     fn predicted(
         &self,
         request: &Request,
         forced: &Discovery,
         found: &Discovery,
-    ) -> Result<BTreeMap<String, BTreeMap<String, f64>>> {
+    ) -> Result<Vec<BTreeMap<String, f64>>> {
         if found.added.is_empty() {
-            return Ok(BTreeMap::new());
+            return Ok(vec![]);
         }
         let patched = request.file.with_effects(&forced.added);
         let model = Model::from_file(&patched, request.library, &request.runs[0].roles)?;
@@ -115,12 +117,14 @@ impl Rates {
         let records: Vec<Record> =
             motions.map(|run| Record::of_run(&run, request.file.input_timing, with.freedom())).collect();
         if records.is_empty() {
-            return Ok(BTreeMap::new());
+            return Ok(vec![]);
         }
         let problem = Problem::new(records, None, None);
         let fit = problem.fit(&with, &problem.starts(&with)?, &problem.variances, Effort::FULL)?;
-        let effects = fit.iter().flat_map(|fit| fit.model.effects.iter()).filter(|e| asked(e));
-        Ok(effects.map(|e| (e.effect.id.clone(), e.named_values())).collect())
+        let Some(fit) = fit else { return Ok(vec![]) };
+        // In the order of the report, which lists laws without a name apart.
+        let of = |entry: &EffectEntry| fit.model.effects.iter().find(|e| entry.same_target(&e.entry()));
+        Ok(found.added.iter().filter_map(of).filter(|e| !is_term(e)).map(Applied::named_values).collect())
     }
 }
 
@@ -131,8 +135,7 @@ fn motion(model: &Model, file: &ModelFile, run: &Run) -> Option<Run> {
     let begin = speeds_at(&equations, &record, 0, BEFORE)?.state;
     let start = [&record.smoothed(0)[..equations.poses], &begin[equations.poses..equations.visible]].concat();
     let signals = Signals::of_run(run, file.input_timing);
-    let has_friction = file.dynamics.as_ref().is_some_and(|forces| !forces.friction.is_empty());
-    let integrator = Integrator::default().for_friction(has_friction);
+    let integrator = Integrator::default().for_friction(file.has_friction());
     let table = simulate_model(model, &signals, &run.time, &start, &integrator).ok()?;
     let column = |name: &str| table.column(name).map(<[f64]>::to_vec);
     let trailers = (1..=run.trailer_headings.len()).map(|i| column(&format!("trailer_heading_{i}")));

@@ -30,7 +30,7 @@ use super::preprocessing::quantisation::{CoarseInput, coarse_inputs};
 use super::preprocessing::{slips, unit_errors};
 use super::record::run_record::Record;
 use super::rendering::{figure_data, plain_text};
-use super::report::{Named, PathPicture, Pictures, Remaining, Unnamed, Verdict, middle};
+use super::report::{Named, PathPicture, Pictures, Unnamed, Verdict, middle};
 use super::request::{Request, common_roles, horizons};
 use super::selection::choice::{Selected, SelectedEffect};
 use super::selection::odd_run::{is_sought, odd_runs};
@@ -159,7 +159,7 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
         odd,
         motion,
         refused: selected.refused.iter().filter(|_| usable).cloned().collect(),
-        remaining: Some(Remaining { sensors, ..remaining(&selected.after, data.fitted[0].measures_heading(), &after) }),
+        remaining: Some(remaining(&selected.after, data.fitted[0].measures_heading(), &after, sensors)),
         steps: comparison.steps(&selected, &gap)?,
         gap,
         warnings,

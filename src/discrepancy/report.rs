@@ -124,9 +124,16 @@ impl Verdict {
 pub struct KinematicComparison {
     /// What is missing in the model that the measured wheels drive.
     pub report: Box<Report>,
-    /// The values of its effects on the motion that the model with forces makes, by effect and parameter.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub by_forces: BTreeMap<String, BTreeMap<String, f64>>,
+    /// The values of its effects on the motion that the model with forces makes, in their order and by parameter.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub by_forces: Vec<BTreeMap<String, f64>>,
+}
+
+impl KinematicComparison {
+    /// What the forces predict of a parameter of the i-th effect.
+    pub fn predicted(&self, i: usize, parameter: &str) -> Option<f64> {
+        self.by_forces.get(i)?.get(parameter).copied()
+    }
 }
 
 /// An effect that was found.

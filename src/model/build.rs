@@ -38,27 +38,15 @@ impl Model {
         let mut d = self.with_effects(self.ideal_definitions()?)?;
         if let Some(forced) = &self.forced {
             forced.without_idle_losses(&mut d);
-            forced.turned.iter().for_each(|angle| d.define(angle.rate(), self.rate_by_inputs(angle, &d)));
+            for angle in &forced.turned {
+                // The motion asks for it even where nothing turns it.
+                if self.rate_along_motion(angle, &mut d).is_zero() {
+                    d.define(angle.rate(), Expr::int(0));
+                }
+            }
         }
         self.define_measured_rates(&mut d);
         Ok(d)
-    }
-
-    /// The rate of a symbol that the inputs move, effects on the way included: Σ ∂f/∂u·u'.
-    fn rate_by_inputs(&self, name: &Symbol, d: &Definitions) -> Expr {
-        if self.inputs.iter().any(|role| role == name.as_str()) {
-            return Expr::sym(name.rate());
-        }
-        let of_effects = self.effects.iter().flat_map(|e| e.states()).find(|(state, _)| state == name);
-        if let Some((_, rate)) = of_effects {
-            return rate;
-        }
-        let Some(formula) = d.get(name) else { return Expr::int(0) };
-        let through = |s: Symbol| {
-            let rate = self.rate_by_inputs(&s, d);
-            if rate.is_zero() { rate } else { &formula.derivative(&s) * &rate }
-        };
-        formula.symbols().into_iter().map(through).fold(Expr::int(0), |sum, part| &sum + &part)
     }
 
     /// [`Model::definitions`]; where the constraints do not determine the motion, only what stands in their rows: the

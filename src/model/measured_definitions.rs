@@ -5,7 +5,7 @@ use super::measured::MeasuredQuantity;
 use super::vehicle_model::Model;
 use crate::error::{Error, Result};
 use crate::files::{ModelFile, advice};
-use crate::formula::{Expr, Symbol};
+use crate::formula::Symbol;
 use crate::mechanism::Definitions;
 use std::collections::BTreeSet;
 
@@ -46,41 +46,12 @@ impl Model {
         self.measured.iter().find(|m| m.name == name)
     }
 
-    /// Defines the rates that measured quantities ask for and nothing defines, such as `v_l'`, by the chain rule:
-    /// f' = Σ ∂f/∂s·s' over states, inputs and what is defined by them.
+    /// Defines the rates that measured quantities ask for and nothing defines, such as `v_l'`.
     pub(super) fn define_measured_rates(&self, d: &mut Definitions) {
         let formulas = self.measured.iter().filter_map(|m| d.get(&m.symbol()).cloned());
         let asked: BTreeSet<Symbol> = formulas.flat_map(|f| f.symbols()).collect();
         for stem in asked.iter().filter_map(|s| s.as_str().strip_suffix('\'')).map(Symbol::new) {
             self.rate_along_motion(&stem, d);
         }
-    }
-
-    /// The rate of a symbol along the motion; zero where nothing moves it.
-    fn rate_along_motion(&self, name: &Symbol, d: &mut Definitions) -> Expr {
-        let rate = name.rate();
-        if d.get(&rate).is_some() || self.inputs.iter().any(|role| role == name.as_str()) {
-            return Expr::sym(rate);
-        }
-        if name.as_str() == TIME {
-            return Expr::int(1);
-        }
-        if let Some((_, rate)) = self.effects.iter().flat_map(|e| e.states()).find(|(state, _)| state == name) {
-            return rate;
-        }
-        let Some(formula) = d.get(name).cloned() else { return Expr::int(0) };
-        let mut sum = Expr::int(0);
-        for s in formula.symbols() {
-            let slope = formula.derivative(&s).tidy();
-            let moves = if slope.is_zero() { Expr::int(0) } else { self.rate_along_motion(&s, d) };
-            if !moves.is_zero() {
-                sum = &sum + &(&slope * &moves);
-            }
-        }
-        if sum.is_zero() {
-            return sum;
-        }
-        d.define(rate.clone(), sum);
-        Expr::sym(rate)
     }
 }

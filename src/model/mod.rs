@@ -19,6 +19,7 @@ pub mod measured;
 mod measured_definitions;
 pub mod observation;
 mod own;
+mod rate_along_motion;
 pub(crate) mod reference_speeds;
 mod solution;
 pub mod state;

@@ -44,7 +44,7 @@ impl Table {
 /// | `lateral_speed` | m/s | v_t, its speed to the left |
 /// | `yaw_rate` | rad/s | rate of the body's heading |
 /// | the states of the effects by their symbols | | such as `cornering_creep.w` |
-/// | what is measured beside the pose, by name | | the quantities of `[measured]` in the model file |
+/// | what is measured beside the pose, by name | | the quantities of `[measured]` in the model file, as their sensors give them |
 ///
 /// `start` holds what the sensor measures at the first time: x, y, heading, trailer headings. States that no
 /// sensor sees begin at their quasi-static values, see [`initial_hidden`].
@@ -86,13 +86,10 @@ pub fn simulate_model(
     z0.extend(initial_hidden(&equations, &[], &at(first), &z0));
     let speeds = Speeds::new(model, &equations)?;
     let mut names = names(&equations);
-    let beside: Vec<&str> = model.measured.iter().map(|m| m.name.as_str()).collect();
-    // What the table has anyway is measured by the same formula under the same name.
-    let more: Vec<usize> = (0..beside.len()).filter(|i| names.iter().all(|name| name != beside[*i])).collect();
-    names.extend(more.iter().map(|i| beside[*i].to_string()));
+    let quantities: Vec<usize> = model.measured.iter().map(|m| place(&mut names, &m.name)).collect();
     let mut columns: Vec<Vec<f64>> = names.iter().map(|_| Vec::with_capacity(times.len())).collect();
     simulate_by(&equations, &[], inputs, &z0, times, integrator, &mut |t, z| {
-        let row = row((t, z, &at(t)), &equations, &mut w, &speeds, &more)?;
+        let row = row((t, z, &at(t)), &equations, &mut w, &speeds, &quantities)?;
         columns.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
         Ok(())
     })?;
@@ -107,18 +104,30 @@ fn names(equations: &Equations) -> Vec<String> {
     pose.chain(speeds).chain(hidden).collect()
 }
 
+/// The place of a column, which is added where there is none of that name.
+fn place(names: &mut Vec<String>, name: &str) -> usize {
+    names.iter().position(|n| n == name).unwrap_or_else(|| {
+        names.push(name.to_string());
+        names.len() - 1
+    })
+}
+
 fn row(
     (t, z, u): (f64, &[f64], &[f64]),
     equations: &Equations,
     w: &mut Workspace,
     speeds: &Speeds,
-    more: &[usize],
+    quantities: &[usize],
 ) -> Result<Vec<f64>> {
     let measured = &equations.outputs(w, z)[..equations.poses];
     let mut row = [&[t], measured, &speeds.at(z, u), &z[equations.poses..]].concat();
-    if !more.is_empty() {
-        let all = equations.quantities(w, z, u);
-        row.extend(more.iter().map(|i| all[*i]));
+    if !quantities.is_empty() {
+        for (place, value) in quantities.iter().zip(equations.quantities(w, z, u)) {
+            match row.get_mut(*place) {
+                Some(cell) => *cell = value,
+                None => row.push(value),
+            }
+        }
     }
     match row.iter().all(|v| v.is_finite()) {
         true => Ok(row),

@@ -2,7 +2,7 @@
 
 use crate::forces_simulator::{Drive, Make, Secret};
 use crate::hidden_forces::{self, parse};
-use creepage::discrepancy::report::{Report, Verdict};
+use creepage::discrepancy::report::{Estimate, Named, Report, Verdict};
 use creepage::files::{ModelFile, Run};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -139,11 +139,13 @@ fn creep_that_wheels_show_is_what_forces_predict() {
     let [(file, run), (bare, alone)] = robot(None);
     let (report, _) = asked(&file, &run);
     let beside = report.kinematic.as_ref().unwrap();
-    let found = beside.report.effects.iter().flat_map(|e| e.parameters.iter().map(move |(name, of)| (&e.id, name, of)));
-    let predicted: Vec<(f64, f64)> = found
-        .filter(|(id, _, _)| ["input-delay", "cornering-creep", "load-dependent-creep"].contains(&id.as_str()))
-        .map(|(id, name, of)| (of.value, beside.by_forces[id][name]))
-        .collect();
+    let quasi_static = ["input-delay", "cornering-creep", "load-dependent-creep"];
+    let found = beside.report.effects.iter().enumerate().filter(|(_, e)| quasi_static.contains(&e.id.as_str()));
+    let pairs = |(i, e): (usize, &Named)| {
+        let pair = |(name, of): (&String, &Estimate)| (of.value, beside.predicted(i, name).unwrap());
+        e.parameters.iter().map(pair).collect::<Vec<(f64, f64)>>()
+    };
+    let predicted: Vec<(f64, f64)> = found.flat_map(pairs).collect();
     assert!(!predicted.is_empty(), "{}", beside.report.summary);
     assert!(predicted.iter().all(|(a, b)| (a / b - 1.0).abs() < 0.15), "{predicted:?}");
     // Where nothing of the wheels is measured there is nothing to compare with.

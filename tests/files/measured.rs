@@ -3,6 +3,7 @@
 use creepage::effects;
 use creepage::files::{ModelFile, Run};
 use creepage::model::{Model, known};
+use creepage::motion::{Integrator, Signals, Timing, simulate_model};
 
 const VEHICLE: &str = "vehicle = \"unicycle\"\n[parameters]\nwheel_radius = 0.5\n[measured]\n";
 
@@ -74,6 +75,11 @@ fn a_bias_stands_for_one_quantity() {
     let model = Model::of_file(&file, effects::all()).unwrap();
     let reads = model.definitions().unwrap().get(&model.measured[0].symbol()).unwrap().to_string();
     assert_eq!(reads, "v_l + sensor_bias_speed.bias");
+    // A simulated log has the column as its sensor gives it.
+    let time = [0.0, 1.0];
+    let inputs = Signals::new(&time, &[vec![2.0; 2], vec![0.0; 2]], Timing::Sample);
+    let table = simulate_model(&model, &inputs, &time, &[0.0; 3], &Integrator::default()).unwrap();
+    assert!(table.column("speed").unwrap().iter().all(|v| (v - 1.1).abs() < 1e-12), "{table:?}");
     assert!(complaint(&entry("measured = \"sped\"\n")).contains("did you mean \"speed\""));
     assert!(complaint(&entry("")).contains("measured = \"speed\""));
     let none = ModelFile::parse(

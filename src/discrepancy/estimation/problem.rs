@@ -178,20 +178,18 @@ fn yaw_told(records: &[Record], plan: &[Segment], variance: f64) -> Option<f64> 
 
 /// The median over the runs of the noise of the columns that share a component.
 fn noise_of(records: &[Record], component: usize) -> f64 {
-    let columns = |r: &Record| -> Vec<usize> {
-        r.channels().into_iter().filter(|c| c.noise == component).map(|c| c.column).collect()
+    let of = |r: &Record| -> Vec<f64> {
+        r.channels().into_iter().filter(|c| c.noise == component).filter_map(|c| r.noises()[c.column]).collect()
     };
-    median_noise(records.iter().flat_map(|r| columns(r).into_iter().map(move |c| (r, &r.columns[c]))))
+    median_noise(records.iter().flat_map(of).collect())
 }
 
 /// The median over the runs of the noise of a quantity that is measured beside the pose.
 fn noise_of_quantity(records: &[Record], quantity: usize) -> f64 {
-    median_noise(records.iter().filter_map(|r| Some((r, r.quantities.get(quantity)?))))
+    median_noise(records.iter().filter_map(|r| *r.quantity_noises().get(quantity)?).collect())
 }
 
-fn median_noise<'r>(columns: impl Iterator<Item = (&'r Record, &'r Vec<f64>)>) -> f64 {
-    let noise = |(r, y): (&Record, &Vec<f64>)| local_polynomial::noise(&r.time[r.rows.clone()], &y[r.rows.clone()]);
-    let mut found: Vec<f64> = columns.filter_map(noise).collect();
+fn median_noise(mut noises: Vec<f64>) -> f64 {
     // A column without any noise still has its last digit.
-    local_polynomial::median(&mut found).unwrap_or(1e-3).max(1e-9)
+    local_polynomial::median(&mut noises).unwrap_or(1e-3).max(1e-9)
 }

@@ -5,7 +5,7 @@ use super::whiteness::is_white;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::unexplained;
 use crate::discrepancy::evidence::chi_squared::tail;
-use crate::discrepancy::report::{Remaining, RemainingConstraint};
+use crate::discrepancy::report::{Remaining, RemainingConstraint, RemainingSensor};
 use crate::model::observation::{HEADING, POSITION};
 use crate::model::state::JUMPS;
 
@@ -16,7 +16,12 @@ use crate::model::state::JUMPS;
 /// | RMS, noise | the violated rate over windows, and what smoothing noise alone makes of it |
 /// | p | probability of so much unexplained motion by chance: half of χ²₁, for a variance is never negative |
 /// | rows, windows alike | integrated correlations, see [`crate::discrepancy::estimation::autocorrelation`]: 1 where noise and jumps are white |
-pub fn remaining(fit: &Fit, has_heading: bool, after: &[ConstraintResiduals]) -> Remaining {
+pub fn remaining(
+    fit: &Fit,
+    has_heading: bool,
+    after: &[ConstraintResiduals],
+    sensors: Vec<RemainingSensor>,
+) -> Remaining {
     let noise = |k: usize| fit.variances.measurement()[k].variance.sqrt();
     let constraints = JUMPS.iter().enumerate().filter_map(|(c, jump)| {
         let (rms, noise) = ConstraintResiduals::rms(after, c)?;
@@ -33,7 +38,7 @@ pub fn remaining(fit: &Fit, has_heading: bool, after: &[ConstraintResiduals]) ->
         rows_alike: fit.noise_correlation_time,
         windows_alike: fit.residual_correlation_time,
         constraints: constraints.collect(),
-        sensors: vec![],
+        sensors,
     }
 }
 
@@ -73,7 +78,7 @@ mod tests {
                 unexplained: vec![0.0, unexplained, 0.0],
                 ..fit_of(unicycle(&[]))
             };
-            let left = remaining(&fit, false, std::slice::from_ref(&missed));
+            let left = remaining(&fit, false, std::slice::from_ref(&missed), vec![]);
             let of = left.constraints.iter().find(|c| c.place == "traverse constraint").unwrap();
             assert!((of.rms - 0.2).abs() < 1e-12 && (of.noise - 0.1).abs() < 1e-12);
             assert!(left.heading_noise.is_none() && (left.position_noise - 1e-3).abs() < 1e-12);

@@ -212,16 +212,19 @@ impl Record {
         known.or(self.quantity_noises()[quantity]).unwrap_or(UNTOLD_NOISE).max(LEAST_NOISE)
     }
 
-    fn quantity_noises(&self) -> &[Option<f64>] {
-        let rows = || self.rows.clone();
-        let of = |column: &Vec<f64>| local_polynomial::noise(&self.time[rows()], column.get(rows())?);
-        self.known.quantity_noise.get_or_init(|| self.quantities.iter().map(of).collect())
+    /// The noise that the rows of each column show, where they do.
+    pub(crate) fn noises(&self) -> &[Option<f64>] {
+        self.known.noise.get_or_init(|| self.noises_of(&self.columns))
     }
 
-    fn noises(&self) -> &[Option<f64>] {
+    /// The same of each quantity that is measured beside the pose.
+    pub(crate) fn quantity_noises(&self) -> &[Option<f64>] {
+        self.known.quantity_noise.get_or_init(|| self.noises_of(&self.quantities))
+    }
+
+    fn noises_of(&self, columns: &[Vec<f64>]) -> Vec<Option<f64>> {
         let rows = || self.rows.clone();
-        let of = |column: &Vec<f64>| local_polynomial::noise(&self.time[rows()], column.get(rows())?);
-        self.known.noise.get_or_init(|| self.columns.iter().map(of).collect())
+        columns.iter().map(|column| local_polynomial::noise(&self.time[rows()], column.get(rows())?)).collect()
     }
 
     /// The usual time between rows, s.

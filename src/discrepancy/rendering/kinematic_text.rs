@@ -1,6 +1,6 @@
 //! The kinematic model beside the one with forces, in words.
 
-use crate::discrepancy::report::{BeforeAfter, Estimate, Gap, KinematicComparison, Report, Verdict};
+use crate::discrepancy::report::{BeforeAfter, Estimate, Gap, KinematicComparison, Named, Report, Verdict};
 use crate::number_format::{significant, with_error};
 use crate::wording::listed;
 
@@ -12,18 +12,18 @@ pub fn sentences(beside: &KinematicComparison, forced: &Report) -> Vec<String> {
 /// The effects of the kinematic model with what the forces predict of them.
 fn asks(beside: &KinematicComparison) -> String {
     let start = "Driven by what is measured of its wheels the model";
-    let value = |id: &str, (name, of): (&String, &Estimate)| {
-        let by_forces = beside.by_forces.get(id).and_then(|of| of.get(name));
-        let predicted = by_forces.map_or(String::new(), |v| format!(", by the forces {}", significant(*v, 3)));
+    let value = |i: usize, (name, of): (&String, &Estimate)| {
+        let by_forces = beside.predicted(i, name);
+        let predicted = by_forces.map_or(String::new(), |v| format!(", by the forces {}", significant(v, 3)));
         let unit = if of.unit == "1" { String::new() } else { format!(" {}", of.unit) };
         format!("{name} {}{unit}{predicted}", with_error(of.value, of.std))
     };
-    let one = |e: &crate::discrepancy::report::Named| {
-        let values: Vec<String> = e.parameters.iter().map(|p| value(&e.id, p)).collect();
+    let one = |(i, e): (usize, &Named)| {
+        let values: Vec<String> = e.parameters.iter().map(|p| value(i, p)).collect();
         format!("{} ({})", e.id, values.join("; "))
     };
     match (beside.report.verdict, beside.report.effects.is_empty()) {
-        (_, false) => format!("{start} asks for {}.", listed(beside.report.effects.iter().map(one))),
+        (_, false) => format!("{start} asks for {}.", listed(beside.report.effects.iter().enumerate().map(one))),
         (Verdict::NoMissingEffect, _) => format!("{start} explains these runs as it is."),
         _ => format!("{start} leaves what it cannot name."),
     }
@@ -56,8 +56,7 @@ mod tests {
         };
         let creep = r#"{"id": "cornering-creep", "where": "", "parameters": {"mass_over_bT": {"value": 0.11, "std": 0.001, "unit": "s"}},
             "evidence": {"delta_bic": 99.0, "p_value": 0.0}, "indistinguishable_from": [], "equation": ""}"#;
-        let by_forces: BTreeMap<_, _> =
-            [("cornering-creep".to_string(), BTreeMap::from([("mass_over_bT".to_string(), 0.1093)]))].into();
+        let by_forces = vec![BTreeMap::from([("mass_over_bT".to_string(), 0.1093)])];
         let forced = report("missing-effect", "");
         let of = |verdict: &str, effects: &str| KinematicComparison {
             report: Box::new(report(verdict, effects)),

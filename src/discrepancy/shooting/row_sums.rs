@@ -33,19 +33,25 @@ impl<const L: usize> NormalEquations<L> {
         let width = columns + 1;
         let first_quantity = observation::sensor_noise(record.freedom().clone()).len();
         let (quantities, kinds) = (record.quantities.len(), first_quantity + record.freedom().quantities.len());
-        let is_there =
-            |kind: usize| channels.iter().any(|c| c.noise == kind) || kind >= first_quantity && quantities > 0;
-        let entries = |kind: usize| if is_there(kind) { width * (width + 1) / 2 } else { 0 };
-        Self {
+        let mut sums = Self {
             width,
             quantities,
             first_quantity,
-            gram: (0..kinds).map(|kind| vec![[0.0; L]; entries(kind)]).collect(),
+            gram: vec![],
             blocks: vec![[Blocks::default(); L]; kinds],
             runs: vec![[Run::default(); L]; channels.len() + quantities],
             line: vec![[0.0; L]; width],
             channels,
-        }
+        };
+        let entries = |kind: usize| if sums.columns(kind) > 0 { width * (width + 1) / 2 } else { 0 };
+        sums.gram = (0..kinds).map(|kind| vec![[0.0; L]; entries(kind)]).collect();
+        sums
+    }
+
+    /// How many columns have the noise of a kind.
+    fn columns(&self, kind: usize) -> usize {
+        let of_pose = self.channels.iter().filter(|c| c.noise == kind).count();
+        of_pose + usize::from(kind >= self.first_quantity && self.quantities > 0)
     }
 
     pub fn clear(&mut self) {
@@ -69,10 +75,7 @@ impl<const L: usize> NormalEquations<L> {
         if !arc.z.iter().chain(&arc.s).all(|x| x.is_finite()) || !gram.iter().all(|g| g.iter().all(|x| x.is_finite())) {
             return None;
         }
-        let of_pose = |kind: usize| self.channels.iter().filter(|c| c.noise == kind).count();
-        let of_quantities = |kind: usize| usize::from(kind >= self.first_quantity && self.quantities > 0);
-        let columns = |kind: usize| of_pose(kind) + of_quantities(kind);
-        let count = kinds.map(|kind| columns(kind) * rows.len()).collect();
+        let count = kinds.map(|kind| self.columns(kind) * rows.len()).collect();
         let axes = body_axes(arc.z[state::DIRECTION], visible);
         let last = if next.is_some() { rows.end } else { rows.end - 1 };
         let duration = record.time[last] - record.time[rows.start];

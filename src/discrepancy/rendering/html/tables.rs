@@ -157,12 +157,11 @@ pub fn kinematic(report: &Report) -> Vec<Element> {
         true => kinematic_text::sentences(beside, report),
         false => kinematic_text::gaps(&beside.report, report).into_iter().collect(),
     };
-    let predicted = |id: &str, name: &str| beside.by_forces.get(id).and_then(|of| of.get(name));
-    let row = |e: &report::Named, name: &String, of: &report::Estimate| {
-        let by_forces = predicted(&e.id, name).map_or("–".into(), |v| significant(*v, 3));
+    let row = |i: usize, e: &report::Named, (name, of): (&String, &report::Estimate)| {
+        let by_forces = beside.predicted(i, name).map_or("–".into(), |v| significant(v, 3));
         vec![Cell::text(&e.id), Cell::text(parameter(name, of)), Cell::Number(by_forces)]
     };
-    let rows = effects.iter().flat_map(|e| e.parameters.iter().map(move |(name, of)| row(e, name, of)));
+    let rows = effects.iter().enumerate().flat_map(|(i, e)| e.parameters.iter().map(move |of| row(i, e, of)));
     let caption = "What the model asks for where what is measured of its wheels drives it";
     let coefficients = table(caption, &["effect", "as fitted to the log", "#as the forces predict"], rows.collect());
     said.into_iter().map(sentence).chain(coefficients).collect()

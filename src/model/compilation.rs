@@ -146,6 +146,7 @@ impl Model {
         let plain = compile(&graph, &rates)?;
         let jacobian = with_derivatives(&mut graph, &rates, by);
         let read = live(&graph, &jacobian, rates.len());
+        let is_linear_in_hidden = is_linear(&mut graph, &jacobian, &states[visible..], [visible, by.len()]);
         let carried = match visible < states.len() {
             true => carried(&mut graph, &jacobian, &read, [visible, states.len(), by.len()]),
             false => None,
@@ -186,6 +187,7 @@ impl Model {
             quantity_count: self.measured.len(),
             delay,
             own_delays,
+            is_linear_in_hidden,
             carried: None,
         };
         let carried = carried.map(|(live, jacobian)| Box::new(Equations { live, jacobian, ..whole.clone() }));
@@ -208,6 +210,17 @@ fn with_derivatives(graph: &mut Graph, nodes: &[NodeId], by: &[Symbol]) -> Vec<N
 /// Which of the derivatives that follow so many rates are not zero by their formula.
 fn live(graph: &Graph, nodes: &[NodeId], rates: usize) -> Vec<usize> {
     (rates..nodes.len()).filter(|k| !graph.is_zero(nodes[*k])).collect()
+}
+
+/// Whether the rates behind the first ones, followed by so many derivatives each, are linear in some of the states.
+fn is_linear(graph: &mut Graph, nodes: &[NodeId], hidden: &[Symbol], [visible, width]: [usize; 2]) -> bool {
+    let n = visible + hidden.len();
+    if width < n {
+        return false;
+    }
+    let of = |i: usize| n + i * width;
+    let own: Vec<NodeId> = (visible..n).flat_map(|i| nodes[of(i) + visible..of(i) + n].to_vec()).collect();
+    hidden.iter().all(|h| graph.derivatives(&own, h).into_iter().all(|node| graph.is_zero(node)))
 }
 
 /// Rates and derivatives without what only the pose is moved by; `None` where hidden states, or the steps that they

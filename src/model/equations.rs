@@ -42,6 +42,8 @@ pub struct Equations {
     pub(super) delay: Lanes,
     /// How many inputs have a delay of their own beside that of all: none, or all that are logged.
     pub(crate) own_delays: usize,
+    /// Whether the rates of the hidden states are linear in these, by their formulas.
+    pub(crate) is_linear_in_hidden: bool,
     /// The motion of the hidden states alone, where it does not ask for the pose.
     pub(super) carried: Option<Box<Equations>>,
 }

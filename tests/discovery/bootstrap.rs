@@ -23,7 +23,7 @@ fn chance_gains(id: &str) -> NullDistribution {
     let model = Model::from_file(&file, effects::all(), &run.roles).unwrap();
     let problem = Problem::new(vec![Record::of_run(&run, file.input_timing, 0)], None, None);
     let starts = problem.starts(&model).unwrap();
-    let effort = Effort { passes: 10, enough: 1e-4, variances: true, ends_where_lost: false };
+    let effort = Effort { passes: 10, ..Effort::FULL };
     let fit = problem.fit(&model, &starts, &problem.variances, effort).unwrap().unwrap();
     problem.chance_gains(&fit, &effect(id), DRAWS, 3).unwrap()
 }

@@ -111,7 +111,7 @@ fn missed_less(scales: [f64; 2]) -> f64 {
     let model = Model::from_file(&file, effects::all(), &runs[0].roles).unwrap();
     let problem = Problem::new(runs.iter().map(|r| Record::of_run(r, file.input_timing, 0)).collect(), None, None);
     let fit = |model: &Model| {
-        let effort = Effort { passes: 20, enough: 1e-4, variances: true, ends_where_lost: false };
+        let effort = Effort { passes: 20, ..Effort::FULL };
         problem.fit(model, &problem.starts(model).unwrap(), &problem.variances, effort).unwrap().unwrap()
     };
     let scale = Applied::new(effects::named("yaw-rate-scale").unwrap(), None, vec![0.0]).freed();

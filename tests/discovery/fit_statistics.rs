@@ -378,7 +378,7 @@ fn variances_are_the_same_in_any_unit() {
         let parameter = effect.parameters.get_mut("e_tc").unwrap();
         (parameter.range, parameter.size) = (parameter.range.map(|r| r / unit), parameter.size / unit);
         let model = model.clone().with_effect(Applied::new(&effect, None, vec![0.0]).freed());
-        let effort = Effort { passes: 30, enough: 1e-9, variances: true, ends_where_lost: false };
+        let effort = Effort { passes: 30, enough: 1e-9, ..Effort::FULL };
         problem.fit(&model, &problem.starts(&model).unwrap(), &problem.variances, effort).unwrap().unwrap()
     };
     let [usual, tiny] = [1.0, 1e-9].map(fitted);

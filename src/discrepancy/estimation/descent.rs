@@ -23,13 +23,16 @@ pub struct Effort {
     pub variances: bool,
     /// Whether it ends where a positive value has sunk to the edge at which its effect vanishes and wants further down.
     pub ends_where_lost: bool,
+    /// Whether it begins so near to a fit that what its first step promises can be believed.
+    pub begins_near: bool,
 }
 
 impl Effort {
     /// The effort of a fit whose values are reported: variances are estimated with the parameters.
-    pub const FULL: Self = Self { passes: 15, enough: 1e-4, variances: true, ends_where_lost: false };
+    pub const FULL: Self =
+        Self { passes: 15, enough: 1e-4, variances: true, ends_where_lost: false, begins_near: false };
     /// The effort of a fit by which candidates are compared: at the variances of the fit they begin with.
-    pub const SCREENING: Self = Self { passes: 5, enough: 0.05, variances: false, ends_where_lost: false };
+    pub const SCREENING: Self = Self { passes: 5, enough: 0.05, variances: false, ..Self::FULL };
     /// The same of a candidate that is lost where it vanishes: there states are stiff, and nothing is left to compare.
     pub const CANDIDATE: Self = Self { ends_where_lost: true, ..Self::SCREENING };
 }
@@ -186,6 +189,7 @@ mod tests {
             axes: DMatrix::zeros(0, 0),
             duration,
             mismatch: mismatch.to_vec(),
+            initial_state_dof: 0.0,
         };
         let v = noise_of(2, [2.0, 4.0, 8.0], &[1.0, 2.0, 4.0, 8.0]);
         let first = window([2.0, 8.0, 24.0], 0.5, &[1.0, 2.0, 4.0, 8.0, 16.0]);

@@ -35,9 +35,23 @@ const WEAK: f64 = 1e-9;
 /// With M the quadratic form in (δz, δp, 1) of everything up to a window's end, a jump w = G·a, a ~ N(0, 1),
 /// turns it into M − M_z·G(1 + Gᵀ·M_zz·G)⁻¹Gᵀ·M_z: regular for q = 0 as for q → ∞.
 pub fn eliminate(segments: &[Vec<LinearisedWindow>], v: &NoiseModel, parameters: usize) -> Option<ReducedForm> {
+    joined(segments, v, parameters, true)
+}
+
+/// The same where nobody asks for the poses.
+pub fn eliminate_forward(segments: &[Vec<LinearisedWindow>], v: &NoiseModel, parameters: usize) -> Option<ReducedForm> {
+    joined(segments, v, parameters, false)
+}
+
+fn joined(
+    segments: &[Vec<LinearisedWindow>],
+    v: &NoiseModel,
+    parameters: usize,
+    backward: bool,
+) -> Option<ReducedForm> {
     let mut total = ReducedForm::nothing(parameters);
     for windows in segments {
-        let mut chain = InformationFilter::new(v, parameters, true);
+        let mut chain = InformationFilter::new(v, parameters, backward);
         windows.iter().try_for_each(|w| chain.push(w))?;
         total.add(chain)?;
     }

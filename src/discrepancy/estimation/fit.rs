@@ -7,10 +7,9 @@ use super::elimination::ReducedForm;
 use super::problem::Problem;
 use super::variance_components;
 use crate::discrepancy::estimation::noise_model::{Component, NoiseModel};
-use crate::discrepancy::initial_state::hidden_states;
 use crate::discrepancy::record::sensor_noise::Noise;
 use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
-use crate::discrepancy::shooting::windows::{Segment, WindowStates};
+use crate::discrepancy::shooting::windows::WindowStates;
 use crate::effects::Scope;
 use crate::error::Result;
 use crate::model::{Equations, Model};
@@ -93,8 +92,8 @@ impl Problem {
         let bounds = Bounds::of(model);
         let mut v = variances.clone();
         let Some(mut point) = self.windows_by(&equations, &v).at(p, starts.clone()) else { return Ok(None) };
-        point =
-            Descent { windows: self.windows_by(&equations, &v), bounds: &bounds, effort, is_near: false }.from(point);
+        let is_near = effort.begins_near;
+        point = Descent { windows: self.windows_by(&equations, &v), bounds: &bounds, effort, is_near }.from(point);
         if effort.variances {
             // Better variances show a better way down, and the other way round.
             for first_step in [1.0, 0.3, 0.3, 0.3, 0.3, 0.3] {
@@ -118,7 +117,7 @@ impl Problem {
         let residual_correlation_time = autocorrelation::of_what_remains(&of_kinds, &unexplained);
         let value_correlation_times = value_correlation_times(&point, &v, &of_kinds, &at).unwrap_or_default();
         let noise_correlation_time = if effort.variances { autocorrelation::of_noise(&point.linear) } else { 1.0 };
-        let initial_state_dof = self.initial_state_dof(&equations, &point);
+        let initial_state_dof = point.linear.iter().flatten().map(|w| w.initial_state_dof).sum();
         Ok(Some(Fit {
             unexplained,
             residual_correlation_time,
@@ -186,15 +185,6 @@ impl Problem {
             noise_correlation_time: 1.0,
             initial_state_dof: 0.0,
         }
-    }
-
-    /// How many numbers the beginnings of hidden states took from the poses.
-    fn initial_state_dof(&self, equations: &Equations, point: &Point) -> f64 {
-        let of = |(segment, starts): (&Segment, &Vec<Vec<f64>>)| {
-            let record = &self.records[segment.record];
-            hidden_states::asked(equations, point.p.as_slice(), record, segment.windows[0].start, &starts[0]).1
-        };
-        self.plan.iter().zip(&point.starts).map(of).sum()
     }
 }
 

@@ -1,6 +1,6 @@
 //! Noise and unexplained motion, estimated together with the parameters by restricted maximum likelihood.
 
-use super::elimination::{ReducedForm, eliminate};
+use super::elimination::{ReducedForm, eliminate_forward};
 use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
 
@@ -19,7 +19,7 @@ pub fn noise_determinant(segments: &[Vec<LinearisedWindow>], v: &NoiseModel) -> 
 
 /// The deviance with the parameters integrated out too, which the variances are chosen by.
 fn restricted(segments: &[Vec<LinearisedWindow>], v: &NoiseModel, parameters: usize) -> f64 {
-    let Some(e) = eliminate(segments, v, parameters) else { return f64::INFINITY };
+    let Some(e) = eliminate_forward(segments, v, parameters) else { return f64::INFINITY };
     let (mut information, _) = e.normal();
     // A direction without information is left out of the determinant's changes by a weak prior.
     (0..parameters).for_each(|i| information[(i, i)] *= 1.0 + 1e-10);

@@ -363,6 +363,7 @@ mod tests {
             axes: DMatrix::zeros(0, 0),
             duration: 1.0,
             mismatch: vec![],
+            initial_state_dof: 0.0,
         };
         let segment = |windows: usize| vec![window(); windows];
         let [first, second, other] = [4, 2, 3].map(segment);

@@ -23,7 +23,7 @@ use std::ops::Range;
 
 /// Gains smaller than this are none.
 const NONE: f64 = 0.02;
-const EFFORT: Effort = Effort { passes: 12, enough: 1e-4, variances: false, ends_where_lost: false };
+const EFFORT: Effort = Effort { passes: 12, variances: false, ..Effort::FULL };
 
 /// Data sets that are drawn: a few, and more where these do not decide and are fitted quickly (Besag & Clifford, 1991).
 const DRAWS: [usize; 2] = [19, 99];

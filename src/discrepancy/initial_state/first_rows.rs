@@ -55,12 +55,7 @@ impl<'a> Rows<'a> {
     }
 
     /// What a model with such values that begins with a pose and hidden states misses of each row and column, in units
-    /// of the noise.
-    pub fn missed(&self, p: &[f64], begin: &[f64]) -> Option<DVector<f64>> {
-        self.side_by_side([p], [begin]).pop()?
-    }
-
-    /// As [`Rows::missed`], of as many values and beginnings as there are.
+    /// of the noise; of as many values and beginnings as there are.
     pub fn all_missed<'t>(&self, tries: impl Iterator<Item = (&'t [f64], &'t [f64])>) -> Option<Vec<DVector<f64>>> {
         let tries: Vec<(&[f64], &[f64])> = tries.collect();
         let mut found = Vec::with_capacity(tries.len());
@@ -99,6 +94,13 @@ mod tests {
     use super::*;
     use crate::discrepancy::fixtures::{equations, logged};
     use std::f64::consts::TAU;
+
+    impl Rows<'_> {
+        /// One alone.
+        fn missed(&self, p: &[f64], begin: &[f64]) -> Option<DVector<f64>> {
+            self.side_by_side([p], [begin]).pop()?
+        }
+    }
 
     /// Rows every sixteenth of a second, of which sums are exact.
     fn sixteenths(rows: u32) -> Vec<f64> {

@@ -108,11 +108,9 @@ impl<'a> Prior<'a> {
 
     fn at(&self, begin: Vec<f64>) -> Option<Missed> {
         let rows = self.rows;
-        let residuals = rows.missed(rows.p, &begin)?;
-        let jacobian = slopes(
+        let (residuals, jacobian) = with_slopes(
             &begin,
             |i| self.deviations[i].min(1.0),
-            &residuals,
             |tries| rows.all_missed(tries.iter().map(|begin| (rows.p, &begin[..]))),
         )?;
         let mut information = jacobian.tr_mul(&jacobian);
@@ -154,11 +152,9 @@ fn fitted(rows: &Rows, carried: &[f64], pose: &[f64], spread: &[f64]) -> Option<
     let covariance = factors.inverse();
     let share = DMatrix::from_fn(h, h, |i, j| covariance[(m + i, m + j)] * prior.information[m + j]);
     // Where the sum is least its slope is zero whatever the values: they move the states by −(JᵀJ + P)⁻¹·Jᵀ·∂r/∂p.
-    let residuals = rows.missed(rows.p, &begin)?;
-    let by_values = slopes(
+    let (_, by_values) = with_slopes(
         rows.p,
         |j| rows.p[j].abs().max(SMALL),
-        &residuals,
         |tries| rows.all_missed(tries.iter().map(|p| (&p[..], &begin[..]))),
     )?;
     let moved = -factors.solve(&here.jacobian.tr_mul(&by_values));
@@ -166,21 +162,23 @@ fn fitted(rows: &Rows, carried: &[f64], pose: &[f64], spread: &[f64]) -> Option<
     begin.iter().all(|z| z.is_finite()).then(|| Posterior { z: begin.split_off(m), share, by_values })
 }
 
-/// What numbers do to what is missed: each is moved by a small share of its size, and nothing else.
-fn slopes(
+/// What is missed at some numbers, and what each of them does to it: one is moved by a small share of its size, and
+/// nothing else. All are tried side by side.
+fn with_slopes(
     at: &[f64],
     size: impl Fn(usize) -> f64,
-    here: &DVector<f64>,
     missed: impl Fn(&[Vec<f64>]) -> Option<Vec<DVector<f64>>>,
-) -> Option<DMatrix<f64>> {
+) -> Option<(DVector<f64>, DMatrix<f64>)> {
     let step = |i: usize| TRIED * size(i);
     let beside = |i: usize| at.iter().enumerate().map(|(j, x)| if i == j { x + step(i) } else { *x }).collect();
-    let tries: Vec<Vec<f64>> = (0..at.len()).map(beside).collect();
+    let tries: Vec<Vec<f64>> = std::iter::once(at.to_vec()).chain((0..at.len()).map(beside)).collect();
+    let mut found = missed(&tries)?;
+    let here = found.remove(0);
     let mut slopes = DMatrix::zeros(here.len(), at.len());
-    for (i, missed) in missed(&tries)?.into_iter().enumerate() {
-        slopes.set_column(i, &((missed - here) / step(i)));
+    for (i, missed) in found.into_iter().enumerate() {
+        slopes.set_column(i, &((missed - &here) / step(i)));
     }
-    Some(slopes)
+    Some((here, slopes))
 }
 
 #[cfg(test)]

@@ -24,7 +24,7 @@ const MOST_OF_IT: f64 = 0.5;
 const MOST_RUNS: usize = 6;
 /// How often the drift is doubled: up to some seconds.
 const MOST_DOUBLINGS: usize = 7;
-const EFFORT: Effort = Effort { passes: 6, enough: 0.1, variances: true, ends_where_lost: false };
+const EFFORT: Effort = Effort { passes: 6, enough: 0.1, ..Effort::FULL };
 
 /// How the clock of the inputs runs against the clock of the measurements.
 #[derive(Clone, Debug)]

@@ -17,7 +17,9 @@ const SAME: f64 = 1.0;
 /// Other effects in the scope of one that are fitted, at most.
 const RIVALS: usize = 4;
 /// The effort of a fit by which scopes are compared.
-const QUICK: Effort = Effort { passes: 3, ..Effort::SCREENING };
+const QUICK: Effort = Effort { passes: 3, begins_near: true, ..Effort::SCREENING };
+/// A gain that counts while they are moved, as a share of what the effect explains: its edges are not told any better.
+const COUNTS: f64 = 1e-4;
 /// The steps by which the numbers of a scope are moved: shares of a window, or of a fifth of their size.
 const STEPS: [f64; 3] = [1.0, 0.4, 0.15];
 /// Steps of one number one way that change nothing, at most.
@@ -71,7 +73,7 @@ impl Search<'_> {
         // An edge in the wrong place hides a part of what a scope explains, and not most of it.
         let rounds = if explains_half(&best, base) { ROUNDS } else { 0 };
         for _ in 0..rounds {
-            let moved = self.with_scope_moved(&best, own)?;
+            let moved = self.with_scope_moved(base, &best, own)?;
             best = self.refit(&moved)?.unwrap_or(moved);
             if explains_most(&best, base) {
                 best = self.with_scope_settled(best, own)?;
@@ -94,7 +96,9 @@ impl Search<'_> {
     }
 
     /// The fit with the numbers of an effect's scope moved one after another, by ever smaller steps, at its variances.
-    fn with_scope_moved(&self, fit: &Fit, of: &Applied) -> Result<Fit> {
+    fn with_scope_moved(&self, base: &Fit, fit: &Fit, of: &Applied) -> Result<Fit> {
+        let enough = QUICK.enough.max(COUNTS * (base.deviance - fit.deviance));
+        let effort = Effort { passes: 1, enough, ..QUICK };
         let begun = self.problem.fit(&fit.model, &fit.window_states, &fit.variances, Effort::SCREENING)?;
         let Some(mut best) = begun else { return Ok(fit.clone()) };
         let Some(scope) = find(&best.model, of).and_then(|a| a.effect.scope) else { return Ok(best) };
@@ -104,7 +108,7 @@ impl Search<'_> {
             for k in 0..scope.movable().len() {
                 for sign in [1.0, -1.0] {
                     for _ in 0..MOST_MOVES {
-                        let Some(better) = self.further(&best, of, k, sign * share, across)? else { break };
+                        let Some(better) = self.further(&best, of, (k, sign * share), across, effort)? else { break };
                         best = better;
                     }
                 }
@@ -115,13 +119,20 @@ impl Search<'_> {
 
     /// The fit with one number of a scope some steps further, where that is better. Where a vehicle stands still, or hardly
     /// does what the effect acts on, steps change little or nothing, and what is better lies `across`.
-    fn further(&self, best: &Fit, of: &Applied, k: usize, step: f64, across: u32) -> Result<Option<Fit>> {
+    fn further(
+        &self,
+        best: &Fit,
+        of: &Applied,
+        (k, step): (usize, f64),
+        across: u32,
+        effort: Effort,
+    ) -> Result<Option<Fit>> {
         for steps in 1..=MOST_STEPS {
-            let Some(there) = self.beside(best, of, k, f64::from(steps) * step)? else { break };
-            if there.deviance < best.deviance - QUICK.enough {
+            let Some(there) = self.varied(best, of, k, f64::from(steps) * step, effort)? else { break };
+            if there.deviance < best.deviance - effort.enough {
                 return Ok(Some(there));
             }
-            if steps >= across && there.deviance > best.deviance + QUICK.enough {
+            if steps >= across && there.deviance > best.deviance + effort.enough {
                 break;
             }
         }
@@ -136,7 +147,7 @@ impl Search<'_> {
             let numbers = find(&begin.model, of).and_then(|a| a.effect.scope).map_or(0, |s| s.movable().len());
             let mut best = begin.clone();
             for k in 0..numbers {
-                let beside = |by: f64| self.beside(&best, of, k, by);
+                let beside = |by: f64| self.varied(&best, of, k, by, QUICK);
                 let (Some(less), Some(more)) = (beside(-width)?, beside(width)?) else { continue };
                 let (slope, bend) =
                     (more.deviance - less.deviance, more.deviance + less.deviance - 2.0 * best.deviance);
@@ -161,11 +172,6 @@ impl Search<'_> {
     }
 
     /// The fit with one number of a scope moved by a share of its own step, at the same variances.
-    fn beside(&self, fit: &Fit, of: &Applied, k: usize, by: f64) -> Result<Option<Fit>> {
-        self.varied(fit, of, k, by, QUICK)
-    }
-
-    /// The same by some effort.
     pub(super) fn varied(&self, fit: &Fit, of: &Applied, k: usize, by: f64, effort: Effort) -> Result<Option<Fit>> {
         let Some(mut own) = find(&fit.model, of) else { return Ok(None) };
         let Some(scope) = own.effect.scope.clone() else { return Ok(None) };

@@ -21,6 +21,8 @@ pub struct LinearisedWindow {
     pub duration: f64,
     /// End of the window minus the next start, in the body's axes.
     pub mismatch: Vec<f64>,
+    /// How many numbers its rows were asked for about how the hidden states begin; of the first window of a segment.
+    pub initial_state_dof: f64,
 }
 
 impl LinearisedWindow {

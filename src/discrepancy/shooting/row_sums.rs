@@ -4,6 +4,7 @@ use crate::discrepancy::initial_state::slow_manifold::FORGOTTEN;
 use crate::discrepancy::record::angle::wrapped;
 use crate::discrepancy::record::run_record::{Channel, Record};
 use crate::discrepancy::shooting::block_sums::{Blocks, Run};
+use crate::discrepancy::shooting::hidden_start::HiddenStart;
 use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
 use crate::formula::Kernel;
 use crate::model::{observation, state};
@@ -14,8 +15,10 @@ use std::ops::Range;
 
 /// What is summed over the rows of L windows.
 pub(crate) struct NormalEquations<const L: usize> {
-    /// Columns (z, p, 1).
+    /// Columns (z, p, 1), and before the last those of the start of hidden states, if any.
     width: usize,
+    /// How many of them are (z, p).
+    columns: usize,
     channels: Vec<Channel>,
     /// How many quantities are measured beside the pose, and the first component of their noise.
     quantities: usize,
@@ -28,13 +31,15 @@ pub(crate) struct NormalEquations<const L: usize> {
 }
 
 impl<const L: usize> NormalEquations<L> {
-    pub fn new(columns: usize, record: &Record) -> Self {
+    /// Sums of as many columns, and of some more for the start of hidden states.
+    pub fn new(columns: usize, hidden_starts: usize, record: &Record) -> Self {
         let channels = record.channels();
-        let width = columns + 1;
+        let width = columns + hidden_starts + 1;
         let first_quantity = observation::sensor_noise(record.freedom().clone()).len();
         let (quantities, kinds) = (record.quantities.len(), first_quantity + record.freedom().quantities.len());
         let mut sums = Self {
             width,
+            columns,
             quantities,
             first_quantity,
             gram: vec![],
@@ -60,18 +65,18 @@ impl<const L: usize> NormalEquations<L> {
         self.runs.fill([Run::default(); L]);
     }
 
-    /// The sums of one window; `None` where they, or its end, are undefined.
-    pub fn linear(
+    /// The sums of one window, by (z, p, 1); `None` where they, or its end, are undefined.
+    pub(super) fn linear(
         &self,
         l: usize,
         record: &Record,
         rows: &Range<usize>,
-        arc: &StateSensitivity,
+        (arc, start): (&StateSensitivity, &HiddenStart),
         next: Option<&Vec<f64>>,
     ) -> Option<LinearisedWindow> {
         let visible = visible_of(record);
         let kinds = 0..self.gram.len();
-        let gram: Vec<DMatrix<f64>> = kinds.clone().map(|kind| self.gram_of(kind, l)).collect();
+        let gram: Vec<DMatrix<f64>> = kinds.clone().map(|kind| start.in_gram(self.gram_of(kind, l))).collect();
         if !arc.z.iter().chain(&arc.s).all(|x| x.is_finite()) || !gram.iter().all(|g| g.iter().all(|x| x.is_finite())) {
             return None;
         }
@@ -87,7 +92,7 @@ impl<const L: usize> NormalEquations<L> {
                     .map(|(node, d)| if node.is_angle { wrapped(d) } else { d })
                     .collect();
                 let mismatch = axes.tr_mul(&nalgebra::DVector::from_column_slice(&c));
-                (Some(backwards(&arc.s, &c, visible, self.width - 1)?), mismatch.as_slice().to_vec())
+                (Some(backwards(&arc.s, &c, visible, self.columns)?), mismatch.as_slice().to_vec())
             }
             None => (None, vec![]),
         };
@@ -99,6 +104,7 @@ impl<const L: usize> NormalEquations<L> {
             axes,
             duration,
             mismatch,
+            initial_state_dof: 0.0,
         })
     }
 
@@ -164,7 +170,7 @@ impl<const L: usize> NormalEquations<L> {
         let visible = visible_of(record);
         for c in 0..self.channels.len() {
             let channel = self.channels[c];
-            output_line(y, channel.output, visible, k, s, &mut self.line);
+            output_line(y, channel.output, visible, self.columns, s, &mut self.line[..k]);
             let measured = &record.columns[channel.column];
             let (kind, rest) = (channel.noise, &mut self.line[k]);
             for l in 0..L {
@@ -238,19 +244,19 @@ pub(crate) fn visible_of(record: &Record) -> usize {
     nodes_of(record).len()
 }
 
-/// One row of J: ∂y/∂z·S plus the direct dependence of the sensor on p.
+/// One row of J: ∂y/∂z·S plus the direct dependence of the sensor on the first columns, (z, p).
 #[inline(always)]
 fn output_line<const L: usize>(
     y: &[[f64; L]],
     output: usize,
     visible: usize,
-    k: usize,
+    columns: usize,
     s: &[[f64; L]],
     line: &mut [[f64; L]],
 ) {
     let outputs = visible;
-    let row = &y[outputs + output * k..outputs + (output + 1) * k];
-    let line = &mut line[..k];
+    let row = &y[outputs + output * columns..outputs + (output + 1) * columns];
+    let k = line.len();
     line.fill([0.0; L]);
     for (j, slope) in row[..visible].iter().enumerate() {
         let mut none = true;

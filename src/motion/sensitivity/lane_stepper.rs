@@ -14,11 +14,11 @@ const TURN_PER_STEP: f64 = 0.1;
 /// Largest step in units of the shortest time constant.
 const STEP_PER_TIME_CONSTANT: f64 = 0.35;
 /// Most equal steps between two rows for the sake of a time constant; of a shorter one the limit is followed.
-const MAX_STEPS: f64 = 64.0;
+const MAX_STEPS: f64 = 12.0;
 /// Of a vehicle that forces move more steps than these are left to collocation.
 const FEW: f64 = 6.0;
 /// The longest steps that follow a limit, as a share of the time between two rows.
-const MAX_LIMIT_STEP: f64 = 1.0 / 32.0;
+const MAX_LIMIT_STEP: f64 = 1.0 / 2.0;
 /// How many of the steps for the sake of turning are one of those that follow a limit, which take thrice the rates.
 const TURNS_PER_STEP: f64 = 3.0;
 /// Most steps between two rows for the sake of turning.
@@ -76,6 +76,19 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
             ahead: [0; L],
             isa: Isa::best(),
         }
+    }
+
+    /// With columns behind those of the parameters by which states hang on where the hidden ones start.
+    pub fn with_hidden_starts(mut self) -> Self {
+        self.motion.ask_for_hidden_starts();
+        self
+    }
+
+    /// With these columns alone: all others stay as they are.
+    pub fn by_hidden_starts(mut self) -> Self {
+        self.motion.ask_for_hidden_starts();
+        self.motion.first = self.columns() - self.motion.hidden_starts;
+        self
     }
 
     /// Columns of the sensitivities.
@@ -380,29 +393,56 @@ mod tests {
     /// 0.35 of a time constant at most, or a tenth of a radian where that is shorter.
     #[test]
     fn steps_follow_a_time_constant() {
-        let divided = divided([1.0, 9.3], Some(0.1), [1.0, 1.0]);
-        assert_eq!(divided.equal, [29.0, 93.0]);
+        let divided = divided([1.0, 9.3], Some(0.3), [1.0, 1.0]);
+        assert_eq!(divided.equal, [10.0, 93.0]);
         assert!(divided.forgotten.is_none());
     }
 
-    /// Sixty-four steps are the most that are made for a time constant; beyond, its limit is followed in steps of a
-    /// thirty-second of the span or of three tenths of a radian.
+    /// Twelve steps are the most that are made for a time constant; beyond, its limit is followed in steps of half the span
+    /// or of three tenths of a radian.
     #[test]
     fn a_limit_is_followed_where_a_time_constant_is_short() {
-        // 63.5 steps, and 64.4.
+        // 11.9 steps, and 12.06.
         let divided_at = |yaw_rate, tau: f64| divided([1.0, yaw_rate], Some(tau), [0.2, -0.2]);
-        let divided = divided_at(800.0, 0.009);
-        assert_eq!(divided.equal, [64.0, 1600.0]);
+        let divided = divided_at(800.0, 0.048);
+        assert_eq!(divided.equal, [12.0, 1600.0]);
         assert!(divided.forgotten.is_none());
         for (yaw_rate, turns) in [(800.0, 1600.0), (1e9, 4096.0)] {
-            let divided = divided_at(yaw_rate, 0.00887);
+            let divided = divided_at(yaw_rate, 0.0474);
             assert_eq!(divided.equal, [0.0; 2]);
             let spans = divided.forgotten.unwrap();
             assert_eq!((spans.from, spans.length), ([0.0, 1.0], [0.2, 0.8 - 1.0]));
             let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-12 * b, "{a} {b}");
-            spans.first.into_iter().for_each(|first| near(first, 0.35 * 0.00887));
-            near(spans.longest[0], 0.2 / 32.0);
+            spans.first.into_iter().for_each(|first| near(first, 0.35 * 0.0474));
+            near(spans.longest[0], 0.2 / 2.0);
             near(spans.longest[1], 0.2 * 3.0 / turns);
+        }
+    }
+
+    /// Where a limit is followed a few steps do what thousands do, from states off the limit, and their sensitivities too.
+    #[test]
+    fn a_few_steps_along_a_limit_do_what_many_do() {
+        let model = |tau: f64| {
+            let slides = Applied::new(effects::named("cornering-creep").unwrap(), None, vec![tau]);
+            Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap().with_effect(slides.freed())
+        };
+        let columns = [vec![2.0, 2.6], vec![0.8, -0.4]];
+        let signals = Signals::new(&[0.0, 0.1], &columns, Timing::Sample);
+        for tau in [0.02, 0.01, 3e-3, 5e-4, 1e-5] {
+            let equations = model(tau).free_equations().unwrap();
+            let end = |pieces: u32| {
+                let p = [tau];
+                let mut stepper = crate::motion::Stepper::new(&equations, &signals, &p);
+                // Off its limit by as much as a kink of the inputs leaves it.
+                let mut arc = stepper.start(&[0.0, 0.0, 0.2, tau * (0.8 + 10.0 * tau)], None);
+                let at = |i: u32| 0.1 * f64::from(i) / f64::from(pieces);
+                (0..pieces).for_each(|i| stepper.advance(&mut arc, at(i), at(i + 1)));
+                arc
+            };
+            let (few, many) = (end(1), end(20_000));
+            let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            let (states, slopes) = (apart(&few.z, &many.z), apart(&few.s, &many.s));
+            assert!(states < 3e-7 && slopes < 5e-4, "{tau}: {states} {slopes}");
         }
     }
 

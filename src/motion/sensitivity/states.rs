@@ -15,17 +15,6 @@ impl StateSensitivity {
     pub(crate) fn hidden(self, visible: usize) -> Self {
         Self { z: self.z[visible..].to_vec(), s: self.s }
     }
-
-    /// Whether the hidden states and their sensitivities to parameters are the same bits.
-    pub(crate) fn is_same(&self, other: &Self, visible: usize) -> bool {
-        let k = self.s.len() / (visible + self.z.len());
-        let rows = |a: &Self| a.s[visible * k..].chunks(k).map(|r| bits(&r[visible..])).collect::<Vec<_>>();
-        bits(&self.z) == bits(&other.z) && rows(self) == rows(other)
-    }
-}
-
-fn bits(values: &[f64]) -> Vec<u64> {
-    values.iter().map(|v| v.to_bits()).collect()
 }
 
 /// L states and their sensitivities; S is stored row by row, with [`Equations::visible`] + p columns, or empty when it is

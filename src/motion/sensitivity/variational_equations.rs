@@ -21,6 +21,8 @@ pub(crate) struct VariationalEquations<'a, const L: usize> {
     pub still: usize,
     /// Columns of S before this one stay as they are.
     pub first: usize,
+    /// How many columns behind those of the parameters belong to the start of hidden states.
+    pub hidden_starts: usize,
     /// Which states each rate depends on.
     read_by: Vec<Vec<usize>>,
 }
@@ -65,13 +67,19 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
             delayed: delay[1 + equations.own_delays..].as_flattened().iter().any(|slope| *slope != 0.0),
             still: equations.still(),
             first: equations.unread(),
+            hidden_starts: 0,
             read_by: equations.read_by(),
         }
     }
 
-    /// Columns of the sensitivities.
+    /// Gives the sensitivities columns by the start of the hidden states.
+    pub fn ask_for_hidden_starts(&mut self) {
+        self.hidden_starts = self.equations.n() - self.equations.visible;
+    }
+
+    /// Columns of the sensitivities: by the visible start, the parameters and, where they are asked for, the hidden start.
     pub fn columns(&self) -> usize {
-        self.equations.visible + self.equations.free.len()
+        self.equations.visible + self.equations.free.len() + self.hidden_starts
     }
 
     /// How many entries of S, the first ones, stay as they are; none where S is not asked for.
@@ -116,7 +124,7 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
         for (slope, s) in row[..n].iter().zip(s.chunks_exact(k)) {
             add(slopes, slope, s);
         }
-        self.add_by_parameters(row, n, &mut slopes[k - self.delay_slopes.len()..]);
+        self.add_by_parameters(row, n, &mut slopes[self.equations.visible..]);
         all[i]
     }
 
@@ -167,7 +175,7 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
         if s.is_empty() {
             return self.equations.rates_here(&mut self.workspace, z, &self.lookup.value, &mut rate.z);
         }
-        let (n, p, k) = (z.len(), self.delay_slopes.len(), self.columns());
+        let (n, k) = (z.len(), self.columns());
         rate.z.copy_from_slice(&self.equations.jacobian_here(&mut self.workspace, z, &self.lookup.value)[..n]);
         for (i_row, read) in self.read_by.iter().enumerate().skip(self.still) {
             let row = self.slopes_of(i_row, n);
@@ -176,7 +184,9 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
             for j in read {
                 add(out, &row[*j], &s[j * k + self.first..(j + 1) * k]);
             }
-            self.add_by_parameters(self.slopes_of(i_row, n), n, &mut out[k - p - self.first..]);
+            if let Some(by_parameters) = self.equations.visible.checked_sub(self.first) {
+                self.add_by_parameters(self.slopes_of(i_row, n), n, &mut out[by_parameters..]);
+            }
         }
     }
 

@@ -286,7 +286,7 @@ fn announced_deviations_are_those_of_fits() {
     const TIMES: u64 = 24;
     let (file, first) = driven(&drive(5));
     let announced = checked(&file, std::slice::from_ref(&first));
-    let effort = Effort { passes: 15, enough: 1e-4, variances: true, ends_where_lost: false };
+    let effort = Effort { passes: 15, ..Effort::FULL };
     for (id, name) in
         [("rotation-creep", "e_rc"), ("yaw-rate-bias", "bias"), ("input-delay", "delay"), ("lever-arm", "a")]
     {

@@ -5,7 +5,7 @@ use super::states::{LaneStates, take};
 use super::variational_equations::VariationalEquations;
 
 /// How much longer each step is than the one before: what a span begins with is forgotten soon.
-const STEP_GROWTH: f64 = 1.5;
+const STEP_GROWTH: f64 = 1.35;
 /// The shortest first step, as a share of the span.
 const MIN_FIRST_STEP: f64 = 1e-6;
 

@@ -18,7 +18,7 @@ const MAX_STEPS: f64 = 12.0;
 /// Of a vehicle that forces move more steps than these are left to collocation.
 const FEW: f64 = 6.0;
 /// The longest steps that follow a limit, as a share of the time between two rows.
-const MAX_LIMIT_STEP: f64 = 1.0 / 2.0;
+const MAX_LIMIT_STEP: f64 = 1.0 / 8.0;
 /// How many of the steps for the sake of turning are one of those that follow a limit, which take thrice the rates.
 const TURNS_PER_STEP: f64 = 3.0;
 /// Most steps between two rows for the sake of turning.
@@ -398,7 +398,7 @@ mod tests {
         assert!(divided.forgotten.is_none());
     }
 
-    /// Twelve steps are the most that are made for a time constant; beyond, its limit is followed in steps of half the span
+    /// Twelve steps are the most that are made for a time constant; beyond, its limit is followed in steps of an eighth of the span
     /// or of three tenths of a radian.
     #[test]
     fn a_limit_is_followed_where_a_time_constant_is_short() {
@@ -414,7 +414,7 @@ mod tests {
             assert_eq!((spans.from, spans.length), ([0.0, 1.0], [0.2, 0.8 - 1.0]));
             let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-12 * b, "{a} {b}");
             spans.first.into_iter().for_each(|first| near(first, 0.35 * 0.0474));
-            near(spans.longest[0], 0.2 / 2.0);
+            near(spans.longest[0], 0.2 / 8.0);
             near(spans.longest[1], 0.2 * 3.0 / turns);
         }
     }

@@ -146,6 +146,7 @@ impl Model {
         let plain = compile(&graph, &rates)?;
         let jacobian = with_derivatives(&mut graph, &rates, by);
         let read = live(&graph, &jacobian, rates.len());
+        let heading_comes_first = self.forced.is_none() && heading_comes_first(&graph, &rates, &states);
         let is_linear_in_hidden = is_linear(&mut graph, &jacobian, &states[visible..], [visible, by.len()]);
         let carried = match visible < states.len() {
             true => carried(&mut graph, &jacobian, &read, [visible, states.len(), by.len()]),
@@ -187,6 +188,7 @@ impl Model {
             quantity_count: self.measured.len(),
             delay,
             own_delays,
+            heading_comes_first,
             is_linear_in_hidden,
             carried: None,
         };
@@ -210,6 +212,15 @@ fn with_derivatives(graph: &mut Graph, nodes: &[NodeId], by: &[Symbol]) -> Vec<N
 /// Which of the derivatives that follow so many rates are not zero by their formula.
 fn live(graph: &Graph, nodes: &[NodeId], rates: usize) -> Vec<usize> {
     (rates..nodes.len()).filter(|k| !graph.is_zero(nodes[*k])).collect()
+}
+
+/// Whether states are a pose alone, the rate of its heading made of no state, and those of its place of the heading at most.
+fn heading_comes_first(graph: &Graph, rates: &[NodeId], states: &[Symbol]) -> bool {
+    let reads = |i: usize, j: usize| graph.symbols_of(rates[i]).contains(&states[j]);
+    let direction = state::DIRECTION;
+    states.len() == 3
+        && (0..3).all(|j| !reads(direction, j))
+        && state::PLACE.iter().all(|i| state::PLACE.iter().all(|j| !reads(*i, *j)))
 }
 
 /// Whether the rates behind the first ones, followed by so many derivatives each, are linear in some of the states.

@@ -42,6 +42,8 @@ pub struct Equations {
     pub(super) delay: Lanes,
     /// How many inputs have a delay of their own beside that of all: none, or all that are logged.
     pub(crate) own_delays: usize,
+    /// Whether there is a pose alone, its heading by the inputs and its place by heading and inputs.
+    pub(crate) heading_comes_first: bool,
     /// Whether the rates of the hidden states are linear in these, by their formulas.
     pub(crate) is_linear_in_hidden: bool,
     /// The motion of the hidden states alone, where it does not ask for the pose.
@@ -73,6 +75,24 @@ pub struct Workspace<const L: usize = 1> {
     results: Rows<L>,
     /// What is measured beside the pose, and its derivatives.
     quantity_values: Rows<L>,
+}
+
+/// The rates of L states at fixed parameters, without their derivatives.
+pub(crate) struct RatesAlone<'a, const L: usize> {
+    rates: &'a Lanes,
+    memory: Memory<L>,
+}
+
+impl<const L: usize> RatesAlone<'_, L> {
+    /// dz/dt, inlined into a kernel of the caller.
+    #[inline(always)]
+    pub fn at(&mut self, z: &[[f64; L]], u: &[[f64; L]], rates: &mut [[f64; L]]) {
+        load(&mut self.memory, z, u);
+        self.rates.run_here(&mut self.memory);
+        for (k, rate) in rates.iter_mut().enumerate() {
+            *rate = defined(self.rates.output(&self.memory, k));
+        }
+    }
 }
 
 impl Equations {
@@ -147,6 +167,18 @@ impl Equations {
             results: Rows::new(self.outputs.outputs().max(self.delay.outputs())),
             quantity_values: Rows::new(self.quantities.outputs()),
         }
+    }
+
+    /// What [`Equations::delay`] gives, where nothing else is asked for.
+    pub(crate) fn delay_alone(&self, p: &[f64]) -> Vec<f64> {
+        let mut memory = self.memory(&self.delay, [p]);
+        self.delay.run_here(&mut memory);
+        (0..self.delay.outputs()).map(|k| defined(self.delay.output(&memory, k))[0]).collect()
+    }
+
+    /// The rates alone, of L states, each with its own parameters.
+    pub(crate) fn rates_alone<const L: usize>(&self, p: [&[f64]; L]) -> RatesAlone<'_, L> {
+        RatesAlone { rates: &self.rates, memory: self.memory(&self.rates, p) }
     }
 
     fn memory<const L: usize>(&self, lanes: &Lanes, p: [&[f64]; L]) -> Memory<L> {

@@ -29,6 +29,7 @@ mod vehicle_model;
 
 pub use constraints::mechanism;
 pub(crate) use equations::Derived;
+pub(crate) use equations::RatesAlone;
 pub use equations::{Equations, Workspace};
 pub use file::{WITH_TRAILERS, known, known_on};
 pub use terms::{COEFFICIENT, PREFIX, is_term};

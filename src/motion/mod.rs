@@ -6,6 +6,7 @@ mod ensemble;
 pub mod inputs;
 #[doc(hidden)]
 pub mod integrators;
+mod pose_quadrature;
 #[doc(hidden)]
 pub mod sensitivity;
 mod simulate;

@@ -1,6 +1,7 @@
 //! Trajectories of a model and their exact sensitivities at given times.
 
 use super::integrators::radau::{Differences, Retimed, Slopes};
+use super::pose_quadrature::PoseQuadrature;
 use super::{Drive, Integrator};
 use crate::error::{Error, Result};
 use crate::model::{Derived, Equations};
@@ -54,23 +55,33 @@ pub(crate) fn simulate_by(
     see: &mut Look,
 ) -> Result<()> {
     fits(equations, p, inputs, z0)?;
-    let mut w = equations.workspace(p);
-    let (delay, own) = delays(equations, equations.delay(&mut w));
+    let mut rates_at = equations.rates_alone([p]);
+    let (delay, own) = delays(equations, &equations.delay_alone(p));
     let knots = knots(equations, inputs, delay, &own);
+    let route = Route { knots: &knots, delay, start: z0, times };
     if !equations.derived.is_empty() || !own.is_empty() {
         let (mut u, mut slope) = (vec![0.0; equations.inputs.len()], vec![0.0; equations.inputs.len()]);
         let rhs = |look_up: f64, z: &[f64], rates: &mut [f64]| {
             all_inputs(equations, inputs, look_up, &own, &mut u, &mut slope);
-            equations.rates(&mut w, z, &u, rates);
+            rates_at.at(z.as_chunks().0, u.as_chunks().0, rates.as_chunks_mut().0);
         };
-        return Route { knots: &knots, delay, start: z0, times }.follow(integrator, rhs, Differences, see);
+        return route.follow(integrator, rhs, Differences, see);
     }
     let (mut u, mut values) = (vec![0.0; inputs.channels()], inputs.values());
     let rhs = |look_up: f64, z: &[f64], rates: &mut [f64]| {
         values(look_up, &mut u);
-        equations.rates(&mut w, z, &u, rates);
+        rates_at.at(z.as_chunks().0, u.as_chunks().0, rates.as_chunks_mut().0);
     };
-    Route { knots: &knots, delay, start: z0, times }.follow(integrator, rhs, Differences, see)
+    match PoseQuadrature::of(equations, p, integrator) {
+        Some(mut quadrature) => {
+            let mut side_by_side = inputs.values_at();
+            let quick = |span: (f64, f64), look_up: &dyn Fn(f64) -> f64, y: &[f64]| {
+                quadrature.through(&mut side_by_side, look_up, span, y)
+            };
+            route.follow_by(quick, integrator, rhs, Differences, see)
+        }
+        None => route.follow(integrator, rhs, Differences, see),
+    }
 }
 
 /// The states at `times` and their derivatives with respect to (z0, p), from the variational equations
@@ -266,6 +277,18 @@ impl Route<'_> {
     fn follow(
         &self,
         integrator: &Integrator,
+        rhs: impl FnMut(f64, &[f64], &mut [f64]),
+        slopes: impl Slopes,
+        see: &mut Look,
+    ) -> Result<()> {
+        self.follow_by(|_, _, _| None, integrator, rhs, slopes, see)
+    }
+
+    /// The same by a quicker way, given a span, how to look inputs up and the state, wherever it gives an end.
+    fn follow_by(
+        &self,
+        mut quick: impl FnMut((f64, f64), &dyn Fn(f64) -> f64, &[f64]) -> Option<Vec<f64>>,
+        integrator: &Integrator,
         mut rhs: impl FnMut(f64, &[f64], &mut [f64]),
         mut slopes: impl Slopes,
         see: &mut Look,
@@ -283,6 +306,10 @@ impl Route<'_> {
                 let low = if after == 0 { f64::NEG_INFINITY } else { knots[after - 1].next_up() };
                 let high = knots.get(after).map_or(f64::INFINITY, |k| k.next_down());
                 let look_up = |t: f64| (t - delay).max(low).min(high);
+                if let Some(end) = quick((from, to), &look_up, &y) {
+                    y = end;
+                    continue;
+                }
                 let mut rhs = |t: f64, y: &[f64], rates: &mut [f64]| rhs(look_up(t), y, rates);
                 let mut slopes = Retimed { slopes: &mut slopes, time: look_up, factor: 1.0 };
                 y = walk.span(&mut rhs, &mut slopes, from, to, &y)?;

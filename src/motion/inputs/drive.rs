@@ -17,6 +17,16 @@ pub trait Drive {
         let mut slope = vec![0.0; self.channels()];
         move |t, value| self.at(t, value, &mut slope)
     }
+    /// The same of L times side by side.
+    fn values_at<const L: usize>(&self) -> impl FnMut(&[f64; L], &mut [[f64; L]]) {
+        let (mut values, mut one) = (self.values(), vec![0.0; self.channels()]);
+        move |t, out| {
+            for (l, t) in t.iter().enumerate() {
+                values(*t, &mut one);
+                out.iter_mut().zip(&one).for_each(|(out, value)| out[l] = *value);
+            }
+        }
+    }
 }
 
 impl Drive for Signals {
@@ -104,6 +114,16 @@ impl Drive for Formulas {
             *memory.input(0) = [t];
             self.values.run(&mut memory, Isa::default());
             value.iter_mut().enumerate().for_each(|(k, value)| *value = self.values.output(&memory, k)[0]);
+        }
+    }
+    fn values_at<const L: usize>(&self) -> impl FnMut(&[f64; L], &mut [[f64; L]]) {
+        let (mut memory, isa) = (self.values.memory::<L>(), Isa::best());
+        self.constants.iter().enumerate().for_each(|(i, value)| *memory.input(1 + i) = [*value; L]);
+        self.values.begin(&mut memory, Isa::default());
+        move |t, value| {
+            *memory.input(0) = *t;
+            self.values.run(&mut memory, isa);
+            value.iter_mut().enumerate().for_each(|(k, value)| *value = *self.values.output(&memory, k));
         }
     }
     fn knots(&self) -> &[f64] {

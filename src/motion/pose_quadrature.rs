@@ -46,7 +46,7 @@ impl<'a> PoseQuadrature<'a> {
     pub fn of(equations: &'a Equations, p: &[f64], instead: &Integrator) -> Option<Self> {
         let Integrator { method, rtol, atol, max_steps } = *instead;
         let sound = atol.is_finite() && atol > 0.0 && rtol.is_finite() && rtol >= 0.0;
-        (method == Method::Dop853 && sound && equations.heading_comes_first).then(|| Self {
+        (method == Method::Automatic && sound && equations.heading_comes_first).then(|| Self {
             rates: equations.rates_alone([p; NODES]),
             tolerance: [rtol, atol],
             left: max_steps,
@@ -182,7 +182,8 @@ mod tests {
         }
     }
 
-    /// Where the place moves the place, or something is hidden, there is nothing to integrate by itself.
+    /// Where the place moves the place, or something is hidden, there is nothing to integrate by itself; and who asks for a
+    /// method gets it.
     #[test]
     fn a_rate_that_asks_for_the_place_is_none_of_it() {
         let within = effects::named("rotation-creep").unwrap().within(Scope::Disk([1.0, 0.0, 2.0]));
@@ -194,6 +195,9 @@ mod tests {
             let equations = model.equations(&[]).unwrap();
             assert!(PoseQuadrature::of(&equations, &[], &Integrator::default()).is_none());
         }
+        let plain = model("unicycle", &[("wheel_radius", 0.5)]).equations(&[]).unwrap();
+        let asked = Integrator { method: Method::Dop853, ..Integrator::default() };
+        assert!(PoseQuadrature::of(&plain, &[], &asked).is_none());
     }
 
     /// A law that ends is told as an integrator tells it.

@@ -33,6 +33,8 @@ pub enum Method {
     Dopri5,
     /// Dormand and Prince of order 8, steps chosen by the tolerance.
     Dop853,
+    /// The same, or quadrature at its tolerances where the heading of a vehicle hangs on the inputs alone.
+    Automatic,
     /// The classical one of order 4 with steps of equal length; tolerances are not read.
     Rk4 {
         /// The longest step, s; it is shortened to divide each span.
@@ -75,9 +77,9 @@ pub struct Integrator {
 }
 
 impl Default for Integrator {
-    /// Order 8 at 1e-10 relative and 1e-12 absolute.
+    /// Quadrature or order 8 at 1e-10 relative and 1e-12 absolute.
     fn default() -> Self {
-        Self { method: Method::Dop853, rtol: 1e-10, atol: 1e-12, max_steps: 10_000_000 }
+        Self { method: Method::Automatic, rtol: 1e-10, atol: 1e-12, max_steps: 10_000_000 }
     }
 }
 
@@ -199,7 +201,7 @@ impl Walk {
             let message = format!("{} states are more than the {} of the stiff method", y.len(), radau::MAX_STATES);
             return Err(Error::run(message).help("use an explicit method"));
         }
-        if self.integrator.method == Method::Dop853 {
+        if matches!(self.integrator.method, Method::Dop853 | Method::Automatic) {
             return self.order_8(rhs, from, to, y);
         }
         let (undefined, rhs) = (Cell::new(false), RefCell::new(rhs));

@@ -37,7 +37,8 @@ pub struct Arguments {
     /// Where the trajectory goes, CSV
     #[arg(long, value_name = "OUT.csv")]
     out: PathBuf,
-    /// The integrator; without it order 8, by quadrature where the heading hangs on the inputs alone, or the stiff one where a model has friction
+    /// The integrator; without it order 8, quadrature where the heading hangs on the inputs alone, or the stiff one where a
+    /// model has friction
     #[arg(long, value_enum, value_name = "METHOD")]
     integrator: Option<Choice>,
     /// The longest step of rk4, s

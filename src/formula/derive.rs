@@ -57,6 +57,12 @@ impl Graph {
         needed
     }
 
+    /// Whether a node is made of a symbol.
+    pub(crate) fn reads(&self, id: NodeId, symbol: &Symbol) -> bool {
+        let needed = self.reachable(&[id], id + 1);
+        (0..=id).any(|k| needed[k] && matches!(self.op(k), Op::Sym(s) if s == symbol))
+    }
+
     /// The nodes an operation reads.
     pub(super) fn arguments(&self, id: NodeId) -> [Option<NodeId>; 2] {
         match self.op(id) {

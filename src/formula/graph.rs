@@ -2,7 +2,7 @@
 
 use super::{BigRational, Expr, Fun, Node, Symbol};
 use num_traits::{Signed, Zero};
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 /// A node of a [`Graph`].
 pub type NodeId = usize;
@@ -53,25 +53,6 @@ pub struct Graph {
 }
 
 impl Graph {
-    /// The symbols that a node is made of.
-    pub(crate) fn symbols_of(&self, id: NodeId) -> HashSet<&Symbol> {
-        let (mut open, mut seen, mut found) = (vec![id], HashSet::new(), HashSet::new());
-        while let Some(id) = open.pop() {
-            if !seen.insert(id) {
-                continue;
-            }
-            match &self.ops[id] {
-                Op::Num(_) => {}
-                Op::Sym(symbol) => {
-                    found.insert(symbol);
-                }
-                Op::Neg(x) | Op::Pow(x, _) | Op::Call(_, x) => open.push(*x),
-                Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b) => open.extend([*a, *b]),
-            }
-        }
-        found
-    }
-
     /// The operation of a node.
     pub fn op(&self, id: NodeId) -> &Op {
         &self.ops[id]

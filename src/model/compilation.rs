@@ -216,7 +216,7 @@ fn live(graph: &Graph, nodes: &[NodeId], rates: usize) -> Vec<usize> {
 
 /// Whether states are a pose alone, the rate of its heading made of no state, and those of its place of the heading at most.
 fn heading_comes_first(graph: &Graph, rates: &[NodeId], states: &[Symbol]) -> bool {
-    let reads = |i: usize, j: usize| graph.symbols_of(rates[i]).contains(&states[j]);
+    let reads = |i: usize, j: usize| graph.reads(rates[i], &states[j]);
     let direction = state::DIRECTION;
     states.len() == 3
         && (0..3).all(|j| !reads(direction, j))

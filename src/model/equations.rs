@@ -88,10 +88,7 @@ impl<const L: usize> RatesAlone<'_, L> {
     #[inline(always)]
     pub fn at(&mut self, z: &[[f64; L]], u: &[[f64; L]], rates: &mut [[f64; L]]) {
         load(&mut self.memory, z, u);
-        self.rates.run_here(&mut self.memory);
-        for (k, rate) in rates.iter_mut().enumerate() {
-            *rate = defined(self.rates.output(&self.memory, k));
-        }
+        evaluate(self.rates, &mut self.memory, rates);
     }
 }
 
@@ -172,8 +169,9 @@ impl Equations {
     /// What [`Equations::delay`] gives, where nothing else is asked for.
     pub(crate) fn delay_alone(&self, p: &[f64]) -> Vec<f64> {
         let mut memory = self.memory(&self.delay, [p]);
-        self.delay.run_here(&mut memory);
-        (0..self.delay.outputs()).map(|k| defined(self.delay.output(&memory, k))[0]).collect()
+        let mut all = vec![[0.0]; self.delay.outputs()];
+        evaluate(&self.delay, &mut memory, &mut all);
+        all.into_flattened()
     }
 
     /// The rates alone, of L states, each with its own parameters.
@@ -209,10 +207,7 @@ impl Equations {
         rates: &mut [[f64; L]],
     ) {
         load(&mut w.rates, z, u);
-        self.rates.run_here(&mut w.rates);
-        for (k, rate) in rates.iter_mut().enumerate().take(self.rates.outputs()) {
-            *rate = defined(self.rates.output(&w.rates, k));
-        }
+        evaluate(&self.rates, &mut w.rates, rates);
     }
 
     /// dz/dt followed by the rows of its derivatives with respect to (z, u, p).
@@ -296,10 +291,7 @@ impl Equations {
     #[inline(always)]
     pub(crate) fn outputs_here<'w, const L: usize>(&self, w: &'w mut Workspace<L>, z: &[[f64; L]]) -> &'w [[f64; L]] {
         load(&mut w.outputs, &z[..self.visible], &[]);
-        self.outputs.run_here(&mut w.outputs);
-        for (k, result) in w.results.iter_mut().enumerate().take(self.outputs.outputs()) {
-            *result = defined(self.outputs.output(&w.outputs, k));
-        }
+        evaluate(&self.outputs, &mut w.outputs, &mut w.results);
         &w.results[..self.outputs.outputs()]
     }
 
@@ -307,10 +299,7 @@ impl Equations {
     #[inline(always)]
     pub(crate) fn evaluate_quantities<const L: usize>(&self, w: &mut Workspace<L>, z: &[[f64; L]], u: &[[f64; L]]) {
         load(&mut w.quantities, z, u);
-        self.quantities.run_here(&mut w.quantities);
-        for (k, result) in w.quantity_values.iter_mut().enumerate() {
-            *result = defined(self.quantities.output(&w.quantities, k));
-        }
+        evaluate(&self.quantities, &mut w.quantities, &mut w.quantity_values);
     }
 
     /// What [`Equations::evaluate_quantities`] gave last: the quantities, then the rows of their derivatives by (z, u, p).
@@ -332,10 +321,7 @@ impl Equations {
 
     /// As [`Equations::delay`] for L sets of parameters.
     pub(crate) fn delays<'w, const L: usize>(&self, w: &'w mut Workspace<L>) -> &'w [[f64; L]] {
-        self.delay.run_here(&mut w.delay);
-        for (k, result) in w.results.iter_mut().enumerate().take(self.delay.outputs()) {
-            *result = defined(self.delay.output(&w.delay, k));
-        }
+        evaluate(&self.delay, &mut w.delay, &mut w.results);
         &w.results[..self.delay.outputs()]
     }
 }
@@ -348,6 +334,15 @@ fn load<const L: usize>(memory: &mut Memory<L>, z: &[[f64; L]], u: &[[f64; L]]) 
     }
     for (i, u) in u.iter().enumerate() {
         *memory.input(z.len() + i) = *u;
+    }
+}
+
+/// Runs a program and hands over what it gives.
+#[inline(always)]
+fn evaluate<const L: usize>(program: &Lanes, memory: &mut Memory<L>, results: &mut [[f64; L]]) {
+    program.run_here(memory);
+    for (k, result) in results.iter_mut().enumerate().take(program.outputs()) {
+        *result = defined(program.output(memory, k));
     }
 }
 

@@ -1,6 +1,6 @@
 //! The chain rule at the start of a window: hidden states start it where the windows before it carried them, by the parameters.
 
-use crate::motion::StateSensitivity;
+use crate::motion::{LaneStates, StateSensitivity};
 use nalgebra::DMatrix;
 
 /// ∂h/∂p at the start of a window, of hidden states h whose start has columns of its own among the sensitivities within it.
@@ -54,6 +54,21 @@ impl HiddenStart {
         };
         StateSensitivity { s: arc.s.chunks(k + h).flat_map(row).collect(), z: arc.z }
     }
+}
+
+/// States that begin at visible and hidden ones, each with columns of its own: these behind those of the parameters.
+pub(super) fn started<'z, const L: usize>(
+    columns: usize,
+    visible: impl Fn(usize) -> &'z [f64],
+    hidden: impl Fn(usize) -> Option<&'z Vec<f64>>,
+) -> LaneStates<L> {
+    let (m, h) = (visible(0).len(), hidden(0).map_or(0, Vec::len));
+    let mut z: Vec<[f64; L]> = (0..m).map(|i| std::array::from_fn(|l| visible(l)[i])).collect();
+    z.extend((0..h).map(|i| std::array::from_fn(|l| hidden(l).map_or(0.0, |hidden| hidden[i]))));
+    let mut s = vec![[0.0; L]; z.len() * columns];
+    (0..m).for_each(|i| s[i * columns + i] = [1.0; L]);
+    (0..h).for_each(|i| s[(m + i + 1) * columns - h + i] = [1.0; L]);
+    LaneStates { z, s }
 }
 
 #[cfg(test)]

@@ -1,13 +1,13 @@
 //! Hidden states at the starts of all windows at once: multiple shooting by Newton's method (Bock and Plitt, 1984; parallel in
 //! time after Lions, Maday and Turinici, 2001).
 
+use super::hidden_start::started;
+use super::windows::LANES;
 use crate::discrepancy::record::run_record::Record;
 use crate::model::Equations;
-use crate::motion::{LaneStates, LaneStepper, StateSensitivity};
+use crate::motion::{LaneStepper, StateSensitivity};
 use std::ops::Range;
 
-/// Windows that are integrated side by side.
-const LANES: usize = 16;
 /// Newton's steps, at most; motion that is linear in the hidden states takes one.
 const MOST_STEPS: usize = 6;
 /// A step that moves the states by less, in units of a state or of one, is the last.
@@ -67,23 +67,15 @@ impl HiddenTrajectory<'_> {
     /// Where every window but the last ends, by its hidden start.
     fn ends(&self, guess: &[Vec<f64>]) -> Vec<StateSensitivity> {
         let last = self.windows.len() - 2;
-        let mut stepper = LaneStepper::new(self.carried, &self.record.signals, [self.p; LANES]).by_hidden_starts();
+        let stepper = LaneStepper::new(self.carried, &self.record.signals, [self.p; LANES]);
+        let mut stepper = stepper.by_hidden_starts(guess[0].len());
         let some = (0..=last).step_by(LANES).flat_map(|k| {
             let windows: [usize; LANES] = std::array::from_fn(|l| (k + l).min(last));
-            let mut arcs = self.started(windows, guess, stepper.columns());
+            let begin = |l: usize| &self.starts[windows[l]][..self.carried.visible];
+            let mut arcs = started::<LANES>(stepper.columns(), begin, |l| guess.get(windows[l]));
             stepper.through(&mut arcs, &self.record.time, &windows.map(|k| self.windows[k].clone()));
             (0..LANES.min(last + 1 - k)).map(move |l| arcs.one(l)).collect::<Vec<_>>()
         });
         some.collect()
-    }
-
-    /// Some windows at their guesses, hidden states with unit columns.
-    fn started(&self, windows: [usize; LANES], guess: &[Vec<f64>], columns: usize) -> LaneStates<LANES> {
-        let (visible, h) = (self.carried.visible, guess[0].len());
-        let mut z: Vec<[f64; LANES]> = (0..visible).map(|i| windows.map(|k| self.starts[k][i])).collect();
-        z.extend((0..h).map(|i| windows.map(|k| guess[k][i])));
-        let mut s = vec![[0.0; LANES]; z.len() * columns];
-        (0..h).for_each(|i| s[(visible + i + 1) * columns - h + i] = [1.0; LANES]);
-        LaneStates { z, s }
     }
 }

@@ -1,20 +1,18 @@
 //! A model along the windows of a segment: side by side, though each as if it were alone.
 
-use super::hidden_start::HiddenStart;
+use super::hidden_start::{HiddenStart, started};
 use super::hidden_trajectory::HiddenTrajectory;
 use super::row_sums::{NormalEquations, WindowKernel};
 use crate::discrepancy::initial_state::hidden_states;
 use crate::discrepancy::initial_state::slow_manifold::moved_along;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
-use crate::discrepancy::shooting::windows::{Segment, WindowStates};
+use crate::discrepancy::shooting::windows::{LANES, Segment, WindowStates};
 use crate::model::Equations;
 use crate::motion::{LaneStates, LaneStepper, StateSensitivity};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Windows that are integrated side by side: two vectors of AVX-512, so that one waits while the other works.
-const LANES: usize = 16;
 /// With many parameters, so many that the sums over rows would not fit near the processor.
 const FEW_LANES: usize = 8;
 const MANY: usize = 32;
@@ -89,18 +87,15 @@ impl Along<'_> {
             return Some((from, last));
         }
         let mut k = from;
-        let mut stepper = LaneStepper::new(self.equations, &record.signals, [self.p; L]);
-        if L > 1 {
-            stepper = stepper.with_hidden_starts();
-        }
         let starts = if L > 1 { h } else { 0 };
+        let mut stepper = LaneStepper::new(self.equations, &record.signals, [self.p; L]).with_hidden_starts(starts);
         let mut sums = NormalEquations::new(stepper.columns() - starts, starts, record);
         for windows in self.windows[from..].chunks(L) {
             let next = |l: usize| self.starts.get(k + l + 1).filter(|_| l < windows.len());
             let at = |l: usize| k + l.min(windows.len() - 1);
             let mut arcs = match L {
                 1 => carried_on(self.equations, stepper.columns(), &self.starts[k], &last),
-                _ => started(visible, stepper.columns(), |l| &self.starts[at(l)], |l| ahead.get(at(l))),
+                _ => started(stepper.columns(), |l| &self.starts[at(l)][..visible], |l| ahead.get(at(l))),
             };
             let rows = std::array::from_fn(|l| windows.get(l).cloned().unwrap_or(0..0));
             let goes_on = std::array::from_fn(|l| next(l).is_some());
@@ -109,7 +104,7 @@ impl Along<'_> {
             let (stepper, arcs, sums) = (&mut stepper, &mut arcs, &mut sums);
             isa.dispatch(WindowKernel { stepper, record, rows: &rows, goes_on: &goes_on, arcs, sums });
             for (l, rows) in rows.iter().enumerate().take(windows.len()) {
-                let start = if starts > 0 { HiddenStart::of(&last, visible) } else { HiddenStart::none() };
+                let start = if L > 1 { HiddenStart::of(&last, visible) } else { HiddenStart::none() };
                 let arc = start.in_arc(arcs.one(l));
                 take(sums.linear(l, record, rows, (&arc, &start), next(l))?)?;
                 last = match (self.equations.has_speeds(), next(l)) {
@@ -132,22 +127,6 @@ impl Along<'_> {
 /// Whether hidden states are the same but for what the steps of an integration leave undecided.
 fn are_near(a: &[f64], b: &[f64]) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() <= UNDECIDED * (1.0 + b.abs()))
-}
-
-/// States that begin at poses and hidden states, each with columns of its own: these behind those of the parameters.
-fn started<'z, const L: usize>(
-    visible: usize,
-    columns: usize,
-    begin: impl Fn(usize) -> &'z Vec<f64>,
-    hidden: impl Fn(usize) -> Option<&'z Vec<f64>>,
-) -> LaneStates<L> {
-    let h = hidden(0).map_or(0, Vec::len);
-    let mut z: Vec<[f64; L]> = (0..visible).map(|i| std::array::from_fn(|l| begin(l)[i])).collect();
-    z.extend((0..h).map(|i| std::array::from_fn(|l| hidden(l).map_or(0.0, |hidden| hidden[i]))));
-    let mut s = vec![[0.0; L]; z.len() * columns];
-    (0..visible).for_each(|i| s[i * columns + i] = [1.0; L]);
-    (0..h).for_each(|i| s[(visible + i + 1) * columns - h + i] = [1.0; L]);
-    LaneStates { z, s }
 }
 
 /// A state that begins at a pose, the hidden states carried on with their sensitivities.

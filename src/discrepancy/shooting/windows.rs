@@ -12,6 +12,9 @@ const MIN_ROWS: usize = 4;
 /// How far from the ends of a log the first and last windows stay, s: the longest delay that is looked for.
 pub const MARGIN: f64 = 0.5;
 
+/// Windows that are integrated side by side: two vectors of AVX-512, so that one waits while the other works.
+pub(crate) const LANES: usize = 16;
+
 /// A stretch of a run cut into windows; each window ends where the next begins.
 #[derive(Clone, Debug)]
 pub struct Segment {

@@ -107,17 +107,12 @@ impl Drive for Formulas {
         slope.copy_from_slice(&out[self.channels..]);
     }
     fn values(&self) -> impl FnMut(f64, &mut [f64]) {
-        let mut memory = self.values.memory::<1>();
-        self.constants.iter().enumerate().for_each(|(i, value)| *memory.input(1 + i) = [*value]);
-        self.values.begin(&mut memory, Isa::default());
-        move |t, value| {
-            *memory.input(0) = [t];
-            self.values.run(&mut memory, Isa::default());
-            value.iter_mut().enumerate().for_each(|(k, value)| *value = self.values.output(&memory, k)[0]);
-        }
+        let mut values = self.values_at::<1>();
+        move |t, value| values(&[t], value.as_chunks_mut().0)
     }
     fn values_at<const L: usize>(&self) -> impl FnMut(&[f64; L], &mut [[f64; L]]) {
-        let (mut memory, isa) = (self.values.memory::<L>(), Isa::best());
+        // One time alone fills no vector.
+        let (mut memory, isa) = (self.values.memory::<L>(), if L == 1 { Isa::default() } else { Isa::best() });
         self.constants.iter().enumerate().for_each(|(i, value)| *memory.input(1 + i) = [*value; L]);
         self.values.begin(&mut memory, Isa::default());
         move |t, value| {

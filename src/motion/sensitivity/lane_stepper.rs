@@ -78,17 +78,16 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
         }
     }
 
-    /// With columns behind those of the parameters by which states hang on where the hidden ones start.
-    pub fn with_hidden_starts(mut self) -> Self {
-        self.motion.ask_for_hidden_starts();
+    /// With columns behind those of the parameters by which states hang on where so many hidden ones start.
+    pub fn with_hidden_starts(mut self, hidden: usize) -> Self {
+        self.motion.hidden_starts = hidden;
         self
     }
 
     /// With these columns alone: all others stay as they are.
-    pub fn by_hidden_starts(mut self) -> Self {
-        self.motion.ask_for_hidden_starts();
-        self.motion.first = self.columns() - self.motion.hidden_starts;
-        self
+    pub fn by_hidden_starts(mut self, hidden: usize) -> Self {
+        self.motion.first = self.columns();
+        self.with_hidden_starts(hidden)
     }
 
     /// Columns of the sensitivities.
@@ -398,8 +397,8 @@ mod tests {
         assert!(divided.forgotten.is_none());
     }
 
-    /// Twelve steps are the most that are made for a time constant; beyond, its limit is followed in steps of an eighth of the span
-    /// or of three tenths of a radian.
+    /// Twelve steps are the most that are made for a time constant; beyond, its limit is followed in steps of an eighth of
+    /// the span or of three tenths of a radian.
     #[test]
     fn a_limit_is_followed_where_a_time_constant_is_short() {
         // 11.9 steps, and 12.06.

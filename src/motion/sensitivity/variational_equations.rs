@@ -72,11 +72,6 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
         }
     }
 
-    /// Gives the sensitivities columns by the start of the hidden states.
-    pub fn ask_for_hidden_starts(&mut self) {
-        self.hidden_starts = self.equations.n() - self.equations.visible;
-    }
-
     /// Columns of the sensitivities: by the visible start, the parameters and, where they are asked for, the hidden start.
     pub fn columns(&self) -> usize {
         self.equations.visible + self.equations.free.len() + self.hidden_starts

@@ -36,6 +36,7 @@ use super::selection::choice::{Selected, SelectedEffect};
 use super::selection::odd_run::{is_sought, odd_runs};
 use super::selection::other_vehicle::in_its_place;
 use super::selection::refute::{Judging, refute};
+use super::selection::rounded_inputs::rounded_inputs;
 use super::selection::search::first_of;
 use super::selection::select::choose;
 use crate::effects::Applied;
@@ -95,6 +96,13 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
             choice = choose(&problem, &model, request.library, progress)?;
         }
     }
+    let mut rounded = vec![];
+    if let Some(chosen) = &choice
+        && let Some(found) = rounded_inputs(&problem, &model, chosen)?
+    {
+        (problem, rounded) = (found.problem, found.inputs);
+        choice = choose(&problem, &model, request.library, progress)?;
+    }
     let Some(selected) = choice else {
         let paths = data.fitted.iter().map(|r| figure_data::measured_path(r, false)).collect();
         return Ok(early(request, &data, clocks, as_logged(request, &model, paths), verdict::undefined_motion()));
@@ -146,6 +154,7 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
     let is_other = matches!(outcome.reason, Some(Reason::OtherVehicle(_)));
     let next = if is_other { None } else { next(&problem, &selected, &relatives, &outcome, coarse.first())? };
     warnings.extend(coarse.into_iter().map(Warning::CoarseInput));
+    warnings.extend(rounded.into_iter().map(Warning::TakenAsRounded));
     // What is random and all that is left has been said.
     let is_noise = matches!(outcome.reason, Some(Reason::RandomRest(_)));
     let found = Findings {

@@ -59,6 +59,8 @@ pub enum Warning {
     SensorMissed(RemainingSensor),
     /// An input in coarse steps.
     CoarseInput(CoarseInput),
+    /// An input in few steps whose smooth course between them explains more than any effect.
+    TakenAsRounded(CoarseInput),
     /// Another offset of a run's clocks, s, fits nearly as well as its own.
     ClockOffsetInDoubt {
         /// Name of the run.

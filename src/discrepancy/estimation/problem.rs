@@ -114,6 +114,13 @@ impl Problem {
         self.has_noisy_inputs().then(|| Self { records: smooth(), ..self.clone() })
     }
 
+    /// The same where every input that may be rounded is; `None` where none may be.
+    pub(crate) fn with_rounded_inputs(&self) -> Option<Self> {
+        let is_any = self.records.iter().any(|r| r.input_noise.suspected().iter().any(Option::is_some));
+        let rounded = || self.records.iter().map(Record::with_rounded_inputs).collect();
+        is_any.then(|| Self { records: rounded(), ..self.clone() })
+    }
+
     /// Whether the inputs of any run show noise that a mean over time has less of.
     pub(crate) fn has_inputs_to_average(&self) -> bool {
         self.records.iter().any(|r| r.input_noise.averages_out())

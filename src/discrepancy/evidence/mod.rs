@@ -4,6 +4,7 @@ pub(crate) mod chi_squared;
 pub mod cross_validation;
 pub(crate) mod heterogeneity;
 pub mod information_criterion;
+mod input_noise_bootstrap;
 pub mod jackknife;
 pub mod parametric_bootstrap;
 pub(crate) mod random_walk;

@@ -44,6 +44,11 @@ pub struct NullDistribution {
 }
 
 impl NullDistribution {
+    /// Of gains of so many parameters.
+    pub(crate) fn of(k: usize, gains: Vec<f64>) -> Self {
+        Self { k, gains }
+    }
+
     /// Share of draws with any gain at all: less than one at an edge.
     pub fn share(&self) -> f64 {
         self.some().count() as f64 / self.gains.len().max(1) as f64
@@ -133,7 +138,13 @@ impl Problem {
     }
 
     /// By how much an effect improves the deviance, from wherever a fit of it may begin.
-    fn gain(&self, model: &Model, effect: &Applied, starts: &WindowStates, v: &NoiseModel) -> Result<Option<f64>> {
+    pub(super) fn gain(
+        &self,
+        model: &Model,
+        effect: &Applied,
+        starts: &WindowStates,
+        v: &NoiseModel,
+    ) -> Result<Option<f64>> {
         let Some(bare) = self.fit(model, starts, v, EFFORT)? else { return Ok(None) };
         let begin = effect.effect.starts().into_iter().chain([effect.values.clone()]);
         let mut best: f64 = 0.0;
@@ -149,7 +160,12 @@ impl Problem {
     }
 
     /// Measurements as a model with its jumps and its noise would give them, and the poses at the windows' starts.
-    fn drawn(&self, equations: &Equations, fit: &Fit, random: &mut ChaCha8Rng) -> Option<(Problem, WindowStates)> {
+    pub(super) fn drawn(
+        &self,
+        equations: &Equations,
+        fit: &Fit,
+        random: &mut ChaCha8Rng,
+    ) -> Option<(Problem, WindowStates)> {
         let mut drawn = self.clone();
         let mut starts = Vec::with_capacity(self.plan.len());
         let v = &fit.variances;

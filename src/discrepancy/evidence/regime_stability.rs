@@ -59,11 +59,15 @@ pub(crate) struct Difference {
 }
 
 impl Difference {
+    /// Whether both values have one direction.
+    pub fn is_one_way(&self) -> bool {
+        self.values[0] * self.values[1] > 0.0
+    }
+
     /// Whether the effect has two values.
     pub fn is_real(&self) -> bool {
         let [outside, inside] = self.values;
-        let is_one =
-            outside * inside > 0.0 && outside.abs().max(inside.abs()) <= FACTOR * outside.abs().min(inside.abs());
+        let is_one = self.is_one_way() && outside.abs().max(inside.abs()) <= FACTOR * outside.abs().min(inside.abs());
         self.chi_squared > BEYOND_CHANCE && self.share > LARGE && (self.beside_law || !is_one)
     }
 }

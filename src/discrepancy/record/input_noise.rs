@@ -10,7 +10,7 @@
 
 use super::level_crossings::between_steps;
 use super::local_polynomial;
-use super::quantisation::{root_mean_square, step_above, tick_of};
+use super::quantisation::{root_mean_square, staircase_step, step_above, tick_of};
 use super::rauch_tung_striebel::smoothed;
 use crate::motion::{Signals, Timing, running_integral};
 use crate::numerics::usual_step;
@@ -39,6 +39,8 @@ pub(crate) struct InputNoise {
     columns: Vec<Vec<f64>>,
     timings: Vec<Timing>,
     channels: Vec<ChannelNoise>,
+    /// The steps of inputs that are commands or rounded, which their values alone do not tell.
+    suspected: Vec<Option<f64>>,
     /// The signals without their noise, of what is counted the integral.
     smooth: OnceLock<Vec<Vec<f64>>>,
 }
@@ -55,11 +57,27 @@ impl InputNoise {
     pub fn of(time: &[f64], columns: &[Vec<f64>], timings: &[Timing]) -> Self {
         let of = |(column, timing): (&Vec<f64>, &Timing)| of_column(time, column, *timing);
         let channels: Vec<ChannelNoise> = columns.iter().zip(timings).map(of).collect();
-        if channels.iter().all(|c| *c == ChannelNoise::None) {
+        let may_be_rounded = |(column, channel): (&Vec<f64>, &ChannelNoise)| {
+            (*channel == ChannelNoise::None).then(|| staircase_step(column)).flatten()
+        };
+        let suspected: Vec<Option<f64>> = columns.iter().zip(&channels).map(may_be_rounded).collect();
+        if channels.iter().all(|c| *c == ChannelNoise::None) && suspected.iter().all(Option::is_none) {
             return Self::default();
         }
         let (time, columns, timings) = (time.to_vec(), columns.to_vec(), timings.to_vec());
-        Self { time, columns, timings, channels, smooth: OnceLock::new() }
+        Self { time, columns, timings, channels, suspected, smooth: OnceLock::new() }
+    }
+
+    /// The same where every input that may be rounded is.
+    pub fn of_rounded(&self) -> Self {
+        let of = |(channel, step): (&ChannelNoise, &Option<f64>)| step.map_or(*channel, ChannelNoise::Rounded);
+        let channels = self.channels.iter().zip(&self.suspected).map(of).collect();
+        Self { channels, suspected: vec![None; self.suspected.len()], smooth: OnceLock::new(), ..self.clone() }
+    }
+
+    /// The steps of inputs that may be rounded.
+    pub fn suspected(&self) -> &[Option<f64>] {
+        &self.suspected
     }
 
     /// The same where the noise of means of inputs that are counted is that of counts, whatever their ticks are.
@@ -79,7 +97,7 @@ impl InputNoise {
 
     /// Whether any input shows noise.
     pub fn is_there(&self) -> bool {
-        !self.channels.is_empty()
+        self.channels.iter().any(|c| *c != ChannelNoise::None)
     }
 
     /// Whether any of it differs from row to row, so that a mean over the rows around has less: steps of a slow signal do not.

@@ -12,6 +12,8 @@ const SINGLE: f64 = 0.95;
 const LEVELS: usize = 6;
 /// With fewer changes nothing is said.
 const FEWEST: usize = 20;
+/// With so many the data may be asked whether a staircase is a rounded signal.
+const FEWEST_OF_STAIRCASE: usize = 4;
 /// How near to a whole number of steps a change is, as a share of a step.
 const WHOLE: f64 = 0.01;
 
@@ -53,6 +55,15 @@ fn rounding(column: &[f64], share: f64) -> Option<Rounding> {
     let coarse = step > share * size && changes.iter().all(is_whole);
     let is_slow = median(&mut changes)? < 1.5 * step;
     coarse.then_some(Rounding { step, is_busy, is_slow })
+}
+
+/// The step of a column whose every change is up or down by the same: a slow signal rounded, or commands.
+pub(crate) fn staircase_step(column: &[f64]) -> Option<f64> {
+    let size = column.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+    let changes: Vec<f64> = column.windows(2).map(|w| (w[1] - w[0]).abs()).filter(|c| *c > 1e-9 * size).collect();
+    let step = changes.iter().copied().fold(f64::INFINITY, f64::min);
+    let is_single = changes.iter().all(|c| (c / step - 1.0).abs() < WHOLE);
+    (changes.len() >= FEWEST_OF_STAIRCASE && is_single).then_some(step)
 }
 
 /// √(Σ u²/n); no number without any.
@@ -188,6 +199,18 @@ mod tests {
             let column: Vec<f64> = staircase(100, 3, 0.0).iter().map(|u| unit * u).collect();
             assert!((step_of(&column).unwrap() - unit).abs() < 1e-9 * unit);
         }
+    }
+
+    /// Commands may be a staircase as well: that is for the data to say.
+    #[test]
+    fn a_staircase_goes_up_and_down_by_one_step() {
+        let wave = |of: f64| sampled(move |t| ((0.07 * (0.9 * t).sin() + 0.04 * (2.3 * t).cos()) / of).round() * of);
+        assert!((staircase_step(&wave(0.1)).unwrap() - 0.1).abs() < 1e-9);
+        assert_eq!(staircase_step(&sampled(|t| [0.3, 0.0, -0.3, 0.0][(0.5 * t) as usize % 4])), Some(0.3));
+        // Two steps at once, too few changes, none.
+        assert_eq!(staircase_step(&sampled(|t| [0.5, 1.0, 0.0, 1.5][(0.5 * t) as usize % 4])), None);
+        assert_eq!(staircase_step(&[0.0, 1.0, 2.0, 1.0]), None);
+        assert_eq!(staircase_step(&[0.3; 100]), None);
     }
 
     /// Means of an encoder whose ticks are so far apart, counted over intervals that differ.

@@ -124,6 +124,11 @@ impl Record {
         Record { input_noise: InputNoise::default().into(), ..self.clone() }
     }
 
+    /// The run whose inputs are rounded where they may be.
+    pub(crate) fn with_rounded_inputs(&self) -> Record {
+        Record { input_noise: self.input_noise.of_rounded().into(), ..self.clone() }
+    }
+
     /// The run with inputs that a smoother has taken the noise from.
     pub(crate) fn with_smoothed_inputs(&self) -> Record {
         self.with_inputs_changed(InputNoise::smoothing)

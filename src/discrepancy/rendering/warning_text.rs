@@ -76,6 +76,7 @@ pub fn line(warning: &Warning) -> String {
             format!("the held-out gap after {horizon} s grows with what was found, from {before} to {after} m: {says}")
         }
         Warning::CoarseInput(input) => coarse_input(input),
+        Warning::TakenAsRounded(input) => taken_as_rounded(input),
         Warning::ClockOffsetInDoubt { run, own, other } => {
             let [own, other] = [own, other].map(|offset| significant(*offset, 4));
             format!(
@@ -96,6 +97,16 @@ pub fn inconsistent(effects: &[Applied]) -> String {
 /// That effects take other values where the inputs are logged half as often.
 pub fn sampling_sensitive(effects: &[Applied]) -> String {
     format!("with every second row of the inputs left out these runs ask for other values of {}", named(effects))
+}
+
+/// An input that is taken as rounded, and not as commands.
+pub fn taken_as_rounded(input: &CoarseInput) -> String {
+    let CoarseInput { run, role, step, unit } = input;
+    let step = significant(*step, 2);
+    format!(
+        "{run}: {role} comes in steps of {step} {unit}; a smooth course between them explains more than any effect, so that it \
+         is taken as rounded"
+    )
 }
 
 /// An input that comes in steps.

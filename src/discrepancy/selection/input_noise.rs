@@ -15,6 +15,7 @@ use super::search::Search;
 use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::evidence::wald_test::neutral_at_zero;
+use crate::discrepancy::selection::choice::Weighed;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::progress::OnProgress;
@@ -52,6 +53,27 @@ pub(crate) fn taken_back(problem: &Problem, fit: &Fit) -> Option<Applied> {
     let is_taken_back = |lag: f64| delays.iter().any(|delay| *delay < 0.0 && (lag + delay).abs() < TAKEN_BACK * lag);
     let mut lags = fit.model.free_effects().filter(|e| !e.effect.states.is_empty());
     lags.find(|e| problem.has_inputs_to_average() && in_seconds(e, true).is_some_and(is_taken_back)).cloned()
+}
+
+/// The effect that gains least beyond what it gains of noisy inputs where nothing is hidden, if that is less than it costs.
+pub(crate) fn gained_of_nothing(
+    selection: &Search,
+    fit: &Fit,
+    weighed: &[Weighed],
+    progress: &OnProgress,
+) -> Result<Option<Applied>> {
+    let mut least: Option<(f64, &Applied)> = None;
+    for Weighed { effect, without } in weighed.iter().filter(|_| selection.problem.has_noisy_inputs()) {
+        let applied = &effect.applied;
+        let price = applied.values.len() as f64 * selection.price(fit) + selection.price_of_scope(applied, fit);
+        let Some(beyond) = selection.problem.gain_beyond_input_noise(without, applied, price, progress)? else {
+            continue;
+        };
+        if beyond <= 1.0 && least.is_none_or(|(other, _)| beyond < other) {
+            least = Some((beyond, applied));
+        }
+    }
+    Ok(least.map(|(_, applied)| applied.clone()))
 }
 
 /// The effect of which the noise of the inputs makes most, where that is more than its share, or whose value it moves by

@@ -11,6 +11,7 @@ pub mod odd_run;
 pub mod other_vehicle;
 pub(crate) mod refusals;
 pub(crate) mod refute;
+pub(crate) mod rounded_inputs;
 mod scope_deviation;
 pub(crate) mod scope_proposals;
 mod scope_refinement;

@@ -3,11 +3,13 @@
 use super::input_noise;
 use super::input_sampling::{InputSampling, keep_sampled};
 use super::search::{Search, SearchState, find, first_of, forget};
+use super::stability::stands_in_for_law;
 use crate::discrepancy::estimation::bounds::is_possible;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::unexplained::{remaining, remains};
 use crate::discrepancy::evidence::information_criterion::delta_bic;
 use crate::discrepancy::evidence::jackknife::Jackknife;
+use crate::discrepancy::evidence::regime_stability::Difference;
 use crate::discrepancy::evidence::wald_test::{is_one_way, neutral_at_zero};
 use crate::discrepancy::selection::choice::{Refusal, Refused, SelectedEffect, Weighed};
 use crate::effects::Applied;
@@ -105,7 +107,7 @@ impl Search<'_> {
         if let Some(applied) = self.leaning(fit, chosen)? {
             return Ok(Some((applied, Refusal::LeansOnLaw)));
         }
-        if let Some(fallen) = self.changing(fit)? {
+        if let Some(fallen) = self.changing(fit, weighed)? {
             return Ok(Some(fallen));
         }
         if let Some(applied) = input_noise::taken_back(self.problem, fit) {
@@ -114,7 +116,10 @@ impl Search<'_> {
         if let Some(applied) = self.smoothed_away(fit, progress)? {
             return Ok(Some((applied, Refusal::InputNoise)));
         }
-        Ok(input_noise::made_up(self, fit)?.map(|applied| (applied, Refusal::InputNoise)))
+        if let Some(applied) = input_noise::made_up(self, fit)? {
+            return Ok(Some((applied, Refusal::InputNoise)));
+        }
+        Ok(input_noise::gained_of_nothing(self, fit, weighed, progress)?.map(|applied| (applied, Refusal::InputNoise)))
     }
 
     /// What falls by the values, deviations and evidence that are known: of several the one that is worth least.
@@ -194,14 +199,31 @@ impl Search<'_> {
     }
 
     /// The effect that has another value in a regime of driving, the one whose difference is largest beyond chance.
-    fn changing(&self, fit: &Fit) -> Result<Option<(Applied, Refusal)>> {
+    fn changing(&self, fit: &Fit, weighed: &[Weighed]) -> Result<Option<(Applied, Refusal)>> {
         let real = self
             .problem
             .differences(fit)?
             .into_iter()
             .flat_map(|(a, each)| each.into_iter().filter(|d| d.is_real()).map(move |d| (a.clone(), d)));
-        let worst = real.max_by(|a, b| a.1.chi_squared.total_cmp(&b.1.chi_squared));
-        Ok(worst.map(|(a, d)| (a, Refusal::Regime { regime: d.regime, values: d.values })))
+        let mut real: Vec<(Applied, Difference)> = real.collect();
+        real.sort_by(|a, b| b.1.chi_squared.total_cmp(&a.1.chi_squared));
+        for (a, d) in real {
+            let smaller = weighed.iter().find(|w| w.effect.applied.same_as(&a)).map(|w| &w.without);
+            if !d.is_one_way() || !smaller.map_or(Ok(false), |smaller| self.is_there_anyway(fit, smaller, &a))? {
+                return Ok(Some((a, Refusal::Regime { regime: d.regime, values: d.values })));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Whether what every vehicle has more or less of predicts every part of the data better from the others, where nothing is
+    /// seen of a law at its place: its values differ by more than the noise, and it is there.
+    fn is_there_anyway(&self, fit: &Fit, smaller: &Fit, effect: &Applied) -> Result<bool> {
+        if !effect.effect.basic || !remains(fit) || stands_in_for_law(self, fit, effect)? {
+            return Ok(false);
+        }
+        let gains = self.problem.gains_by_parts(fit, smaller)?;
+        Ok(gains.is_some_and(|g| g.is_everywhere() && g.is_gain()))
     }
 
     /// The name that moves most when the laws without a name are taken out.

@@ -9,6 +9,7 @@ use super::unnamed_terms;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::unexplained::remains;
 use crate::discrepancy::evidence::jackknife::Jackknife;
+use crate::discrepancy::evidence::wald_test::is_one_way;
 use crate::discrepancy::localisation::unexplained_motion::visible;
 use crate::discrepancy::selection::search::still_open;
 use crate::effects::Applied;
@@ -87,10 +88,11 @@ impl Stable {
             let Some(smaller) = selection.without(fit, &effect)? else { return Ok(None) };
             let gains = selection.problem.gains_by_parts(fit, &smaller)?;
             // What every vehicle has more or less of differs between runs by more than their noise, and is there: unless
-            // so much is left where it acts that it stands in for a law. Alike is what has one direction in all parts, or
-            // predicts each of them better from the others.
+            // so much is left where it acts that it stands in for a law. Alike is what has one direction in all parts, or in every
+            // run by itself, or predicts each part better from the others.
             let is_law = seen.iter().any(|place| acts_at(&effect, place));
-            let is_shared = scatter.is_one_way(fit, &effect) || gains.is_some_and(|g| g.is_everywhere());
+            let is_one_way = scatter.is_one_way(fit, &effect) || is_one_way(fit, &effect);
+            let is_shared = is_one_way || gains.is_some_and(|g| g.is_everywhere());
             let is_there = effect.effect.basic && !is_law && is_shared;
             if is_there && gains.is_some_and(|g| g.is_gain()) {
                 continue;
@@ -117,6 +119,11 @@ impl Stable {
         self.grown.refused = found.refused;
         self.scatter = None;
     }
+}
+
+/// Whether so much is seen to be left where an effect acts that it may stand in for a law.
+pub(super) fn stands_in_for_law(selection: &Search, fit: &Fit, effect: &Applied) -> Result<bool> {
+    Ok(visible_places(selection, fit)?.iter().any(|place| acts_at(effect, place)))
 }
 
 /// The constraints at which a fit leaves what is seen without statistics.

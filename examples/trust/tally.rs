@@ -117,6 +117,9 @@ impl Tally {
     }
 
     fn nothing_hidden(&mut self, o: &Outcome) {
+        if o.case.hides_rounding {
+            return;
+        }
         let alarm = !o.judgement.right;
         match o.case.kind {
             Kind::Coarse => self.false_alarms_coarse.count(alarm),

@@ -70,6 +70,9 @@ pub struct Case {
     pub tells_noise: bool,
     /// For each hidden effect, how well the data show it.
     pub powers: Vec<Power>,
+    /// Whether an input was rounded to one value in all rows: what that is off by is a constant that is hidden, though not by
+    /// an effect of the library.
+    pub hides_rounding: bool,
 }
 
 impl Case {
@@ -119,6 +122,7 @@ impl Case {
         if !case.scenario.hidden.is_empty() {
             case.powers = powers(&case.scenario, targets);
         }
+        case.hides_rounding = has_steps(&case) && has_one_value(&case.scenario);
         case
     }
 
@@ -150,12 +154,13 @@ impl Case {
             }
             _ => {}
         }
-        (Case { seed, kind, make, drive, scenario, tells_noise, powers: vec![] }, &TARGETS[index])
+        let case = Case { seed, kind, make, drive, scenario, tells_noise, powers: vec![], hides_rounding: false };
+        (case, &TARGETS[index])
     }
 
     /// Whether the data show all that is hidden and tell it from everything else of the library.
     pub fn determined(&self) -> bool {
-        self.powers.iter().all(Power::determined)
+        self.powers.iter().all(Power::determined) && !self.hides_rounding
     }
 
     /// The model file of its user.
@@ -168,6 +173,19 @@ impl Case {
         }
         text
     }
+}
+
+/// Whether an input of a case comes in steps.
+fn has_steps(case: &Case) -> bool {
+    case.kind == Kind::Coarse && case.scenario.inputs.step > 0.0
+}
+
+/// Whether an input has one value in all rows of a log.
+fn has_one_value(scenario: &Scenario) -> bool {
+    let log = scenario.run();
+    // The inputs are the last columns.
+    let first = log.columns.len() - 2;
+    (first..first + 2).any(|k| log.rows.windows(2).all(|w| w[0][k] == w[1][k]))
 }
 
 /// Whether two effects can be hidden at once and are not two names of one place.

@@ -77,16 +77,17 @@ fn between(problem: &Problem, choice: &Selected, relatives: &[Vec<EquivalentEffe
     let open = open.map(|(c, r)| (c, most_different(r)));
     let Some((chosen, rivals)) = open.into_iter().find(|(_, r)| !r.is_empty()) else { return Ok(None) };
     let after = &choice.after;
-    let fitted = |r: &&EquivalentEffect| {
+    let fitted = |r: &&EquivalentEffect| -> Result<Option<(Applied, Fit)>> {
         let model =
             without_effect(&after.model, &chosen.applied, &choice.before.model).with_effect(r.applied.clone().freed());
-        problem.fit(&model, &after.window_states, &after.variances, Effort::SCREENING)
+        let fit = problem.fit(&model, &after.window_states, &after.variances, Effort::SCREENING)?;
+        Ok(fit.map(|fit| (r.applied.clone(), fit)))
     };
-    let fits: Vec<Fit> =
-        rivals.iter().take(MOST_RIVALS).map(fitted).collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
+    let fits: Vec<Option<(Applied, Fit)>> = rivals.iter().take(MOST_RIVALS).map(fitted).collect::<Result<_>>()?;
+    let fits: Vec<(Applied, Fit)> = fits.into_iter().flatten().collect();
     let Some(thought) = PredictedExperiment::of(problem, after) else { return Ok(None) };
     let truth = PriorInformation::of(after);
-    let others: Vec<PriorInformation> = fits.iter().map(PriorInformation::of).collect();
+    let others: Vec<PriorInformation> = fits.iter().map(|(_, fit)| PriorInformation::of(fit)).collect();
     if others.is_empty() {
         return Ok(None);
     }
@@ -94,23 +95,38 @@ fn between(problem: &Problem, choice: &Selected, relatives: &[Vec<EquivalentEffe
     let apart = |m: &Manoeuvre, a: &PriorInformation, b: &PriorInformation| {
         Some(thought.expected_delta_bic(m, a, b)?.min(thought.expected_delta_bic(m, b, a)?))
     };
+    let all: Vec<&Manoeuvre> = library(&thought.envelope).collect();
+    let each: Vec<Vec<Option<f64>>> =
+        all.par_iter().map(|m| others.iter().map(|o| apart(m, &truth, o)).collect()).collect();
+    let (within, beyond) = within_reach(&each, others.len());
     let worth = |m: &Manoeuvre| {
-        let all = others.iter().map(|o| apart(m, &truth, o));
-        all.collect::<Option<Vec<_>>>().map(|all| all.into_iter().fold(f64::INFINITY, f64::min))
+        let of = &each[all.iter().position(|other| std::ptr::eq(*other, m))?];
+        let all = within.iter().map(|i| of[*i]).collect::<Option<Vec<f64>>>();
+        all.map(|all| all.into_iter().fold(f64::INFINITY, f64::min))
     };
     // One of the rivals may be the true one, and the others are then its rivals.
     let among = |m: &Manoeuvre| {
         let pairs = others.iter().enumerate().flat_map(|(i, a)| others[..i].iter().map(move |b| (a, b)));
         pairs.filter(|(a, b)| apart(m, a, b).is_some_and(|worth| worth > ENOUGH)).count()
     };
+    let named = |of: &[usize]| of.iter().map(|i| fits[*i].0.clone()).collect::<Vec<Applied>>();
     let step = |(m, worth)| NextStep::Separate {
         chosen: chosen.applied.clone(),
-        rivals: rivals.iter().take(MOST_RIVALS).map(|r| r.applied.clone()).collect(),
+        rivals: named(&within),
+        beyond: named(&beyond),
         manoeuvre: thought.planned(m),
         expected_delta_bic: worth,
         times: repetitions(worth),
     };
     Ok(thought.best_of_all(worth, among).map(step))
+}
+
+/// The rivals that some manoeuvre tells from the chosen effect in reasonable time, and those that none does, by the evidence of
+/// every manoeuvre against each of so many; all of them are asked for where none is within reach.
+fn within_reach(each: &[Vec<Option<f64>>], rivals: usize) -> (Vec<usize>, Vec<usize>) {
+    let most = |i: usize| each.iter().filter_map(|of| of[i]).fold(f64::NEG_INFINITY, f64::max);
+    let (within, beyond): (Vec<usize>, Vec<usize>) = (0..rivals).partition(|i| repetitions(most(*i)).is_some());
+    if within.is_empty() { (beyond, within) } else { (within, beyond) }
 }
 
 /// The manoeuvre that would show an effect of plausible size that the runs at hand would not have shown.
@@ -289,6 +305,15 @@ mod tests {
             let left = of(&known(-0.04, information)) / whole;
             assert!((left - share).abs() < 0.01, "{information}: {left}");
         }
+    }
+
+    /// What no manoeuvre tells apart leaves the others to be asked for.
+    #[test]
+    fn rivals_beyond_reach_are_left_out() {
+        let each = [vec![Some(30.0), Some(0.1), None], vec![Some(1.0), Some(0.2), Some(2.0)]];
+        assert_eq!(within_reach(&each, 3), (vec![0, 2], vec![1]));
+        let hopeless = [vec![Some(0.1), None]];
+        assert_eq!(within_reach(&hopeless, 2), (vec![0, 1], vec![]));
     }
 
     /// A manoeuvre that is worth the evidence in one minute is driven once, one that needs a few as often as that.

@@ -23,8 +23,10 @@ pub enum NextStep {
     Separate {
         /// The effect that was chosen.
         chosen: Applied,
-        /// The others.
+        /// The others that a manoeuvre tells from it.
         rivals: Vec<Applied>,
+        /// Those that none does.
+        beyond: Vec<Applied>,
         /// The manoeuvre that is expected to tell most.
         manoeuvre: PlannedManoeuvre,
         /// The evidence to expect of it once.

@@ -16,8 +16,12 @@ const NAMED: usize = 4;
 pub fn next_experiment(step: &NextStep) -> NextExperiment {
     match step {
         NextStep::Advice(advice) => advised(advice),
-        NextStep::Separate { chosen, rivals, manoeuvre, expected_delta_bic, times } => {
-            separating(chosen, rivals, planned(manoeuvre), *expected_delta_bic, *times)
+        NextStep::Separate { chosen, rivals, beyond, manoeuvre, expected_delta_bic, times } => {
+            let next = separating(chosen, rivals, planned(manoeuvre), *expected_delta_bic, *times);
+            match beyond.is_empty() {
+                true => next,
+                false => NextExperiment { why: format!("{}; {}", next.why, beyond_reach(beyond)), ..next },
+            }
         }
         NextStep::Reveal { effect, manoeuvre, expected_delta_bic } => NextExperiment {
             why: format!(
@@ -95,6 +99,13 @@ fn separating(
     NextExperiment { why: format!("these runs do not tell {pair}; {why}"), manoeuvre }
 }
 
+/// That no manoeuvre tells some effects from the chosen one.
+fn beyond_reach(effects: &[Applied]) -> String {
+    let names: Vec<String> = effects.iter().map(Applied::label).collect();
+    let it = if names.len() == 1 { "that parameter" } else { "those parameters" };
+    format!("no manoeuvre within these speeds and turns tells it from {}: measure {it}", names.join(" or "))
+}
+
 fn mending(mends: &[Mended], manoeuvre: &PlannedManoeuvre) -> NextExperiment {
     let words = |m: &Mended| match m {
         Mended::Shown(effect) => format!("show {}", effect.label()),
@@ -126,6 +137,16 @@ mod tests {
             let says = format!("{} {}", line.why, line.manoeuvre);
             assert!(!says.contains("turn") && !says.contains("eight"), "{says}");
         }
+    }
+
+    #[test]
+    fn what_no_manoeuvre_tells_is_to_be_measured() {
+        let [one, other] = ["rotation-creep", "lever-arm"].map(applied);
+        assert_eq!(
+            beyond_reach(std::slice::from_ref(&one)),
+            "no manoeuvre within these speeds and turns tells it from rotation-creep: measure that parameter"
+        );
+        assert!(beyond_reach(&[one, other]).ends_with("from rotation-creep or lever-arm: measure those parameters"));
     }
 
     /// A manoeuvre that is worth the evidence is driven once, another is repeated; below there is none.

@@ -22,6 +22,9 @@ use crate::vehicles::{self, Vehicle};
 /// The share of what was found that another vehicle explains at least before anything is added to it.
 const BY_ITSELF: f64 = 0.2;
 
+/// A wheel that is nearer to the middle than such a share of its usual place is none beside it.
+const OFF_THE_MIDDLE: f64 = 0.02;
+
 /// What the log is of.
 #[derive(Clone, Debug)]
 pub enum LogReading {
@@ -167,12 +170,12 @@ fn stands_in(vehicle: &Vehicle, given: &Model) -> bool {
     vehicle.moves() && vehicle.line == given.vehicle.line && has_all && same_inputs
 }
 
-/// What explains a log, as a fit has it; `None` where the fit gave the reading up for other effects, and so is no more of it
-/// than the model as given.
+/// What explains a log, as a fit has it; `None` where the fit gave the reading up for other effects, or has its wheel in the
+/// middle, and so is no more of it than the model as given.
 fn told(given: String, reading: LogReading, fit: &Fit) -> Option<OtherVehicle> {
     let reading = match reading {
         LogReading::Wheel { applied, .. } => {
-            let applied = Box::new(find(&fit.model, &applied)?);
+            let applied = Box::new(find(&fit.model, &applied).filter(is_off_the_middle)?);
             let first = first_of(fit, &applied);
             let std = (first..first + applied.values.len()).map(|i| fit.variance(i).map(f64::sqrt)).collect();
             LogReading::Wheel { applied, std }
@@ -182,6 +185,11 @@ fn told(given: String, reading: LogReading, fit: &Fit) -> Option<OtherVehicle> {
     let is_reading = |e: &Applied| matches!(&reading, LogReading::Wheel { applied, .. } if e.same_as(applied));
     let misses = fit.model.free_effects().filter(|e| !is_reading(e)).cloned().collect();
     Some(OtherVehicle { given, reading, misses })
+}
+
+fn is_off_the_middle(wheel: &Applied) -> bool {
+    let mut places = wheel.effect.parameters.values().zip(&wheel.values);
+    places.any(|(usual, place)| place.abs() > OFF_THE_MIDDLE * usual.size)
 }
 
 #[cfg(test)]
@@ -200,6 +208,8 @@ mod tests {
             super::told("unicycle".into(), reading, &Fit { covariance, ..fit })
         };
         assert!(told(&[("traverse-creep", &[0.1])]).is_none());
+        // Two millimetres from the middle is the middle.
+        assert!(told(&[("rate-of-one-wheel", &[0.002])]).is_none());
         let kept = told(&[("traverse-creep", &[0.1]), ("rate-of-one-wheel", &[0.2])]).unwrap();
         let LogReading::Wheel { applied, std } = kept.reading else { panic!("a wheel became a vehicle") };
         assert_eq!((applied.values, std, kept.misses.len()), (vec![0.2], vec![Some(0.02)], 1));

@@ -10,21 +10,19 @@
 //! | s = mean of G over the draws / k | one where χ² of the effect's k values holds |
 //! | G/s | the gain in units of what is gained of nothing |
 
-use super::parametric_bootstrap::NullDistribution;
+use super::parametric_bootstrap::{NullDistribution, gains_on};
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::estimation::problem::Problem;
-use crate::discrepancy::record::run_record::Record;
 use crate::effects::Applied;
 use crate::error::Result;
-use crate::progress::{Counter, OnProgress, Stage};
+use crate::progress::OnProgress;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// Data sets that are drawn, a few, and more where these do not decide: enough for the size of the gains, not for their tail.
-const DRAWS: [u64; 2] = [3, 9];
+const DRAWS: [usize; 2] = [3, 9];
 /// A gain so many times as large as its price, or as small, is decided by few draws.
 const DECIDED: f64 = 3.0;
 
@@ -46,17 +44,19 @@ impl Problem {
         let Some(gain) = gain else { return Ok(None) };
         let [few, all] = DRAWS;
         let mut chance = NullDistribution::of(effect.values.len(), vec![]);
+        let mut beyond = None;
         for draws in [0..few, few..all] {
             chance.gains.extend(self.gains_of_input_noise(&smooth, without, effect, draws, progress)?);
             if chance.gains.is_empty() {
-                return Ok(None);
+                break;
             }
-            let beyond = gain / chance.scale().max(1.0) / price;
-            if beyond > DECIDED || beyond < DECIDED.recip() {
-                return Ok(Some(beyond));
+            let found = gain / chance.scale().max(1.0) / price;
+            beyond = Some(found);
+            if !(DECIDED.recip()..=DECIDED).contains(&found) {
+                break;
             }
         }
-        Ok(Some(gain / chance.scale().max(1.0) / price))
+        Ok(beyond)
     }
 
     /// The gains on poses that the smoothed inputs lead to, and inputs with noise drawn anew.
@@ -65,22 +65,17 @@ impl Problem {
         smooth: &Problem,
         without: &Fit,
         effect: &Applied,
-        draws: Range<u64>,
+        draws: Range<usize>,
         progress: &OnProgress,
     ) -> Result<Vec<f64>> {
         let equations = without.model.equations(&[])?;
         let quiet = Fit { variances: beside_known(&without.variances), ..without.clone() };
-        let counter = Counter::begin(progress, Stage::Draws, draws.clone().count())?;
-        let one = |draw: u64| -> Result<Option<f64>> {
-            let mut random = ChaCha8Rng::seed_from_u64(draw);
-            let Some((drawn, starts)) = smooth.drawn(&equations, &quiet, &mut random) else { return Ok(None) };
-            let noisy = |(i, r): (usize, &Record)| r.with_noisier_inputs(1000 * draw + i as u64);
-            let noisy = Problem { records: drawn.records.iter().enumerate().map(noisy).collect(), ..drawn.clone() };
-            let gain = noisy.gain(&without.model, effect, &starts, &without.variances)?;
-            counter.one().map(|()| gain)
+        let noisy = |draw: usize| {
+            let mut random = ChaCha8Rng::seed_from_u64(draw as u64);
+            let (drawn, starts) = smooth.drawn(&equations, &quiet, &mut random)?;
+            Some((drawn.with_noisier_inputs(draw as u64), starts))
         };
-        let gains: Vec<Option<f64>> = draws.into_par_iter().map(one).collect::<Result<_>>()?;
-        Ok(gains.into_iter().flatten().collect())
+        gains_on(noisy, without, effect, draws, progress)
     }
 }
 
@@ -96,6 +91,7 @@ mod tests {
     use super::*;
     use crate::discrepancy::estimation::fit::Effort;
     use crate::discrepancy::fixtures::{WEAVING, equations, logged, unicycle};
+    use crate::discrepancy::record::run_record::Record;
     use crate::effects::named;
     use crate::motion::Timing;
     use crate::progress::unheard;

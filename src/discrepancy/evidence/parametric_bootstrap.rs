@@ -124,17 +124,12 @@ impl Problem {
         progress: &OnProgress,
     ) -> Result<Vec<f64>> {
         let equations = without.model.equations(&[])?;
-        let counter = Counter::begin(progress, Stage::Draws, draws.len())?;
-        let one = |i: usize| -> Result<Option<f64>> {
+        let drawn = |i: usize| {
             let mut random = ChaCha8Rng::seed_from_u64(seed);
             random.set_stream(i as u64);
-            let Some((drawn, starts)) = self.drawn(&equations, without, &mut random) else { return Ok(None) };
-            let gain = drawn.gain(&without.model, effect, &starts, &without.variances)?;
-            counter.one()?;
-            Ok(gain)
+            self.drawn(&equations, without, &mut random)
         };
-        let gains: Vec<Option<f64>> = draws.into_par_iter().map(one).collect::<Result<_>>()?;
-        Ok(gains.into_iter().flatten().collect())
+        gains_on(drawn, without, effect, draws, progress)
     }
 
     /// By how much an effect improves the deviance, from wherever a fit of it may begin.
@@ -208,6 +203,25 @@ impl Problem {
         }
         drawn.records.iter().flat_map(|r| &r.columns).flatten().all(|x| x.is_finite()).then_some((drawn, starts))
     }
+}
+
+/// What an effect gains beside a fit without it on data sets that are drawn one by one, with the poses at their windows' starts.
+pub(super) fn gains_on(
+    drawn: impl Fn(usize) -> Option<(Problem, WindowStates)> + Sync,
+    without: &Fit,
+    effect: &Applied,
+    draws: Range<usize>,
+    progress: &OnProgress,
+) -> Result<Vec<f64>> {
+    let counter = Counter::begin(progress, Stage::Draws, draws.len())?;
+    let one = |i: usize| -> Result<Option<f64>> {
+        let Some((drawn, starts)) = drawn(i) else { return Ok(None) };
+        let gain = drawn.gain(&without.model, effect, &starts, &without.variances)?;
+        counter.one()?;
+        Ok(gain)
+    };
+    let gains: Vec<Option<f64>> = draws.into_par_iter().map(one).collect::<Result<_>>()?;
+    Ok(gains.into_iter().flatten().collect())
 }
 
 /// Moves a pose by what no effect explains: along the body, across it, in yaw, and the trailers'.

@@ -95,15 +95,15 @@ fn between(problem: &Problem, choice: &Selected, relatives: &[Vec<EquivalentEffe
     let apart = |m: &Manoeuvre, a: &PriorInformation, b: &PriorInformation| {
         Some(thought.expected_delta_bic(m, a, b)?.min(thought.expected_delta_bic(m, b, a)?))
     };
-    let all: Vec<&Manoeuvre> = library(&thought.envelope).collect();
+    let all: Vec<&'static Manoeuvre> = library(&thought.envelope).collect();
     let each: Vec<Vec<Option<f64>>> =
         all.par_iter().map(|m| others.iter().map(|o| apart(m, &truth, o)).collect()).collect();
     let (within, beyond) = within_reach(&each, others.len());
-    let worth = |m: &Manoeuvre| {
-        let of = &each[all.iter().position(|other| std::ptr::eq(*other, m))?];
+    let least = |of: &Vec<Option<f64>>| {
         let all = within.iter().map(|i| of[*i]).collect::<Option<Vec<f64>>>();
         all.map(|all| all.into_iter().fold(f64::INFINITY, f64::min))
     };
+    let worths: Vec<Option<f64>> = each.iter().map(least).collect();
     // One of the rivals may be the true one, and the others are then its rivals.
     let among = |m: &Manoeuvre| {
         let pairs = others.iter().enumerate().flat_map(|(i, a)| others[..i].iter().map(move |b| (a, b)));
@@ -118,7 +118,7 @@ fn between(problem: &Problem, choice: &Selected, relatives: &[Vec<EquivalentEffe
         expected_delta_bic: worth,
         times: repetitions(worth),
     };
-    Ok(thought.best_of_all(worth, among).map(step))
+    Ok(best(&all, &worths, among).map(step))
 }
 
 /// The rivals that some manoeuvre tells from the chosen effect in reasonable time, and those that none does, by the evidence of
@@ -142,7 +142,9 @@ fn revealing(problem: &Problem, choice: &Selected, missed: &Candidate) -> Option
     let applied = Applied::new(effect, missed.applied.trailer, sizes);
     let model = before.model.clone().with_effect(applied.clone().freed());
     let truth = PriorInformation { model, ..PriorInformation::of(before) };
-    let (m, worth) = thought.best(|m| thought.expected_delta_bic(m, &truth, &of))?;
+    let all: Vec<&'static Manoeuvre> = library(&thought.envelope).collect();
+    let worths: Vec<Option<f64>> = all.par_iter().map(|m| thought.expected_delta_bic(m, &truth, &of)).collect();
+    let (m, worth) = best(&all, &worths, |_| 0)?;
     (worth > ENOUGH).then(|| NextStep::Reveal {
         effect: applied,
         manoeuvre: thought.planned(m),
@@ -161,6 +163,23 @@ fn repetitions(worth: f64) -> Option<f64> {
 fn most_different(relatives: &[EquivalentEffect]) -> Vec<&EquivalentEffect> {
     let by_data: Vec<&EquivalentEffect> = relatives.iter().filter(|r| r.why == "data").collect();
     if by_data.is_empty() { relatives.iter().filter(|r| r.differs()).collect() } else { by_data }
+}
+
+/// The manoeuvre of the most worth, or the simplest of those that are nearly as good; of those that separate beyond doubt the ones
+/// that settle most of the other questions.
+fn best(
+    all: &[&'static Manoeuvre],
+    worths: &[Option<f64>],
+    settled: impl Fn(&Manoeuvre) -> usize + Sync,
+) -> Option<(&'static Manoeuvre, f64)> {
+    let enough = |w: &Option<f64>| w.is_some_and(|w| w > ENOUGH);
+    let each = all.par_iter().zip(worths).map(|(m, w)| if enough(w) { settled(m) } else { 0 });
+    let each: Vec<usize> = each.collect();
+    let most_settled = each.iter().copied().max().unwrap_or(0);
+    let eligible = |i: usize| worths[i].filter(|_| each[i] == most_settled);
+    let most = (0..all.len()).filter_map(eligible).fold(f64::NEG_INFINITY, f64::max);
+    let first = (0..all.len()).find_map(|i| eligible(i).filter(|w| nearly(*w, most)).map(|w| (i, w)));
+    first.map(|(i, w)| (all[i], w))
 }
 
 /// Whether a worth, which may be negative, is nearly as much as the most.
@@ -185,29 +204,6 @@ impl<'a> PredictedExperiment<'a> {
     /// A manoeuvre at the speeds and turns of the runs at hand.
     pub(crate) fn planned(&self, manoeuvre: &'static Manoeuvre) -> PlannedManoeuvre {
         PlannedManoeuvre { manoeuvre, envelope: self.envelope.clone() }
-    }
-
-    /// The manoeuvre of the most worth, or the simplest of those that are nearly as good.
-    fn best(&self, worth: impl Fn(&Manoeuvre) -> Option<f64> + Sync) -> Option<(&'static Manoeuvre, f64)> {
-        self.best_of_all(worth, |_| 0)
-    }
-
-    /// The same, of those that separate beyond doubt and of these of the ones that settle most of the other questions.
-    fn best_of_all(
-        &self,
-        worth: impl Fn(&Manoeuvre) -> Option<f64> + Sync,
-        settled: impl Fn(&Manoeuvre) -> usize + Sync,
-    ) -> Option<(&'static Manoeuvre, f64)> {
-        let all: Vec<&Manoeuvre> = library(&self.envelope).collect();
-        let worths: Vec<Option<f64>> = all.par_iter().map(|m| worth(m)).collect();
-        let enough = |w: &Option<f64>| w.is_some_and(|w| w > ENOUGH);
-        let each = all.par_iter().zip(&worths).map(|(m, w)| if enough(w) { settled(m) } else { 0 });
-        let each: Vec<usize> = each.collect();
-        let most_settled = each.iter().copied().max().unwrap_or(0);
-        let eligible = |i: usize| worths[i].filter(|_| each[i] == most_settled);
-        let most = (0..all.len()).filter_map(eligible).fold(f64::NEG_INFINITY, f64::max);
-        let first = (0..all.len()).find_map(|i| eligible(i).filter(|w| nearly(*w, most)).map(|w| (i, w)));
-        first.map(|(i, w)| (all[i], w))
     }
 
     /// By how much the BIC of `other` is expected to exceed that of `truth` after a manoeuvre.

@@ -11,6 +11,9 @@
 
 use super::local_polynomial::median;
 
+/// Stretches that come back, at least, of a wave.
+const FEWEST_WAVES: usize = 3;
+
 /// A time and the level that is crossed then.
 type Crossing = (f64, f64);
 
@@ -82,9 +85,6 @@ impl Pace {
         if self.is_wave { 1.0 - (1.0 - (u / self.usual).min(1.0)).powi(2) } else { 1.0 }
     }
 }
-
-/// Stretches that come back, at least, of a wave.
-const FEWEST_WAVES: usize = 3;
 
 fn is_same(from: f64, to: f64, step: f64) -> bool {
     (to - from).abs() < 0.5 * step

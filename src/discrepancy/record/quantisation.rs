@@ -42,9 +42,7 @@ struct Rounding {
 /// The rounding of a column: every change is a whole number of steps.
 fn rounding(column: &[f64], share: f64) -> Option<Rounding> {
     let size = root_mean_square(column);
-    let changes = column.windows(2).map(|w| (w[1] - w[0]).abs());
-    let mut changes: Vec<f64> = changes.filter(|c| *c > 1e-9 * size).collect();
-    let step = changes.iter().copied().fold(f64::INFINITY, f64::min);
+    let (mut changes, step) = changes(column, size);
     let singles = changes.iter().filter(|c| **c < 1.5 * step).count() as f64;
     let is_busy = changes.len() as f64 >= BUSY * column.len() as f64;
     let is_staircase = || singles >= SINGLE * changes.len() as f64 && levels(column, step) >= LEVELS;
@@ -57,11 +55,17 @@ fn rounding(column: &[f64], share: f64) -> Option<Rounding> {
     coarse.then_some(Rounding { step, is_busy, is_slow })
 }
 
+/// The sizes of the changes from row to row, where there are any, and the least of them.
+fn changes(column: &[f64], size: f64) -> (Vec<f64>, f64) {
+    let each = column.windows(2).map(|w| (w[1] - w[0]).abs());
+    let changes: Vec<f64> = each.filter(|c| *c > 1e-9 * size).collect();
+    let least = changes.iter().copied().fold(f64::INFINITY, f64::min);
+    (changes, least)
+}
+
 /// The step of a column whose every change is up or down by the same: a slow signal rounded, or commands.
 pub(crate) fn staircase_step(column: &[f64]) -> Option<f64> {
-    let size = column.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
-    let changes: Vec<f64> = column.windows(2).map(|w| (w[1] - w[0]).abs()).filter(|c| *c > 1e-9 * size).collect();
-    let step = changes.iter().copied().fold(f64::INFINITY, f64::min);
+    let (changes, step) = changes(column, root_mean_square(column));
     let is_single = changes.iter().all(|c| (c / step - 1.0).abs() < WHOLE);
     (changes.len() >= FEWEST_OF_STAIRCASE && is_single).then_some(step)
 }

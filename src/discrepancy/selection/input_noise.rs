@@ -62,8 +62,11 @@ pub(crate) fn gained_of_nothing(
     weighed: &[Weighed],
     progress: &OnProgress,
 ) -> Result<Option<Applied>> {
+    if !selection.problem.has_noisy_inputs() {
+        return Ok(None);
+    }
     let mut least: Option<(f64, &Applied)> = None;
-    for Weighed { effect, without } in weighed.iter().filter(|_| selection.problem.has_noisy_inputs()) {
+    for Weighed { effect, without } in weighed {
         let applied = &effect.applied;
         let price = applied.values.len() as f64 * selection.price(fit) + selection.price_of_scope(applied, fit);
         let Some(beyond) = selection.problem.gain_beyond_input_noise(without, applied, price, progress)? else {

@@ -3,7 +3,7 @@
 use super::input_noise;
 use super::input_sampling::{InputSampling, keep_sampled};
 use super::search::{Search, SearchState, find, first_of, forget};
-use super::stability::stands_in_for_law;
+use super::stability::{is_there, visible_places};
 use crate::discrepancy::estimation::bounds::is_possible;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::unexplained::{remaining, remains};
@@ -200,30 +200,25 @@ impl Search<'_> {
 
     /// The effect that has another value in a regime of driving, the one whose difference is largest beyond chance.
     fn changing(&self, fit: &Fit, weighed: &[Weighed]) -> Result<Option<(Applied, Refusal)>> {
-        let real = self
-            .problem
-            .differences(fit)?
-            .into_iter()
-            .flat_map(|(a, each)| each.into_iter().filter(|d| d.is_real()).map(move |d| (a.clone(), d)));
-        let mut real: Vec<(Applied, Difference)> = real.collect();
+        let each = self.problem.differences(fit)?.into_iter();
+        let mut real: Vec<(Applied, Difference)> = each
+            .flat_map(|(a, each)| each.into_iter().filter(Difference::is_real).map(move |d| (a.clone(), d)))
+            .collect();
         real.sort_by(|a, b| b.1.chi_squared.total_cmp(&a.1.chi_squared));
         for (a, d) in real {
-            let smaller = weighed.iter().find(|w| w.effect.applied.same_as(&a)).map(|w| &w.without);
-            if !d.is_one_way() || !smaller.map_or(Ok(false), |smaller| self.is_there_anyway(fit, smaller, &a))? {
+            if !(d.is_one_way() && self.is_there_anyway(fit, weighed, &a)?) {
                 return Ok(Some((a, Refusal::Regime { regime: d.regime, values: d.values })));
             }
         }
         Ok(None)
     }
 
-    /// Whether what every vehicle has more or less of predicts every part of the data better from the others, where nothing is
-    /// seen of a law at its place: its values differ by more than the noise, and it is there.
-    fn is_there_anyway(&self, fit: &Fit, smaller: &Fit, effect: &Applied) -> Result<bool> {
-        if !effect.effect.basic || !remains(fit) || stands_in_for_law(self, fit, effect)? {
-            return Ok(false);
-        }
-        let gains = self.problem.gains_by_parts(fit, smaller)?;
-        Ok(gains.is_some_and(|g| g.is_everywhere() && g.is_gain()))
+    /// Whether an effect is there though it has two values, where something remains that makes them two.
+    fn is_there_anyway(&self, fit: &Fit, weighed: &[Weighed], effect: &Applied) -> Result<bool> {
+        let own = weighed.iter().find(|w| w.effect.applied.same_as(effect));
+        let Some(own) = own.filter(|_| effect.effect.basic && remains(fit)) else { return Ok(false) };
+        let gains = self.problem.gains_by_parts(fit, &own.without)?;
+        Ok(is_there(effect, &visible_places(self, fit)?, false, gains))
     }
 
     /// The name that moves most when the laws without a name are taken out.

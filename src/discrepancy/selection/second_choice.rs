@@ -23,57 +23,52 @@ const ROUNDS: usize = 3;
 /// Asked only where something remains; what is found passes the tests that every name passes. Once the whole library was
 /// asked, only what every vehicle has is asked again: of the others one after another would do for a rest.
 pub(crate) fn second_choice(selection: &Search, choice: &Selected, progress: &OnProgress) -> Result<Option<Selected>> {
+    if !remains(&choice.after) || choice.after.model.free_effects().any(is_term) {
+        return Ok(None);
+    }
     let mut refused = choice.refused.clone();
     let mut asked: Vec<Effect> = selection.library.to_vec();
+    let mut is_contradicted_anew = refused.iter().any(is_contradicted);
     for _ in 0..ROUNDS {
-        let contradicted = contradicted(&refused);
-        if contradicted.is_empty() || !remains(&choice.after) || choice.after.model.free_effects().any(is_term) {
-            return Ok(None);
+        if !is_contradicted_anew {
+            break;
         }
-        let open = still_open(&asked, &contradicted);
-        let found = match without_contradicted(&Search { library: &open, ..*selection }, choice, &refused, progress)? {
-            Outcome::Found(found) => return Ok(Some(*found)),
-            Outcome::Refused(more) => more,
-        };
-        if !found.iter().any(is_contradicted) {
-            return Ok(None);
+        let open = still_open(&asked, &contradicted(&refused));
+        match without_contradicted(&Search { library: &open, ..*selection }, choice, &refused, progress)? {
+            Ok(found) => return Ok(Some(found)),
+            Err(more) => {
+                is_contradicted_anew = more.iter().any(is_contradicted);
+                refused.extend(more);
+            }
         }
-        refused.extend(found);
         asked.retain(|e| e.basic);
     }
     Ok(None)
 }
 
-/// What a search without contradicted names ends with.
-enum Outcome {
-    /// More than was chosen before.
-    Found(Box<Selected>),
-    /// No more, for these were refused.
-    Refused(Vec<Refused>),
-}
-
+/// More than was chosen before, or what was refused instead.
 fn without_contradicted(
     selection: &Search,
     choice: &Selected,
     before: &[Refused],
     progress: &OnProgress,
-) -> Result<Outcome> {
+) -> Result<std::result::Result<Selected, Vec<Refused>>> {
     let Selected { before: bare, after, candidates, .. } = choice;
     let found = selection.grown(after, progress)?;
     let found = SearchState { steps: [&choice.steps[..], &found.steps].concat(), ..found };
     if same_effects(&found.fit.model, &after.model) {
-        return Ok(Outcome::Refused(vec![]));
+        return Ok(Err(vec![]));
     }
     let Stable { mut grown, inconsistent, scatter } = stability::shared(selection, found, progress)?;
     let (dropped, standing) = selection.keep_sampled_and_standing(&mut grown, scatter, progress)?;
     let Standing { chosen, refused, missed } = standing;
     let n = grown.fit.sample_size.max(after.sample_size);
     if chosen.len() <= choice.chosen.len() || delta_bic(&grown.fit, after, n) <= selection.margin() {
-        return Ok(Outcome::Refused(refused));
+        return Ok(Err(refused));
     }
     let is_chosen = |a: &Applied| chosen.iter().any(|c| c.applied.same_as(a));
     let fallen = choice.inconsistent.iter().cloned().chain(inconsistent).filter(|a| !is_chosen(a));
-    Ok(Outcome::Found(Box::new(Selected {
+    Ok(Ok(Selected {
         before: bare.clone(),
         inconsistent: fallen.collect(),
         sampling_sensitive: [&choice.sampling_sensitive[..], &dropped].concat(),
@@ -83,7 +78,7 @@ fn without_contradicted(
         steps: grown.steps,
         candidates: candidates.clone(),
         missed,
-    })))
+    }))
 }
 
 /// The names that have another value in a regime of driving, or that the very runs they were fitted to refute.

@@ -8,6 +8,7 @@ use super::search::{Search, SearchState};
 use super::unnamed_terms;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::unexplained::remains;
+use crate::discrepancy::evidence::cross_validation::Gains;
 use crate::discrepancy::evidence::jackknife::Jackknife;
 use crate::discrepancy::evidence::wald_test::is_one_way;
 use crate::discrepancy::localisation::unexplained_motion::visible;
@@ -87,14 +88,8 @@ impl Stable {
         for effect in inconsistent(fit, scatter) {
             let Some(smaller) = selection.without(fit, &effect)? else { return Ok(None) };
             let gains = selection.problem.gains_by_parts(fit, &smaller)?;
-            // What every vehicle has more or less of differs between runs by more than their noise, and is there: unless
-            // so much is left where it acts that it stands in for a law. Alike is what has one direction in all parts, or in every
-            // run by itself, or predicts each part better from the others.
-            let is_law = seen.iter().any(|place| acts_at(&effect, place));
             let is_one_way = scatter.is_one_way(fit, &effect) || is_one_way(fit, &effect);
-            let is_shared = is_one_way || gains.is_some_and(|g| g.is_everywhere());
-            let is_there = effect.effect.basic && !is_law && is_shared;
-            if is_there && gains.is_some_and(|g| g.is_gain()) {
+            if is_there(&effect, &seen, is_one_way, gains) {
                 continue;
             }
             let rank = (!is_term(&effect), effect.effect.basic, gains.map_or(f64::NEG_INFINITY, |g| g.total));
@@ -121,13 +116,16 @@ impl Stable {
     }
 }
 
-/// Whether so much is seen to be left where an effect acts that it may stand in for a law.
-pub(super) fn stands_in_for_law(selection: &Search, fit: &Fit, effect: &Applied) -> Result<bool> {
-    Ok(visible_places(selection, fit)?.iter().any(|place| acts_at(effect, place)))
+/// Whether what every vehicle has more or less of is there, though it differs by more than the noise: unless so much is seen to be
+/// left where it acts that it stands in for a law. It has one direction in all parts, or in every run by itself, or predicts each
+/// part better from the others.
+pub(super) fn is_there(effect: &Applied, seen: &[&str], is_one_way: bool, gains: Option<Gains>) -> bool {
+    let is_law = seen.iter().any(|place| acts_at(effect, place));
+    effect.effect.basic && !is_law && gains.is_some_and(|g| g.is_gain() && (is_one_way || g.is_everywhere()))
 }
 
 /// The constraints at which a fit leaves what is seen without statistics.
-fn visible_places(selection: &Search, fit: &Fit) -> Result<Vec<&'static str>> {
+pub(super) fn visible_places(selection: &Search, fit: &Fit) -> Result<Vec<&'static str>> {
     let left = selection.problem.violations(&fit.model, &fit.noise())?;
     Ok(visible(fit, &left).map(|c| JUMPS[c].place).collect())
 }

@@ -97,10 +97,12 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
         }
     }
     let mut rounded = vec![];
-    if let Some(chosen) = &choice
-        && let Some(found) = rounded_inputs(&problem, &model, chosen)?
-    {
-        (problem, rounded) = (found.problem, found.inputs);
+    if let Some(chosen) = &choice {
+        rounded = rounded_inputs(&problem, &model, chosen)?;
+    }
+    if !rounded.is_empty() {
+        data = data.with_rounded_inputs();
+        problem = posed(&data)?;
         choice = choose(&problem, &model, request.library, progress)?;
     }
     let Some(selected) = choice else {

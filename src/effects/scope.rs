@@ -189,6 +189,20 @@ impl Scope {
         (!kept.is_empty() && kept.len() < intervals.len()).then_some(Self::Times(kept))
     }
 
+    /// The scope whose first beginning before a time and whose last end after another are none: nothing is told of them there.
+    pub(crate) fn open_beyond(&self, first: f64, last: f64) -> Self {
+        let mut opened = self.clone();
+        if let Self::Times(intervals) = &mut opened {
+            if let Some([from, _]) = intervals.first_mut().filter(|i| i[0] < first) {
+                *from = f64::NEG_INFINITY;
+            }
+            if let Some([_, until]) = intervals.last_mut().filter(|i| i[1] > last) {
+                *until = f64::INFINITY;
+            }
+        }
+        opened
+    }
+
     /// Whether two scopes are of one kind, whatever their numbers.
     pub fn is_like(&self, other: &Scope) -> bool {
         std::mem::discriminant(self) == std::mem::discriminant(other)
@@ -274,6 +288,16 @@ mod tests {
         assert_eq!(simpler(&[[1.0, 2.0], [2.2, 2.3], [2.5, 5.0]]), Some(of(&[[1.0, 2.0], [2.5, 5.0]])));
         assert_eq!((simpler(&[[1.0, 2.0], [2.4, 5.0]]), simpler(&[[1.0, 1.1]])), (None, None));
         assert_eq!(Scope::Above(1.0).without_slivers(0.3), None);
+    }
+
+    #[test]
+    fn ends_beyond_the_data_are_left_open() {
+        let opened = |intervals: &[[f64; 2]]| Scope::Times(intervals.to_vec()).open_beyond(1.0, 9.0);
+        let (never, always) = (f64::INFINITY, f64::NEG_INFINITY);
+        assert_eq!(opened(&[[2.0, 9.5]]), Scope::Times(vec![[2.0, never]]));
+        assert_eq!(opened(&[[0.5, 3.0], [4.0, 8.0]]), Scope::Times(vec![[always, 3.0], [4.0, 8.0]]));
+        assert_eq!(opened(&[[2.0, 3.0], [4.0, 9.1]]), Scope::Times(vec![[2.0, 3.0], [4.0, never]]));
+        assert_eq!(Scope::Above(0.5).open_beyond(1.0, 9.0), Scope::Above(0.5));
     }
 
     #[test]

@@ -87,6 +87,23 @@ fn what_means_nothing_at_zero_may_begin_as_well() {
     }
 }
 
+/// A small effect that holds in part is taken for noise, which hides it: it is seen at the noise that there is without it.
+#[test]
+fn a_small_part_is_not_lost_in_the_noise_that_it_makes() {
+    for seed in [6, 8, 11] {
+        let hidden = effect("steering-gain", "scale = 0.01\nscope = { from = 31.4 }");
+        let run = driven(CAR, &hidden, 5e-3, seed);
+        let report = creepage::discover(&Model::parse(CAR).unwrap(), &[run]).unwrap().report;
+        let [one] = &report.effects[..] else { panic!("{seed}: {}", report.summary) };
+        let from = one.scope.as_ref().and_then(|s| s.from).unwrap();
+        // About 24 s and 31 s the vehicle turns back, and hardly moves.
+        assert!((23.0..32.0).contains(&from), "{}", report.summary);
+        let rivals: Vec<&str> = one.indistinguishable_from.iter().map(|r| r.id.as_str()).collect();
+        let is_told = one.id == "steering-gain" || rivals.contains(&"steering-gain");
+        assert!(is_told && report.remains.is_none(), "{}: {rivals:?}", report.summary);
+    }
+}
+
 /// An edge is found to less than a row where the sensor is that precise, so that the interval of the value holds it, and
 /// nothing is left that a place would explain better.
 #[test]
@@ -98,6 +115,21 @@ fn an_edge_is_found_to_less_than_a_row() {
     let creep = &one.parameters["e_rc"];
     assert!((from - 31.413).abs() < 0.005 && report.remains.is_none(), "{}", report.summary);
     assert!((creep.value - 0.05).abs() < 3.0 * creep.std.unwrap(), "{creep:?}");
+}
+
+/// About 25.4 s the vehicle stops turning left and begins to turn right: what changes its yaw from a little before on turns it,
+/// in all, as much as what begins a little after. Both are looked at.
+#[test]
+fn a_beginning_is_told_from_its_image_beyond_a_turn() {
+    for from in [24.98, 25.78] {
+        let hidden = effect("yaw-rate-scale", &format!("scale = 0.05\nscope = {{ from = {from} }}"));
+        let run = driven(UNICYCLE, &hidden, 1e-4, 9);
+        let report = creepage::discover(&Model::parse(UNICYCLE).unwrap(), &[run]).unwrap().report;
+        let [one] = &report.effects[..] else { panic!("{}", report.summary) };
+        let found = one.scope.as_ref().and_then(|s| s.from).unwrap();
+        assert!(one.id == "yaw-rate-scale" && (found - from).abs() < 0.02, "{from}: {}", report.summary);
+        assert!(report.remains.is_none(), "{}", report.summary);
+    }
 }
 
 /// What cannot be told from an effect is listed for the time in which that holds: on one circle an angle and a gain are one.

@@ -53,13 +53,22 @@ pub fn powers(scenario: &Scenario, targets: &[Target]) -> Vec<Power> {
     let own: Vec<DVector<f64>> = (0..scenario.hidden.len())
         .map(|i| {
             let mut hidden = scenario.hidden.clone();
-            hidden[i] = secret::amplified(&hidden[i], 1.0 + GROWN);
-            moved(&hidden) / GROWN
+            let mut grown = |by: f64| {
+                hidden[i] = secret::amplified(&scenario.hidden[i], 1.0 + by);
+                moved(&hidden)
+            };
+            // What is not linear in so small a step cancels: it would tell an effect from one that does the same.
+            (grown(GROWN) - grown(-GROWN)) / (2.0 * GROWN)
         })
         .collect();
     let hides = |t: &Target| scenario.hidden.iter().any(|h| class::same(*t, secret::target(h)));
     let felt = |t: Target| {
-        secret::probes(t).into_iter().map(|p| moved(&[&scenario.hidden[..], &[p]].concat())).collect::<Vec<_>>()
+        let by = |p: Hidden| moved(&[&scenario.hidden[..], &[p]].concat());
+        let both_ways = |p: Hidden| match secret::mirrored(&p) {
+            Some(other) => (by(p) - by(other)) / 2.0,
+            None => by(p),
+        };
+        secret::probes(t).into_iter().map(both_ways).collect::<Vec<_>>()
     };
     let rivals: Vec<(Target, Vec<DVector<f64>>)> =
         targets.iter().filter(|t| !hides(t)).map(|t| (*t, felt(*t))).collect();
@@ -74,7 +83,7 @@ pub fn powers(scenario: &Scenario, targets: &[Target]) -> Vec<Power> {
 }
 
 /// Share by which a hidden effect is enlarged to see in what direction it acts.
-const GROWN: f64 = 0.002;
+const GROWN: f64 = 5e-4;
 
 fn power(own: &DVector<f64>, at: Target, basis: &Basis, rivals: &[(Target, Vec<DVector<f64>>)]) -> Power {
     let mut apart: Vec<(Target, f64)> = rivals

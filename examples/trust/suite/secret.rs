@@ -108,6 +108,21 @@ pub fn amplified(hidden: &Hidden, factor: f64) -> Hidden {
     made(target(hidden), &values)
 }
 
+/// A probe the other way round; `None` of one that has a state or a time constant, which cannot be less than nothing.
+pub fn mirrored(probe: &Hidden) -> Option<Hidden> {
+    let at = target(probe);
+    let values = parameters(probe).into_iter().enumerate();
+    match at.0 {
+        "traction-creep" | "cornering-creep" | "relaxation-length" => None,
+        // The second parameter is a limit or a direction, and means nothing by itself.
+        "saturating-creep" | "side-slope" | "grade" => {
+            let values: Vec<f64> = values.map(|(i, (_, v))| if i == 0 { -v } else { v }).collect();
+            Some(made(at, &values))
+        }
+        _ => Some(made(at, &values.map(|(_, (_, v))| -v).collect::<Vec<f64>>())),
+    }
+}
+
 /// Small effects of that name that together span what it can do to first order.
 pub fn probes(at: Target) -> Vec<Hidden> {
     let effect = effects::named(at.0).expect("targets come from the library");

@@ -2,6 +2,7 @@
 
 use super::warning::Warning;
 use crate::discrepancy::preprocessing::dataset::Data;
+use crate::discrepancy::record::input_noise::PHASES;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::record::sensor_noise::Noise;
 use crate::discrepancy::report;
@@ -14,8 +15,6 @@ use rayon::prelude::*;
 
 /// Horizons of the curve, s.
 const CURVE: [f64; 12] = [0.2, 0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0, 45.0];
-/// Times the noise of inputs is drawn.
-const INPUT_DRAWS: u64 = 4;
 /// Windows a point of the curve needs.
 pub(crate) const FEWEST_WINDOWS: usize = 2;
 
@@ -58,8 +57,8 @@ impl<'a> Rollouts<'a> {
         let floors: Vec<PredictionError> =
             each.iter().fold(zero, |sum, floors| sum.into_iter().zip(floors).map(|(s, f)| s.joined(*f)).collect());
         let of_inputs = |h: &f64| -> PredictionError {
-            let drawn = |seed: u64| self.0.iter().map(move |p| p.moved_by_inputs(*h, seed));
-            (0..INPUT_DRAWS).flat_map(drawn).fold(PredictionError::default(), PredictionError::joined)
+            let drawn = |draw: u64| (0..).zip(&self.0).map(move |(run, p)| p.moved_by_inputs(*h, run, draw));
+            (0..PHASES).flat_map(drawn).fold(PredictionError::default(), PredictionError::joined)
         };
         floors.into_iter().zip(horizons).map(|(floor, h)| floor.beside(of_inputs(h))).collect()
     }

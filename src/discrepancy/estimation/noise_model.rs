@@ -142,6 +142,15 @@ impl NoiseModel {
         self
     }
 
+    /// With a share of what a component of the process noise has beyond the variance it is known to have.
+    pub fn with_share_of_jump(mut self, c: usize, share: f64) -> Self {
+        let k = self.sensor + c;
+        let jump = self.components[k];
+        let known = jump.known.min(jump.variance);
+        self.components[k].variance = (known + share * (jump.variance - known)).max(self.least(k));
+        self
+    }
+
     /// Whether errors of the nodes at the ends of windows, of these variances by component, are lost in the measurement noise.
     pub fn hides(&self, variances: &[f64]) -> bool {
         let hidden =
@@ -182,6 +191,7 @@ impl NoiseModel {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::discrepancy::fixtures::noise_of;
 
     fn start(variance: f64, is_measured: bool, is_known: bool) -> Start {
         Start { variance, is_measured, is_known }
@@ -189,6 +199,20 @@ mod tests {
 
     fn estimated(noise: &NoiseModel) -> Vec<&str> {
         noise.components().iter().filter(|c| c.is_estimated).map(|c| c.id).collect()
+    }
+
+    /// What is known stays, of the rest there is a share.
+    #[test]
+    fn a_jump_keeps_what_is_known_of_it() {
+        let of = |known: f64, share: f64| {
+            let noise = noise_of(0, [1e-6; 2], &[1e-6, 1e-4, 1e-4]).knowing([0.0, 0.0, known]);
+            noise.with_share_of_jump(2, share).process()[2].variance
+        };
+        let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-9, "{a} {b}");
+        close(of(0.0, 0.1), 1e-5);
+        close(of(4e-5, 0.1), 4.6e-5);
+        // What is known to make more than there is makes all.
+        close(of(2e-4, 0.1), 1e-4);
     }
 
     /// A known variance is kept; yaw shows in the path where no heading is measured, a trailer's heading does not.

@@ -3,6 +3,7 @@
 use super::priors::Priors;
 use crate::discrepancy::estimation::noise_model::{NoiseModel, Start};
 use crate::discrepancy::initial_state::heading_from_path;
+use crate::discrepancy::record::input_noise::PHASES;
 use crate::discrepancy::record::local_polynomial;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::shooting::window_integration::linearise;
@@ -102,9 +103,9 @@ impl Problem {
         Ok(Self { variances: self.variances.clone().knowing(known), ..self })
     }
 
-    /// The same poses with inputs that are as noisy again.
-    pub(crate) fn with_noisier_inputs(&self, seed: u64) -> Self {
-        let noisier = |(i, r): (usize, &Record)| r.with_noisier_inputs(1000 * seed + i as u64);
+    /// The same poses with inputs that are as noisy again: one of several draws.
+    pub(crate) fn with_noisier_inputs(&self, draw: u64) -> Self {
+        let noisier = |(run, r): (usize, &Record)| r.with_noisier_inputs(run as u64, draw);
         Self { records: self.records.iter().enumerate().map(noisier).collect(), ..self.clone() }
     }
 
@@ -169,7 +170,7 @@ pub(crate) fn starts(model: &Model, records: &[Record], plan: &[Segment]) -> Res
 /// The standard deviation of a heading that is so by definition, rad.
 const DEFINED: f64 = 1e-9;
 /// Times the noise of inputs is drawn.
-const INPUT_DRAWS: u64 = 3;
+const INPUT_DRAWS: u64 = 2 * PHASES;
 
 /// The variance of a heading that positions of a variance tell over the way of a window, (σ/(v·W))², by the windows whose
 /// way is longer than that σ; `None` where nothing moves.

@@ -2,6 +2,7 @@
 
 use crate::discrepancy::estimation::autocorrelation::NOTICEABLE;
 use crate::discrepancy::estimation::fit::Fit;
+use crate::discrepancy::estimation::noise_model::NoiseModel;
 
 /// Named effects from which on one simpler term is tried whatever remains.
 const MANY: usize = 2;
@@ -41,6 +42,12 @@ pub(crate) fn explains_half(fit: &Fit, than: &Fit) -> bool {
     !remains(fit) || remaining(than).any(|c| now[c] < HALF * before[c])
 }
 
+/// The noise of a fit with the rest that [`explains_most`] lets another leave: at it an effect is seen that the jumps hide where
+/// they are taken for noise.
+pub(crate) fn noise_if_explained(fit: &Fit) -> NoiseModel {
+    remaining(fit).fold(fit.variances.clone(), |noise, c| noise.with_share_of_jump(c, LEFT))
+}
+
 /// Whether a fit leaves nothing, or far less than another: beside a large rest a scope may imitate whatever is there.
 pub(crate) fn explains_most(fit: &Fit, than: &Fit) -> bool {
     let [now, before] = [fit, than].map(beyond_known);
@@ -70,6 +77,22 @@ mod tests {
         assert!(explains_half(&of([1e-6, 1e-4, 1e-4], [0.0; 3], 0.0), &before));
         let noisy = |yaw: f64| of([1e-6, 1e-4, yaw], [0.0, 0.0, 900.0], 9e-5);
         assert!(explains_half(&noisy(9.4e-5), &noisy(1e-4)) && !explains_half(&noisy(9.6e-5), &noisy(1e-4)));
+    }
+
+    /// Where a rest remains there is as much noise as an explanation may leave; elsewhere as before.
+    #[test]
+    fn a_rest_is_left_out_of_the_noise() {
+        let fit = Fit {
+            unexplained: vec![0.0, 0.0, 900.0],
+            variances: noise_of(0, [1e-6; 2], &[1e-6, 1e-4, 1e-4]),
+            ..fit_of(unicycle(&[]))
+        };
+        let quiet = noise_if_explained(&fit);
+        let of = |noise: &NoiseModel| noise.process().iter().map(|c| c.variance).collect::<Vec<f64>>();
+        assert_eq!(of(&quiet)[..2], of(&fit.variances)[..2]);
+        assert!((of(&quiet)[2] / 4e-6 - 1.0).abs() < 1e-9, "{:?}", of(&quiet));
+        let after = Fit { variances: quiet, ..fit.clone() };
+        assert!(!explains_most(&after, &fit), "an explanation leaves less than that");
     }
 
     /// Noise that is alike over rows makes jumps of nothing; jumps that are alike over windows are no less there.

@@ -14,6 +14,7 @@ use super::parametric_bootstrap::{NullDistribution, gains_on};
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::noise_model::NoiseModel;
 use crate::discrepancy::estimation::problem::Problem;
+use crate::discrepancy::record::input_noise::PHASES;
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::progress::OnProgress;
@@ -22,7 +23,7 @@ use rand_chacha::ChaCha8Rng;
 use std::ops::Range;
 
 /// Data sets that are drawn, a few, and more where these do not decide: enough for the size of the gains, not for their tail.
-const DRAWS: [usize; 2] = [3, 9];
+const DRAWS: [usize; 2] = [PHASES as usize, 2 * PHASES as usize];
 /// A gain so many times as large as its price, or as small, is decided by few draws.
 const DECIDED: f64 = 3.0;
 

@@ -82,6 +82,12 @@ impl Data {
         Self { fitted: kept(self.fitted, true), held_out: kept(self.held_out, is_held_out_of_them), ..self }
     }
 
+    /// The same where every input that may be rounded is.
+    pub(crate) fn with_rounded_inputs(self) -> Self {
+        let rounded = |all: &[Record]| all.iter().map(Record::with_rounded_inputs).collect();
+        Self { fitted: rounded(&self.fitted), held_out: rounded(&self.held_out), ..self }
+    }
+
     /// Logs that were interrupted, and such as are too short to be fitted beside others.
     pub fn notes(&self) -> Vec<DatasetNote> {
         // Where rows were left out is said with the reason.

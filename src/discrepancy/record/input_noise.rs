@@ -45,6 +45,9 @@ pub(crate) struct InputNoise {
     smooth: OnceLock<Vec<Vec<f64>>>,
 }
 
+/// Phases of ticks and steps that are drawn together, in equal distances: an error that lasts, of any size up to half of a
+/// step, has the mean square of all phases in four of them to 6 % (Cochran, Sampling Techniques, ch. 8).
+pub(crate) const PHASES: u64 = 4;
 /// White noise less than this share of an input, root mean square, is none: so little is not told from its own course.
 const LEAST: f64 = 0.001;
 /// Steps are told from less than that.
@@ -110,10 +113,19 @@ impl InputNoise {
         self.signals(|channel, column, smooth| channel.smoothing(&self.time, column, smooth))
     }
 
-    /// Signals of noise like it, and nothing else.
-    pub fn drawn(&self, seed: u64) -> Signals {
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        self.signals(|channel, _, smooth| channel.drawn(&self.time, smooth, &mut random))
+    /// Signals of noise like it, and nothing else: one of the draws of a seed, each [`PHASES`] of them a systematic sample of
+    /// where ticks and steps lie.
+    pub fn drawn(&self, seed: u64, draw: u64) -> Signals {
+        let stream = |of: u64| {
+            let mut random = ChaCha8Rng::seed_from_u64(seed);
+            random.set_stream(of);
+            random
+        };
+        let (mut first, mut random) = (stream(2 * (draw / PHASES)), stream(2 * draw + 1));
+        self.signals(|channel, _, smooth| {
+            let phase = first.random::<f64>() + (draw % PHASES) as f64 / PHASES as f64;
+            channel.drawn(&self.time, smooth, phase, &mut random)
+        })
     }
 
     /// Signals from each channel's noise, its column and its smoothed signal.
@@ -149,12 +161,11 @@ impl ChannelNoise {
         }
     }
 
-    /// An error for each row: that of the smoothed signal where ticks and steps lie elsewhere.
-    fn drawn(self, time: &[f64], smooth: &[f64], random: &mut ChaCha8Rng) -> Vec<f64> {
-        let elsewhere: f64 = random.random();
+    /// An error for each row: that of the smoothed signal where ticks and steps lie elsewhere, by a phase of their distance.
+    fn drawn(self, time: &[f64], smooth: &[f64], phase: f64, random: &mut ChaCha8Rng) -> Vec<f64> {
         let missing = |step: f64| {
             let to_next = |s: &f64| {
-                let steps = s / step + elsewhere;
+                let steps = s / step + phase;
                 step * (steps.round() - steps)
             };
             smooth.iter().map(to_next).collect::<Vec<f64>>()
@@ -251,7 +262,7 @@ mod tests {
             let smooth = noise.smoothed(&time, &column);
             let of = |e: &[f64]| [rms(e), rms(&running_integral(&time, e))];
             let mut random = ChaCha8Rng::seed_from_u64(1);
-            let drawn = [(); 40].map(|()| of(&noise.drawn(&time, &smooth, &mut random)));
+            let drawn = [(); 40].map(|()| of(&noise.drawn(&time, &smooth, random.random(), &mut random)));
             // Root mean square over the phases of the grid.
             let over = |of: &[[f64; 2]], k: usize| rms(&of.iter().map(|e| e[k]).collect::<Vec<f64>>());
             let shifted = |by: f64| error(&exact.iter().map(|s| s + by).collect::<Vec<f64>>());
@@ -271,7 +282,10 @@ mod tests {
         };
         agree(ChannelNoise::Rounded(0.3), &rounding);
         agree(ChannelNoise::Counted(0.05), &counting);
-        assert_eq!(ChannelNoise::None.drawn(&time, &exact, &mut ChaCha8Rng::seed_from_u64(1)), vec![0.0; time.len()]);
+        assert_eq!(
+            ChannelNoise::None.drawn(&time, &exact, 0.5, &mut ChaCha8Rng::seed_from_u64(1)),
+            vec![0.0; time.len()]
+        );
     }
 
     /// Of means of a counter noise is that of its counts: neighbours cancel. Of other means, and of samples, it stays.

@@ -114,9 +114,9 @@ impl Record {
         Self { name, time, columns, quantities, observation, weights, signals, input_noise, rows, known }
     }
 
-    /// The run with inputs that are as noisy again.
-    pub(crate) fn with_noisier_inputs(&self, seed: u64) -> Record {
-        self.with_inputs_changed(|noise| noise.drawn(seed))
+    /// The run with inputs that are as noisy again: one of the draws of a seed.
+    pub(crate) fn with_noisier_inputs(&self, seed: u64, draw: u64) -> Record {
+        self.with_inputs_changed(|noise| noise.drawn(seed, draw))
     }
 
     /// The run with inputs that show no noise.

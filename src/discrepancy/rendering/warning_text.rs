@@ -105,7 +105,7 @@ pub fn taken_as_rounded(input: &CoarseInput) -> String {
     let step = significant(*step, 2);
     format!(
         "{run}: {role} comes in steps of {step} {unit}; a smooth course between them explains more than any effect, so that it \
-         is taken as rounded: what that makes of the motion counts as noise, beyond the floor, which is the sensor's"
+         is taken as rounded"
     )
 }
 

@@ -15,6 +15,7 @@ use super::search::Search;
 use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::estimation::problem::Problem;
 use crate::discrepancy::evidence::wald_test::neutral_at_zero;
+use crate::discrepancy::record::input_noise::PHASES;
 use crate::discrepancy::selection::choice::Weighed;
 use crate::effects::Applied;
 use crate::error::Result;
@@ -22,8 +23,6 @@ use crate::progress::OnProgress;
 
 /// An effect of which more than this share may be what noise makes of nothing is none.
 const MOST: f64 = 0.5;
-/// Times noise is added.
-const DRAWS: u64 = 3;
 /// A lag that a delay takes back to less than this share of itself is none.
 const TAKEN_BACK: f64 = 0.5;
 
@@ -87,13 +86,13 @@ pub(crate) fn made_up(selection: &Search, fit: &Fit) -> Result<Option<Applied>> 
         return Ok(None);
     }
     let (mut grown, mut moved) = (vec![0.0; fit.p.len()], vec![0.0; fit.p.len()]);
-    for draw in 0..DRAWS {
+    for draw in 0..PHASES {
         let noisier = problem.with_noisier_inputs(draw);
         let again = noisier.fit(&fit.model, &fit.window_states, &fit.variances, Effort::FULL)?;
         let Some(again) = again else { return Ok(None) };
         for (i, by) in again.p.iter().zip(&fit.p).map(|(a, p)| a - p).enumerate() {
-            grown[i] += by / DRAWS as f64;
-            moved[i] += by * by / DRAWS as f64;
+            grown[i] += by / PHASES as f64;
+            moved[i] += by * by / PHASES as f64;
         }
     }
     let share = |e: &Applied| {

@@ -16,30 +16,21 @@ use crate::model::Model;
 /// A difference of BIC that is very strong evidence (Kass & Raftery, 1995).
 const DECISIVE: f64 = 10.0;
 
-/// Runs whose inputs are rounded.
-pub(crate) struct RoundedInputs {
-    /// The runs, with the noise that rounding makes.
-    pub problem: Problem,
-    /// The inputs.
-    pub inputs: Vec<CoarseInput>,
-}
-
 /// The inputs that are rounded, where what was chosen leaves a rest and the model as given explains the data better by the
-/// smooth course between the steps.
-pub(crate) fn rounded_inputs(problem: &Problem, model: &Model, choice: &Selected) -> Result<Option<RoundedInputs>> {
+/// smooth course between the steps; none where commands explain as much.
+pub(crate) fn rounded_inputs(problem: &Problem, model: &Model, choice: &Selected) -> Result<Vec<CoarseInput>> {
     if !remains(&choice.after) {
-        return Ok(None);
+        return Ok(vec![]);
     }
-    let Some(rounded) = problem.with_rounded_inputs() else { return Ok(None) };
-    let Some(between) = rounded.with_smoothed_inputs() else { return Ok(None) };
+    let between = problem.with_rounded_inputs().and_then(|rounded| rounded.with_smoothed_inputs());
+    let Some(between) = between else { return Ok(vec![]) };
     let starts = between.starts(model)?;
-    let Some(smooth) = between.fit(model, &starts, &between.variances, Effort::FULL)? else { return Ok(None) };
+    let Some(smooth) = between.fit(model, &starts, &between.variances, Effort::FULL)? else { return Ok(vec![]) };
     let n = smooth.sample_size.max(choice.after.sample_size);
     if delta_bic(&smooth, &choice.after, n) <= DECISIVE {
-        return Ok(None);
+        return Ok(vec![]);
     }
-    let inputs = problem.records.iter().flat_map(|r| steps(r, model)).collect();
-    Ok(Some(RoundedInputs { problem: rounded.knowing_its_inputs(model)?, inputs }))
+    Ok(problem.records.iter().flat_map(|r| steps(r, model)).collect())
 }
 
 /// The inputs of a run that may be rounded.
@@ -63,7 +54,7 @@ mod tests {
     }
 
     /// What is made of a yaw rate that is driven and another that is logged.
-    fn taken_as_rounded(driven: &dyn Fn(f64) -> f64, logged_as: &dyn Fn(f64) -> f64) -> Option<Vec<CoarseInput>> {
+    fn taken_as_rounded(driven: &dyn Fn(f64) -> f64, logged_as: &dyn Fn(f64) -> f64) -> Vec<CoarseInput> {
         let (equations, p) = equations(&[]);
         let time: Vec<f64> = (0..1200).map(|i| 0.05 * f64::from(i)).collect();
         let speed = |t: f64| 2.0 + (0.7 * t).sin();
@@ -86,19 +77,19 @@ mod tests {
             refused: vec![],
             missed: vec![],
         };
-        rounded_inputs(&problem, &model, &choice).unwrap().map(|found| found.inputs)
+        rounded_inputs(&problem, &model, &choice).unwrap()
     }
 
     #[test]
     fn a_smooth_signal_is_told_from_commands_by_the_motion() {
         let wave = |t: f64| 0.25 * (0.3 * t).sin() + 0.12 * (0.77 * t).cos();
-        let found = taken_as_rounded(&wave, &in_steps(wave)).unwrap();
+        let found = taken_as_rounded(&wave, &in_steps(wave));
         let [CoarseInput { run, role, step, unit }] = &found[..] else { panic!("{found:?}") };
         assert_eq!((run.as_str(), role.as_str(), unit.as_str()), ("run.csv", "yaw_rate", "rad/s"));
         assert!((step - 0.3).abs() < 1e-9);
         // The robot does what it is told, and a slope of the ground comes and goes beside it.
         let commands = |t: f64| [0.0, 0.3, 0.0, -0.3][(0.2 * t) as usize % 4];
-        assert_eq!(taken_as_rounded(&|t| commands(t) + 0.05 * (0.3 * t).sin(), &commands), None);
-        assert_eq!(taken_as_rounded(&commands, &commands), None);
+        assert_eq!(taken_as_rounded(&|t| commands(t) + 0.05 * (0.3 * t).sin(), &commands), vec![]);
+        assert_eq!(taken_as_rounded(&commands, &commands), vec![]);
     }
 }

@@ -33,6 +33,9 @@ const SLIVER: f64 = 0.3;
 const ROUNDS: usize = 2;
 /// Moves of one number one way, at most.
 const MOST_MOVES: usize = 30;
+/// Other valleys of the deviance over an edge are looked for at so many steps to either side, each such a share of a window.
+const ACROSS_VALLEYS: i32 = 8;
+const VALLEYS: f64 = 0.15;
 /// Half the width of the parabola by which a number is moved at last, in the same shares, round by round.
 const HALF_WIDTHS: [f64; 3] = [0.1, 0.02, 0.004];
 
@@ -82,14 +85,52 @@ impl Search<'_> {
                 break;
             }
         }
-        self.without_slivers(best, own)
+        if remains(&best) && explains_most(&best, base) {
+            best = self.in_other_valley(best, own)?;
+        }
+        self.simplified(best, own)
     }
 
-    /// The fit with intervals of a scope that touch made one, and those of no length left out, where that explains as much.
-    fn without_slivers(&self, fit: Fit, own: &Applied) -> Result<Fit> {
+    /// The fit with an edge of few in a valley of the deviance beside its own, where that is deeper: where what an effect does
+    /// comes and goes, an edge at another time does as much in all.
+    fn in_other_valley(&self, mut best: Fit, of: &Applied) -> Result<Fit> {
+        let numbers = find(&best.model, of).and_then(|a| a.effect.scope).map_or(0, |s| s.movable().len());
+        for k in (0..numbers).filter(|_| numbers <= FEW) {
+            let Some(here) = self.problem.fit(&best.model, &best.window_states, &best.variances, QUICK)? else { break };
+            let at = |i: i32| self.varied(&here, of, k, f64::from(i) * VALLEYS, QUICK);
+            let mut along: Vec<Fit> =
+                (-ACROSS_VALLEYS..0).map(at).collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
+            let own = along.len();
+            along.push(here.clone());
+            along.extend((1..=ACROSS_VALLEYS).map(at).collect::<Result<Vec<_>>>()?.into_iter().flatten());
+            let lies_low =
+                |i: &usize| along[i - 1].deviance > along[*i].deviance && along[i + 1].deviance > along[*i].deviance;
+            let others = (1..along.len().saturating_sub(1)).filter(|i| *i != own).filter(lies_low);
+            let Some(other) = others.min_by(|i, j| along[*i].deviance.total_cmp(&along[*j].deviance)) else { continue };
+            let Some(there) = self.refit(&along[other])? else { continue };
+            let there = self.with_scope_settled(there, of)?;
+            let n = best.sample_size.max(there.sample_size);
+            if bic(&there, n) < bic(&best, n) {
+                best = there;
+            }
+        }
+        Ok(best)
+    }
+
+    /// The fit with intervals of a scope that touch made one, those of no length left out, and edges beyond the data left
+    /// open, where that explains as much.
+    fn simplified(&self, fit: Fit, own: &Applied) -> Result<Fit> {
         let Some(mut simpler) = find(&fit.model, own) else { return Ok(fit) };
-        let Some(scope) = simpler.effect.scope.as_ref().and_then(|s| s.without_slivers(SLIVER)) else { return Ok(fit) };
-        simpler.effect.scope = Some(scope);
+        let Some(scope) = &simpler.effect.scope else { return Ok(fit) };
+        let records = || self.problem.records.iter();
+        let first = records().map(|r| r.time[r.rows.start]).fold(f64::INFINITY, f64::min);
+        let last = records().map(|r| r.time[r.rows.end - 1]).fold(f64::NEG_INFINITY, f64::max);
+        let few =
+            scope.without_slivers(SLIVER).unwrap_or_else(|| scope.clone()).open_beyond(first + SLIVER, last - SLIVER);
+        if few == *scope || few.movable().is_empty() {
+            return Ok(fit);
+        }
+        simpler.effect.scope = Some(few);
         let Some(other) = self.fit_instead(&fit, &fit.model.clone().with_effect(simpler))? else { return Ok(fit) };
         let n = fit.sample_size.max(other.sample_size);
         Ok(if bic(&other, n) < bic(&fit, n) { other } else { fit })

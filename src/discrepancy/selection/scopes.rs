@@ -7,7 +7,7 @@ use super::scope_screen::Proposed;
 use super::search::{Search, SearchState, find, first_of};
 use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
 use crate::discrepancy::estimation::fit::{Effort, Fit};
-use crate::discrepancy::estimation::unexplained::{explains_most, is_wanted, remains};
+use crate::discrepancy::estimation::unexplained::{explains_most, is_wanted, noise_if_explained, remains};
 use crate::discrepancy::evidence::heterogeneity::{RunValue, spreads};
 use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
 use crate::discrepancy::evidence::score_test::{self, ScoreTest, ScoreTests};
@@ -88,12 +88,28 @@ impl Search<'_> {
         Ok(some.then_some(found))
     }
 
-    /// The effect in part that gains most beyond what it costs, and the fit with it.
+    /// The effect in part that gains most beyond what it costs, and the fit with it; where none explains most of the rest, it is
+    /// sought again at the noise that there is once it is explained.
     fn next_in_part(&self, base: &Fit) -> Result<Option<(String, Fit)>> {
-        let Proposed { scoped, moving, tried, blocks } = self.proposed(base)?;
+        let found = self.best_in_part(base, base)?;
+        if found.as_ref().is_some_and(|(_, fit)| explains_most(fit, base)) {
+            return Ok(found);
+        }
+        let quiet = noise_if_explained(base);
+        let Some(quiet) = self.problem.fit(&base.model, &base.window_states, &quiet, Effort::SCREENING)? else {
+            return Ok(found);
+        };
+        let other = self.best_in_part(base, &quiet)?.filter(|(_, fit)| explains_most(fit, base));
+        Ok(other.or(found))
+    }
+
+    /// The effect in part that gains most beyond what it costs, and the fit with it, of those that promise most at the noise of
+    /// a fit of the same model.
+    fn best_in_part(&self, base: &Fit, at: &Fit) -> Result<Option<(String, Fit)>> {
+        let Proposed { scoped, moving, tried, blocks } = self.proposed(at)?;
         let more = |scope: &Scope| ways_of_more_intervals(scope, blocks);
         let margin = |a: &Applied| 2.0 * (tried.ln() + a.effect.scope.as_ref().map_or(0.0, more));
-        let promises = |some: &[(&Effect, Option<usize>)]| score_test::promises(self.problem, base, &base.model, some);
+        let promises = |some: &[(&Effect, Option<usize>)]| score_test::promises(self.problem, at, &at.model, some);
         // Each scope of an effect is a candidate of its own; of a parameter that moves there is one for each effect.
         let alone = scoped.par_iter().map(|(e, t)| promises(&[(e, *t)]));
         let alone: Vec<ScoreTests> = alone.collect::<Result<_>>()?;
@@ -107,7 +123,7 @@ impl Search<'_> {
         let worth = |p: &ScoreTest| rounded(p.deviance + cost(&p.applied));
         weighed.sort_by(|a, b| worth(a).total_cmp(&worth(b)).then(place(&a.applied).cmp(&place(&b.applied))));
         let rough =
-            of_each_kind(&weighed).into_par_iter().map(|promise| self.rough(base, promise, margin(&promise.applied)));
+            of_each_kind(&weighed).into_par_iter().map(|promise| self.rough(at, promise, margin(&promise.applied)));
         let mut rough: Vec<(Applied, Fit)> = rough.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
         by_evidence(&mut rough, n);
         let finalists = best_of_each_kind(rough).into_par_iter().map(|(own, fit)| {

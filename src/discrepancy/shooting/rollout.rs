@@ -266,12 +266,12 @@ impl<'a> Rollout<'a> {
     }
 
     /// By how much predictions move when the inputs are as noisy again.
-    pub fn moved_by_inputs(&self, horizon: f64, seed: u64) -> PredictionError {
+    pub fn moved_by_inputs(&self, horizon: f64, seed: u64, draw: u64) -> PredictionError {
         let mut moved = PredictionError::default();
         if !self.record.input_noise.is_there() {
             return moved;
         }
-        let noisier = self.record.with_noisier_inputs(seed);
+        let noisier = self.record.with_noisier_inputs(seed, draw);
         let (equations, hidden) = (self.equations.clone(), self.hidden.clone());
         let beside = Rollout { speeds: not_asked(&equations, &noisier), record: &noisier, equations, hidden };
         let windows = self.windows(horizon);

@@ -121,8 +121,8 @@ fn an_edge_is_found_to_less_than_a_row() {
 /// in all, as much as what begins a little after. Both are looked at.
 #[test]
 fn a_beginning_is_told_from_its_image_beyond_a_turn() {
-    for from in [24.98, 25.78] {
-        let hidden = effect("yaw-rate-scale", &format!("scale = 0.05\nscope = {{ from = {from} }}"));
+    for from in [25.21, 25.57] {
+        let hidden = effect("yaw-rate-scale", &format!("scale = -0.056\nscope = {{ from = {from} }}"));
         let run = driven(UNICYCLE, &hidden, 1e-4, 9);
         let report = creepage::discover(&Model::parse(UNICYCLE).unwrap(), &[run]).unwrap().report;
         let [one] = &report.effects[..] else { panic!("{}", report.summary) };

@@ -89,10 +89,12 @@ impl Search<'_> {
     }
 
     /// The effect in part that gains most beyond what it costs, and the fit with it; where none explains most of the rest, it is
-    /// sought again at the noise that there is once it is explained.
+    /// sought again at the noise that there is once it is explained. What a name leaves is not: at so little noise the little
+    /// that it is off by shows too.
     fn next_in_part(&self, base: &Fit) -> Result<Option<(String, Fit)>> {
         let found = self.best_in_part(base, base)?;
-        if found.as_ref().is_some_and(|(_, fit)| explains_most(fit, base)) {
+        if base.model.free_effects().next().is_some() || found.as_ref().is_some_and(|(_, fit)| explains_most(fit, base))
+        {
             return Ok(found);
         }
         let quiet = noise_if_explained(base);

@@ -7,7 +7,9 @@ use super::scope_screen::Proposed;
 use super::search::{Search, SearchState, find, first_of};
 use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
 use crate::discrepancy::estimation::fit::{Effort, Fit};
-use crate::discrepancy::estimation::unexplained::{explains_most, is_wanted, noise_if_explained, remains};
+use crate::discrepancy::estimation::unexplained::{
+    explains_half, explains_most, is_wanted, noise_if_explained, remains,
+};
 use crate::discrepancy::evidence::heterogeneity::{RunValue, spreads};
 use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
 use crate::discrepancy::evidence::score_test::{self, ScoreTest, ScoreTests};
@@ -44,8 +46,10 @@ pub(crate) fn search(selection: &Search, named: &SearchState, progress: &OnProgr
     if !named.steps.is_empty() && remains(&named.fit) {
         starts.push(SearchState { steps: named.steps.clone(), ..SearchState::from(&named.fit) });
     }
-    for start in starts {
-        let Some(found) = selection.with_scopes(start, progress)? else { continue };
+    // Names that explain half of the rest have taken for themselves what it hid.
+    let is_hidden = !explains_half(&named.fit, selection.before);
+    for (i, start) in starts.into_iter().enumerate() {
+        let Some(found) = selection.with_scopes(start, is_hidden && i == 0, progress)? else { continue };
         let n = named.fit.sample_size.max(found.fit.sample_size);
         let gains = delta_bic(&found.fit, &named.fit, n) > 0.0 && explains_most(&found.fit, selection.before);
         if gains && bic(&found.fit, n) < bic(&named.fit, n) - selection.margin() {
@@ -61,13 +65,19 @@ pub(crate) fn is_partial(effect: &Applied) -> bool {
 }
 
 impl Search<'_> {
-    /// From a model on: effects in part, and what always holds beside them.
-    fn with_scopes(&self, mut found: SearchState, progress: &OnProgress) -> Result<Option<SearchState>> {
+    /// From a model on: effects in part, the first of them also at the noise that `is_hidden` says to hide it, and what always
+    /// holds beside them.
+    fn with_scopes(
+        &self,
+        mut found: SearchState,
+        is_hidden: bool,
+        progress: &OnProgress,
+    ) -> Result<Option<SearchState>> {
         let steps = found.steps.clone();
         for _ in 0..MOST {
-            let Some((label, fit)) = self.next_in_part(&found.fit)? else { break };
             // Beside a first one a second may only imitate what that one is not: it stands where it leaves nothing.
             let is_second = partial(&found.fit).next().is_some();
+            let Some((label, fit)) = self.next_in_part(&found.fit, is_hidden && !is_second)? else { break };
             let mut trail = [&steps[..], &[(label, fit.model.clone())]].concat();
             let fit = self.eliminate_backward(fit, self.margin())?;
             // What is explained to its noise needs nothing beside.
@@ -88,13 +98,12 @@ impl Search<'_> {
         Ok(some.then_some(found))
     }
 
-    /// The effect in part that gains most beyond what it costs, and the fit with it; where none explains most of the rest, it is
-    /// sought again at the noise that there is once it is explained. What a name leaves is not: at so little noise the little
-    /// that it is off by shows too.
-    fn next_in_part(&self, base: &Fit) -> Result<Option<(String, Fit)>> {
+    /// The effect in part that gains most beyond what it costs, and the fit with it; where none explains most of a rest that may
+    /// hide it, it is sought again at the noise that there is once it is explained. What a name leaves hides nothing: at so
+    /// little noise the little that it is off by shows too.
+    fn next_in_part(&self, base: &Fit, is_hidden: bool) -> Result<Option<(String, Fit)>> {
         let found = self.best_in_part(base, base)?;
-        if base.model.free_effects().next().is_some() || found.as_ref().is_some_and(|(_, fit)| explains_most(fit, base))
-        {
+        if !is_hidden || found.as_ref().is_some_and(|(_, fit)| explains_most(fit, base)) {
             return Ok(found);
         }
         let quiet = noise_if_explained(base);

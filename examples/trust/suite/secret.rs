@@ -111,15 +111,16 @@ pub fn amplified(hidden: &Hidden, factor: f64) -> Hidden {
 /// A probe the other way round; `None` of one that has a state or a time constant, which cannot be less than nothing.
 pub fn mirrored(probe: &Hidden) -> Option<Hidden> {
     let at = target(probe);
-    let values = parameters(probe).into_iter().enumerate();
+    let values = || parameters(probe).into_iter().map(|(_, v)| v);
     match at.0 {
         "traction-creep" | "cornering-creep" | "relaxation-length" => None,
         // The second parameter is a limit or a direction, and means nothing by itself.
         "saturating-creep" | "side-slope" | "grade" => {
-            let values: Vec<f64> = values.map(|(i, (_, v))| if i == 0 { -v } else { v }).collect();
-            Some(made(at, &values))
+            let mut mirrored: Vec<f64> = values().collect();
+            mirrored[0] = -mirrored[0];
+            Some(made(at, &mirrored))
         }
-        _ => Some(made(at, &values.map(|(_, (_, v))| -v).collect::<Vec<f64>>())),
+        _ => Some(made(at, &values().map(|v| -v).collect::<Vec<f64>>())),
     }
 }
 

@@ -288,6 +288,33 @@ mod tests {
         );
     }
 
+    /// A signal that stays where it is has one error; the phases of four draws tell its mean square, s²/12, to an eighth.
+    #[test]
+    fn draws_sample_the_phases_of_steps() {
+        let noise = InputNoise {
+            time: vec![0.0, 1.0],
+            columns: vec![vec![0.7; 2]; 2],
+            timings: vec![Timing::Sample; 2],
+            channels: vec![ChannelNoise::Rounded(0.3); 2],
+            suspected: vec![None; 2],
+            smooth: OnceLock::new(),
+        };
+        let errors = |seed: u64, draw: u64| {
+            let (mut value, mut slope) = (vec![0.0; 2], vec![0.0; 2]);
+            noise.drawn(seed, draw).at(0.5, &mut value, &mut slope);
+            value
+        };
+        for seed in 0..20 {
+            for (channel, first) in [(0, 0), (1, 0), (0, 4)] {
+                let squares = (first..first + PHASES).map(|draw| errors(seed, draw)[channel].powi(2));
+                let share = squares.sum::<f64>() / PHASES as f64 / (0.3 * 0.3 / 12.0);
+                assert!((0.93..1.13).contains(&share), "{seed} {channel} {first}: {share}");
+            }
+            assert_ne!(errors(seed, 0)[0], errors(seed, 0)[1], "channels have phases of their own");
+            assert_ne!(errors(seed, 0), errors(seed, 4));
+        }
+    }
+
     /// Of means of a counter noise is that of its counts: neighbours cancel. Of other means, and of samples, it stays.
     #[test]
     fn noise_of_a_counter_is_that_of_its_counts() {

@@ -1,6 +1,7 @@
 //! A measured run as columns and signals, with the noise of its sensor.
 
 pub mod angle;
+pub(crate) mod channel_noise;
 pub(crate) mod input_noise;
 pub(crate) mod level_crossings;
 pub mod local_polynomial;

@@ -68,6 +68,16 @@ pub fn fit_of(model: Model) -> Fit {
     }
 }
 
+/// Times of 40 s at 50 Hz.
+pub fn at_50_hz() -> Vec<f64> {
+    (0..2000).map(|i| 0.02 * f64::from(i)).collect()
+}
+
+/// A signal that goes up and down.
+pub fn wave(t: f64) -> f64 {
+    4.0 + 1.5 * (1.3 * t).sin()
+}
+
 /// The equations of such a unicycle, and the values of its effects.
 pub fn equations(known: &[(&str, &[f64])]) -> (Equations, Vec<f64>) {
     let model = unicycle(known);

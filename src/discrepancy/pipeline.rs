@@ -96,10 +96,8 @@ pub(crate) fn discover_by_clocks(request: &Request, clocks: Clocks, progress: &O
             choice = choose(&problem, &model, request.library, progress)?;
         }
     }
-    let mut rounded = vec![];
-    if let Some(chosen) = &choice {
-        rounded = rounded_inputs(&problem, &model, chosen)?;
-    }
+    let rounded =
+        choice.as_ref().map(|chosen| rounded_inputs(&problem, &model, chosen)).transpose()?.unwrap_or_default();
     if !rounded.is_empty() {
         data = data.with_rounded_inputs();
         problem = posed(&data)?;

@@ -64,9 +64,9 @@ pub fn powers(scenario: &Scenario, targets: &[Target]) -> Vec<Power> {
     let hides = |t: &Target| scenario.hidden.iter().any(|h| class::same(*t, secret::target(h)));
     let felt = |t: Target| {
         let by = |p: Hidden| moved(&[&scenario.hidden[..], &[p]].concat());
-        let both_ways = |p: Hidden| match secret::mirrored(&p) {
-            Some(other) => (by(p) - by(other)) / 2.0,
-            None => by(p),
+        let both_ways = |(probe, mirrored): (Hidden, Option<Hidden>)| match mirrored {
+            Some(other) => (by(probe) - by(other)) / 2.0,
+            None => by(probe),
         };
         secret::probes(t).into_iter().map(both_ways).collect::<Vec<_>>()
     };

@@ -108,36 +108,27 @@ pub fn amplified(hidden: &Hidden, factor: f64) -> Hidden {
     made(target(hidden), &values)
 }
 
-/// A probe the other way round; `None` of one that has a state or a time constant, which cannot be less than nothing.
-pub fn mirrored(probe: &Hidden) -> Option<Hidden> {
-    let at = target(probe);
-    let values = || parameters(probe).into_iter().map(|(_, v)| v);
-    match at.0 {
-        "traction-creep" | "cornering-creep" | "relaxation-length" => None,
-        // The second parameter is a limit or a direction, and means nothing by itself.
-        "saturating-creep" | "side-slope" | "grade" => {
-            let mut mirrored: Vec<f64> = values().collect();
-            mirrored[0] = -mirrored[0];
-            Some(made(at, &mirrored))
-        }
-        _ => Some(made(at, &values().map(|v| -v).collect::<Vec<f64>>())),
-    }
-}
-
-/// Small effects of that name that together span what it can do to first order.
-pub fn probes(at: Target) -> Vec<Hidden> {
+/// Small effects of that name that together span what it can do to first order, each with the same the other way round where
+/// there is one.
+pub fn probes(at: Target) -> Vec<(Hidden, Option<Hidden>)> {
     let effect = effects::named(at.0).expect("targets come from the library");
     let sizes: Vec<f64> =
         parameters(&made(at, &[0.0, 0.0])).iter().map(|(name, _)| effect.parameters[*name].size).collect();
     let small = SMALL * sizes[0];
-    let values: Vec<Vec<f64>> = match at.0 {
+    // What the values are multiplied by the other way round. Time constants and lengths are not less than nothing, and a limit
+    // or a direction means nothing by itself.
+    let (values, mirror): (Vec<Vec<f64>>, Option<[f64; 2]>) = match at.0 {
         // Their states follow at once or not at all; a plausible one is nearly linear, as it moves no heading.
-        "traction-creep" | "cornering-creep" => vec![vec![sizes[0]]],
-        "relaxation-length" => vec![vec![0.5 * sizes[0], SMALL * sizes[1]], vec![2.0 * sizes[0], SMALL * sizes[1]]],
-        "saturating-creep" => vec![vec![small, sizes[1]]],
-        "side-slope" | "grade" => vec![vec![small, 0.0], vec![small, FRAC_PI_2]],
-        _ if sizes.len() == 2 => vec![vec![small, 0.0], vec![0.0, SMALL * sizes[1]]],
-        _ => vec![vec![small]],
+        "traction-creep" | "cornering-creep" => (vec![vec![sizes[0]]], None),
+        "relaxation-length" => {
+            (vec![vec![0.5 * sizes[0], SMALL * sizes[1]], vec![2.0 * sizes[0], SMALL * sizes[1]]], None)
+        }
+        "saturating-creep" => (vec![vec![small, sizes[1]]], Some([-1.0, 1.0])),
+        "side-slope" | "grade" => (vec![vec![small, 0.0], vec![small, FRAC_PI_2]], Some([-1.0, 1.0])),
+        _ if sizes.len() == 2 => (vec![vec![small, 0.0], vec![0.0, SMALL * sizes[1]]], Some([-1.0, -1.0])),
+        _ => (vec![vec![small]], Some([-1.0, -1.0])),
     };
-    values.iter().map(|v| made(at, v)).collect()
+    let mirrored =
+        |v: &[f64], signs: [f64; 2]| made(at, &v.iter().zip(signs).map(|(v, s)| s * v).collect::<Vec<f64>>());
+    values.iter().map(|v| (made(at, v), mirror.map(|signs| mirrored(v, signs)))).collect()
 }

@@ -21,6 +21,13 @@ pub struct Component {
     scale: Option<usize>,
 }
 
+impl Component {
+    /// What it has beyond the variance that it is known to have.
+    pub fn beyond_known(&self) -> f64 {
+        (self.variance - self.known).max(0.0)
+    }
+}
+
 /// Where a component of the measurement noise starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
@@ -134,20 +141,17 @@ impl NoiseModel {
     }
 
     /// Without a component of the process noise beyond the variance it is known to have, as far as that is told from none.
-    pub fn without_jump(mut self, c: usize) -> Self {
-        let k = self.sensor + c;
-        let jump = self.components[k];
-        self.components[k].variance =
-            if jump.known > 0.0 { self.least(k).max(jump.known).min(jump.variance) } else { self.least(k) };
-        self
+    pub fn without_jump(self, c: usize) -> Self {
+        self.with_share_of_jump(c, 0.0)
     }
 
-    /// With a share of what a component of the process noise has beyond the variance it is known to have.
+    /// With a share of what a component of the process noise has beyond the variance it is known to have, as far as that is
+    /// told from none.
     pub fn with_share_of_jump(mut self, c: usize, share: f64) -> Self {
         let k = self.sensor + c;
         let jump = self.components[k];
-        let known = jump.known.min(jump.variance);
-        self.components[k].variance = (known + share * (jump.variance - known)).max(self.least(k));
+        let told = (jump.known.min(jump.variance) + share * jump.beyond_known()).max(self.least(k));
+        self.components[k].variance = if jump.known > 0.0 { told.min(jump.variance) } else { told };
         self
     }
 

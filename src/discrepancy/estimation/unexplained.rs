@@ -2,7 +2,7 @@
 
 use crate::discrepancy::estimation::autocorrelation::NOTICEABLE;
 use crate::discrepancy::estimation::fit::Fit;
-use crate::discrepancy::estimation::noise_model::NoiseModel;
+use crate::discrepancy::estimation::noise_model::{Component, NoiseModel};
 
 /// Named effects from which on one simpler term is tried whatever remains.
 const MANY: usize = 2;
@@ -33,7 +33,7 @@ pub(crate) fn is_wanted(named: &Fit) -> bool {
 
 /// The variances of a fit's jumps beyond those that the noise of its inputs is known to make.
 fn beyond_known(fit: &Fit) -> Vec<f64> {
-    fit.variances.process().iter().map(|c| (c.variance - c.known).max(0.0)).collect()
+    fit.variances.process().iter().map(Component::beyond_known).collect()
 }
 
 /// Whether a fit leaves nothing, or at some constraint less than half of the variance of what another leaves there.

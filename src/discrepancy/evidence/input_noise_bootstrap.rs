@@ -83,7 +83,7 @@ impl Problem {
 /// The jumps that are there beside what the noise of the inputs is known to make.
 fn beside_known(variances: &NoiseModel) -> NoiseModel {
     let mut beside = variances.clone();
-    beside.process_mut().iter_mut().for_each(|c| c.variance = (c.variance - c.known).max(0.0));
+    beside.process_mut().iter_mut().for_each(|c| c.variance = c.beyond_known());
     beside
 }
 

@@ -116,7 +116,8 @@ impl At {
 }
 
 fn duration(record: &Record) -> f64 {
-    record.time[record.rows.end - 1] - record.time[record.rows.start]
+    let [first, last] = record.span();
+    last - first
 }
 
 /// The model with a delay that a fit may change.

@@ -74,7 +74,8 @@ impl Windows {
     /// it as well, where any are.
     pub fn of(record: &Record) -> Option<Self> {
         let noise = record.position_noise();
-        let longest = record.time[record.rows.end - 1] - record.time[record.rows.start];
+        let [first, last] = record.span();
+        let longest = last - first;
         let mut far = None;
         for seconds in DURATIONS.into_iter().filter(|s| s * FEWEST as f64 <= longest) {
             let windows = Self { rows: rows(record, seconds), seconds, noise, has_heading: record.has_heading() };

@@ -116,19 +116,12 @@ fn is_white(time: &[f64], column: &[f64]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::discrepancy::fixtures::{at_50_hz, wave};
     use rand::SeedableRng;
 
-    fn time() -> Vec<f64> {
-        (0..2000).map(|i| 0.02 * f64::from(i)).collect()
-    }
-
-    fn wave(t: f64) -> f64 {
-        4.0 + 1.5 * (1.3 * t).sin()
-    }
-
     fn kind(f: impl Fn(f64) -> f64, timing: Timing) -> ChannelNoise {
-        let column: Vec<f64> = time().iter().map(|t| f(*t)).collect();
-        ChannelNoise::of(&time(), &column, timing)
+        let column: Vec<f64> = at_50_hz().iter().map(|t| f(*t)).collect();
+        ChannelNoise::of(&at_50_hz(), &column, timing)
     }
 
     #[test]
@@ -151,7 +144,7 @@ mod tests {
     /// Noise like that of a logger is as large as its own, and cancels where its own does.
     #[test]
     fn noise_like_it_is_as_large_and_cancels_as_it_does() {
-        let time = time();
+        let time = at_50_hz();
         let exact: Vec<f64> = time.iter().map(|t| wave(*t)).collect();
         let rms = |of: &[f64]| (of.iter().map(|e| e * e).sum::<f64>() / of.len() as f64).sqrt();
         let sizes = |noise: ChannelNoise, error: &dyn Fn(&[f64]) -> Vec<f64>| {

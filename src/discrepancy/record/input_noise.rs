@@ -26,6 +26,7 @@ pub(crate) struct InputNoise {
 /// Phases of ticks and steps that are drawn together, in equal distances: an error that lasts, of any size up to half of a
 /// step, has the mean square of all phases in four of them to 6 % (Cochran, Sampling Techniques, ch. 8).
 pub(crate) const PHASES: u64 = 4;
+
 impl InputNoise {
     /// The noise that columns of inputs show.
     pub fn of(time: &[f64], columns: &[Vec<f64>], timings: &[Timing]) -> Self {
@@ -114,16 +115,9 @@ impl InputNoise {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::discrepancy::fixtures::{at_50_hz, wave};
     use crate::discrepancy::record::channel_noise::means;
     use crate::motion::running_integral;
-
-    fn time() -> Vec<f64> {
-        (0..2000).map(|i| 0.02 * f64::from(i)).collect()
-    }
-
-    fn wave(t: f64) -> f64 {
-        4.0 + 1.5 * (1.3 * t).sin()
-    }
 
     /// A signal that stays where it is has one error; the phases of four draws tell its mean square, s²/12, to an eighth.
     #[test]
@@ -155,7 +149,7 @@ mod tests {
     /// Of means of a counter noise is that of its counts: neighbours cancel. Of other means, and of samples, it stays.
     #[test]
     fn noise_of_a_counter_is_that_of_its_counts() {
-        let time = time();
+        let time = at_50_hz();
         let column: Vec<f64> = time.iter().map(|t| wave(*t) + 0.1 * (1e4 * t * t).sin()).collect();
         let noise = |timing: Timing, counted: bool| {
             let noise = InputNoise::of(&time, std::slice::from_ref(&column), &[timing]).counting(&[counted]);
@@ -171,7 +165,7 @@ mod tests {
     /// What a smoother takes away is most of what the logger added.
     #[test]
     fn smoothing_takes_the_noise_away() {
-        let (time, exact) = (time(), time().iter().map(|t| wave(*t)).collect::<Vec<f64>>());
+        let (time, exact) = (at_50_hz(), at_50_hz().iter().map(|t| wave(*t)).collect::<Vec<f64>>());
         let counts: Vec<f64> = running_integral(&time, &exact).iter().map(|a| (a / 0.05).floor() * 0.05).collect();
         let counted = means(&time, &counts);
         let noise = InputNoise::of(&time, std::slice::from_ref(&counted), &[Timing::IntervalMean]);

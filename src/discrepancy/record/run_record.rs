@@ -192,9 +192,14 @@ impl Record {
         self.observation.freedom()
     }
 
+    /// The times of its first and its last row, s.
+    pub fn span(&self) -> [f64; 2] {
+        [self.time[self.rows.start], self.time[self.rows.end - 1]]
+    }
+
     /// The run up to a time and from it on, as shares of the whole duration.
     pub fn split(&self, share: f64) -> (Record, Record) {
-        let (first, last) = (self.time[self.rows.start], self.time[self.rows.end - 1]);
+        let [first, last] = self.span();
         let cut = first + share * (last - first);
         let at = self.rows.start + self.time[self.rows.clone()].partition_point(|t| *t < cut);
         let part = |rows: Range<usize>| Record { rows, ..self.clone() };

@@ -90,8 +90,8 @@ fn path(record: &Record, held_out: bool, before: &Rollout, after: &Rollout) -> P
 }
 
 fn pieces(record: &Record, predictor: &Rollout) -> Vec<Vec<[f64; 2]>> {
-    let duration = record.time[record.rows.end - 1] - record.time[record.rows.start];
-    let horizon = (duration - 1.5).clamp(1.0, 30.0);
+    let [first, last] = record.span();
+    let horizon = (last - first - 1.5).clamp(1.0, 30.0);
     let xy = |y: Vec<f64>| [y[0], y[1]];
     let piece = |(from, to): (usize, usize)| predictor.outputs(from, to).into_iter().map(xy).collect();
     predictor.windows(horizon).into_iter().map(piece).collect()

@@ -8,6 +8,7 @@ use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
 use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::estimation::unexplained::{explains_half, explains_most, remains};
 use crate::discrepancy::evidence::information_criterion::bic;
+use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::shooting::windows::WINDOW;
 use crate::effects::{Applied, Effect, Scope};
 use crate::error::Result;
@@ -33,7 +34,7 @@ const SLIVER: f64 = 0.3;
 const ROUNDS: usize = 2;
 /// Moves of one number one way, at most.
 const MOST_MOVES: usize = 30;
-/// Other valleys of the deviance over an edge are looked for at so many steps to either side, each such a share of a window.
+/// Other valleys of the deviance over a number of a scope are looked for at so many steps to either side, each such a share of a window.
 const ACROSS_VALLEYS: i32 = 8;
 const VALLEYS: f64 = 0.15;
 /// Half the width of the parabola by which a number is moved at last, in the same shares, round by round.
@@ -91,23 +92,26 @@ impl Search<'_> {
         self.simplified(best, own)
     }
 
-    /// The fit with an edge of few in a valley of the deviance beside its own, where that is deeper: where what an effect does
-    /// comes and goes, an edge at another time does as much in all.
+    /// The fit with the numbers of a simple scope in valleys of the deviance beside their own, where those are deeper: where what
+    /// an effect does comes and goes, an edge at another time does as much in all.
     fn in_other_valley(&self, mut best: Fit, of: &Applied) -> Result<Fit> {
         let numbers = find(&best.model, of).and_then(|a| a.effect.scope).map_or(0, |s| s.movable().len());
-        for k in (0..numbers).filter(|_| numbers <= FEW) {
+        if numbers > FEW {
+            return Ok(best);
+        }
+        for k in 0..numbers {
             let Some(here) = self.problem.fit(&best.model, &best.window_states, &best.variances, QUICK)? else { break };
-            let at = |i: i32| self.varied(&here, of, k, f64::from(i) * VALLEYS, QUICK);
-            let mut along: Vec<Fit> =
-                (-ACROSS_VALLEYS..0).map(at).collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
-            let own = along.len();
-            along.push(here.clone());
-            along.extend((1..=ACROSS_VALLEYS).map(at).collect::<Result<Vec<_>>>()?.into_iter().flatten());
-            let lies_low =
-                |i: &usize| along[i - 1].deviance > along[*i].deviance && along[i + 1].deviance > along[*i].deviance;
-            let others = (1..along.len().saturating_sub(1)).filter(|i| *i != own).filter(lies_low);
-            let Some(other) = others.min_by(|i, j| along[*i].deviance.total_cmp(&along[*j].deviance)) else { continue };
-            let Some(there) = self.refit(&along[other])? else { continue };
+            let at = |i: i32| -> Result<Option<(i32, Fit)>> {
+                let fit =
+                    if i == 0 { Some(here.clone()) } else { self.varied(&here, of, k, f64::from(i) * VALLEYS, QUICK)? };
+                Ok(fit.map(|fit| (i, fit)))
+            };
+            let along: Vec<Option<(i32, Fit)>> = (-ACROSS_VALLEYS..=ACROSS_VALLEYS).map(at).collect::<Result<_>>()?;
+            let along: Vec<(i32, Fit)> = along.into_iter().flatten().collect();
+            let bottom = |w: &[(i32, Fit)]| w[0].1.deviance > w[1].1.deviance && w[2].1.deviance > w[1].1.deviance;
+            let others = along.windows(3).filter(|w| w[1].0 != 0 && bottom(w)).map(|w| &w[1].1);
+            let Some(other) = others.min_by(|a, b| a.deviance.total_cmp(&b.deviance)) else { continue };
+            let Some(there) = self.refit(other)? else { continue };
             let there = self.with_scope_settled(there, of)?;
             let n = best.sample_size.max(there.sample_size);
             if bic(&there, n) < bic(&best, n) {
@@ -122,9 +126,9 @@ impl Search<'_> {
     fn simplified(&self, fit: Fit, own: &Applied) -> Result<Fit> {
         let Some(mut simpler) = find(&fit.model, own) else { return Ok(fit) };
         let Some(scope) = &simpler.effect.scope else { return Ok(fit) };
-        let records = || self.problem.records.iter();
-        let first = records().map(|r| r.time[r.rows.start]).fold(f64::INFINITY, f64::min);
-        let last = records().map(|r| r.time[r.rows.end - 1]).fold(f64::NEG_INFINITY, f64::max);
+        let spans = self.problem.records.iter().map(Record::span);
+        let widest = |[a, b]: [f64; 2], [from, until]: [f64; 2]| [a.min(from), b.max(until)];
+        let [first, last] = spans.fold([f64::INFINITY, f64::NEG_INFINITY], widest);
         let few =
             scope.without_slivers(SLIVER).unwrap_or_else(|| scope.clone()).open_beyond(first + SLIVER, last - SLIVER);
         if few == *scope || few.movable().is_empty() {

@@ -13,6 +13,7 @@ use crate::discrepancy::estimation::unexplained::{
 use crate::discrepancy::evidence::heterogeneity::{RunValue, spreads};
 use crate::discrepancy::evidence::information_criterion::{bic, delta_bic};
 use crate::discrepancy::evidence::score_test::{self, ScoreTest, ScoreTests};
+use crate::discrepancy::record::run_record::Record;
 use crate::effects::{Applied, Effect, Scope};
 use crate::error::Result;
 use crate::model::effect_equation::is_term;
@@ -185,8 +186,8 @@ impl Search<'_> {
     /// Whether enough of the data lie within the times of a scope.
     fn lasts(&self, scope: &Scope) -> bool {
         let Scope::Times(intervals) = scope else { return true };
-        let records = self.problem.records.iter().map(|r| [r.time[r.rows.start], r.time[r.rows.end - 1]]);
-        let inside = records.flat_map(|[a, b]| intervals.iter().map(move |[from, until]| until.min(b) - from.max(a)));
+        let runs = self.problem.records.iter().map(Record::span);
+        let inside = runs.flat_map(|[a, b]| intervals.iter().map(move |[from, until]| until.min(b) - from.max(a)));
         inside.filter(|s| *s > 0.0).sum::<f64>() >= SHORTEST
     }
 }

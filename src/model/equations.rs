@@ -75,12 +75,14 @@ pub struct Workspace<const L: usize = 1> {
     results: Rows<L>,
     /// What is measured beside the pose, and its derivatives.
     quantity_values: Rows<L>,
+    isa: Isa,
 }
 
 /// The rates of L states at fixed parameters, without their derivatives.
 pub(crate) struct RatesAlone<'a, const L: usize> {
     rates: &'a Lanes,
     memory: Memory<L>,
+    isa: Isa,
 }
 
 impl<const L: usize> RatesAlone<'_, L> {
@@ -88,7 +90,7 @@ impl<const L: usize> RatesAlone<'_, L> {
     #[inline(always)]
     pub fn at(&mut self, z: &[[f64; L]], u: &[[f64; L]], rates: &mut [[f64; L]]) {
         load(&mut self.memory, z, u);
-        evaluate(self.rates, &mut self.memory, rates);
+        evaluate(self.rates, &mut self.memory, rates, self.isa);
     }
 }
 
@@ -163,6 +165,7 @@ impl Equations {
             slopes: Rows::new(self.jacobian.outputs()),
             results: Rows::new(self.outputs.outputs().max(self.delay.outputs())),
             quantity_values: Rows::new(self.quantities.outputs()),
+            isa: Isa::for_lanes(L),
         }
     }
 
@@ -170,13 +173,13 @@ impl Equations {
     pub(crate) fn delay_alone(&self, p: &[f64]) -> Vec<f64> {
         let mut memory = self.memory(&self.delay, [p]);
         let mut all = vec![[0.0]; self.delay.outputs()];
-        evaluate(&self.delay, &mut memory, &mut all);
+        evaluate(&self.delay, &mut memory, &mut all, Isa::default());
         all.into_flattened()
     }
 
     /// The rates alone, of L states, each with its own parameters.
     pub(crate) fn rates_alone<const L: usize>(&self, p: [&[f64]; L]) -> RatesAlone<'_, L> {
-        RatesAlone { rates: &self.rates, memory: self.memory(&self.rates, p) }
+        RatesAlone { rates: &self.rates, memory: self.memory(&self.rates, p), isa: Isa::for_lanes(L) }
     }
 
     fn memory<const L: usize>(&self, lanes: &Lanes, p: [&[f64]; L]) -> Memory<L> {
@@ -207,7 +210,7 @@ impl Equations {
         rates: &mut [[f64; L]],
     ) {
         load(&mut w.rates, z, u);
-        evaluate(&self.rates, &mut w.rates, rates);
+        evaluate(&self.rates, &mut w.rates, rates, w.isa);
     }
 
     /// dz/dt followed by the rows of its derivatives with respect to (z, u, p).
@@ -237,7 +240,7 @@ impl Equations {
     #[inline(always)]
     fn differentiated<const L: usize>(&self, w: &mut Workspace<L>, z: &[[f64; L]], u: &[[f64; L]]) -> bool {
         load(&mut w.jacobian, z, u);
-        self.jacobian.run_here(&mut w.jacobian);
+        self.jacobian.run(&mut w.jacobian, w.isa);
         // Zero times what is defined is zero.
         let (mut rates, mut slopes) = ([0.0; L], [0.0; L]);
         for k in 0..self.n() {
@@ -291,7 +294,7 @@ impl Equations {
     #[inline(always)]
     pub(crate) fn outputs_here<'w, const L: usize>(&self, w: &'w mut Workspace<L>, z: &[[f64; L]]) -> &'w [[f64; L]] {
         load(&mut w.outputs, &z[..self.visible], &[]);
-        evaluate(&self.outputs, &mut w.outputs, &mut w.results);
+        evaluate(&self.outputs, &mut w.outputs, &mut w.results, w.isa);
         &w.results[..self.outputs.outputs()]
     }
 
@@ -299,7 +302,7 @@ impl Equations {
     #[inline(always)]
     pub(crate) fn evaluate_quantities<const L: usize>(&self, w: &mut Workspace<L>, z: &[[f64; L]], u: &[[f64; L]]) {
         load(&mut w.quantities, z, u);
-        evaluate(&self.quantities, &mut w.quantities, &mut w.quantity_values);
+        evaluate(&self.quantities, &mut w.quantities, &mut w.quantity_values, w.isa);
     }
 
     /// What [`Equations::evaluate_quantities`] gave last: the quantities, then the rows of their derivatives by (z, u, p).
@@ -321,7 +324,7 @@ impl Equations {
 
     /// As [`Equations::delay`] for L sets of parameters.
     pub(crate) fn delays<'w, const L: usize>(&self, w: &'w mut Workspace<L>) -> &'w [[f64; L]] {
-        evaluate(&self.delay, &mut w.delay, &mut w.results);
+        evaluate(&self.delay, &mut w.delay, &mut w.results, w.isa);
         &w.results[..self.delay.outputs()]
     }
 }
@@ -339,8 +342,8 @@ fn load<const L: usize>(memory: &mut Memory<L>, z: &[[f64; L]], u: &[[f64; L]]) 
 
 /// Runs a program and hands over what it gives.
 #[inline(always)]
-fn evaluate<const L: usize>(program: &Lanes, memory: &mut Memory<L>, results: &mut [[f64; L]]) {
-    program.run_here(memory);
+fn evaluate<const L: usize>(program: &Lanes, memory: &mut Memory<L>, results: &mut [[f64; L]], isa: Isa) {
+    program.run(memory, isa);
     for (k, result) in results.iter_mut().enumerate().take(program.outputs()) {
         *result = defined(program.output(memory, k));
     }

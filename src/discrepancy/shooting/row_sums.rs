@@ -157,7 +157,7 @@ impl<const L: usize> Kernel for WindowKernel<'_, '_, L> {
                 stepper.evaluate_quantities(&arcs.z, &from);
                 sums.add_quantities(stepper, arcs, record, &at, &active);
             }
-            stepper.advance_here(&mut arcs.z, &mut arcs.s, &from, &to);
+            stepper.advance(&mut arcs.z, &mut arcs.s, &from, &to);
         }
     }
 }

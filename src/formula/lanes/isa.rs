@@ -20,7 +20,8 @@ enum Set {
     Avx512(pulp::x86::V4),
 }
 
-/// Work that gains from wide vectors. `run` and all it calls have to be `#[inline(always)]`.
+/// Work that gains from wide vectors. `run` and all it calls have to be `#[inline(always)]`, or kernels of their own: large work
+/// that several kernels ask for is compiled once for each set, not once for each of them.
 pub trait Kernel {
     /// Does the work.
     fn run(self);
@@ -47,6 +48,11 @@ impl Isa {
     /// ```
     pub fn best() -> Self {
         Self::wide().next().unwrap_or_default()
+    }
+
+    /// The widest set for L lanes: one lane fills no vector.
+    pub(crate) fn for_lanes(lanes: usize) -> Self {
+        if lanes == 1 { Self::default() } else { Self::best() }
     }
 
     /// Every set, the narrowest first.
@@ -79,16 +85,23 @@ impl Isa {
         }
     }
 
-    /// Does the work with these instructions.
+    /// Does the work with these instructions, in a function of its own.
+    #[inline]
     pub fn dispatch(self, work: impl Kernel) {
         match self.0 {
-            Set::Baseline => work.run(),
+            Set::Baseline => with_baseline(work),
             #[cfg(target_arch = "x86_64")]
             Set::Avx2(set) => set.vectorize(Call(work)),
             #[cfg(target_arch = "x86_64")]
             Set::Avx512(set) => set.vectorize(Call(work)),
         }
     }
+}
+
+/// Apart from its callers, as those of the other sets are.
+#[inline(never)]
+fn with_baseline(work: impl Kernel) {
+    work.run();
 }
 
 /// There is one set of each name.

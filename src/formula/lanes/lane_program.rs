@@ -1,7 +1,7 @@
 //! A compiled formula run over blocks of lanes, the interpretation paid once a block.
 
 use super::exec::{self, Run, Step};
-use super::isa::{Isa, Kernel};
+use super::isa::Isa;
 use super::rows::Rows;
 
 /// What an input of a program changes with; steps that need not be repeated are not.
@@ -89,28 +89,22 @@ impl Lanes {
 
     /// Computes what depends on parameters alone; call it when they have changed.
     pub fn begin<const L: usize>(&self, memory: &mut Memory<L>, isa: Isa) {
-        isa.dispatch(Run { code: &self.begin, registers: &mut memory.block });
+        execute(&self.begin, &mut memory.block, isa);
     }
 
     /// Runs the program on all lanes.
+    #[inline]
     pub fn run<const L: usize>(&self, memory: &mut Memory<L>, isa: Isa) {
-        isa.dispatch(Whole { lanes: self, memory });
-    }
-
-    /// As [`Lanes::run`], inlined into a [`Kernel`] of the caller.
-    #[inline(always)]
-    pub fn run_here<const L: usize>(&self, memory: &mut Memory<L>) {
-        exec::execute(&self.instant, &mut memory.instant);
+        execute(&self.instant, &mut memory.instant, Isa::default());
         for (from, to) in &self.handed {
             memory.block[*to as usize] = [memory.instant[*from as usize][0]; L];
         }
-        exec::execute(&self.body, &mut memory.block);
+        execute(&self.body, &mut memory.block, isa);
     }
 
     /// Computes what depends on the instant alone and adds it to a list, for [`Lanes::run_at`].
-    #[inline(always)]
     pub fn push_instant<const L: usize>(&self, memory: &mut Memory<L>, values: &mut Vec<f64>) {
-        exec::execute(&self.instant, &mut memory.instant);
+        execute(&self.instant, &mut memory.instant, Isa::default());
         values.extend(self.handed.iter().map(|(from, _)| memory.instant[*from as usize][0]));
     }
 
@@ -120,7 +114,8 @@ impl Lanes {
         self.handed.len()
     }
 
-    /// As [`Lanes::run_here`] at an instant of which everything is known.
+    /// As [`Lanes::run`] at an instant of which everything is known, inlined into a [`Kernel`](crate::formula::Kernel) of the
+    /// caller.
     #[inline(always)]
     pub fn run_at<const L: usize>(&self, memory: &mut Memory<L>, instant: &[f64]) {
         for ((_, to), value) in self.handed.iter().zip(instant) {
@@ -151,15 +146,10 @@ impl Lanes {
     }
 }
 
-/// One run of a program.
-struct Whole<'a, const L: usize> {
-    lanes: &'a Lanes,
-    memory: &'a mut Memory<L>,
-}
-
-impl<const L: usize> Kernel for Whole<'_, L> {
-    #[inline(always)]
-    fn run(self) {
-        self.lanes.run_here(self.memory);
+/// Runs steps; where there are none nothing is called.
+#[inline]
+fn execute<const L: usize>(code: &[Step], registers: &mut [[f64; L]], isa: Isa) {
+    if !code.is_empty() {
+        isa.dispatch(Run { code, registers });
     }
 }

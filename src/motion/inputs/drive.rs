@@ -112,7 +112,7 @@ impl Drive for Formulas {
     }
     fn values_at<const L: usize>(&self) -> impl FnMut(&[f64; L], &mut [[f64; L]]) {
         // One time alone fills no vector.
-        let (mut memory, isa) = (self.values.memory::<L>(), if L == 1 { Isa::default() } else { Isa::best() });
+        let (mut memory, isa) = (self.values.memory::<L>(), Isa::for_lanes(L));
         self.constants.iter().enumerate().for_each(|(i, value)| *memory.input(1 + i) = [*value; L]);
         self.values.begin(&mut memory, Isa::default());
         move |t, value| {

@@ -120,12 +120,10 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
         }
     }
 
-    /// As [`LaneStepper::advance`], inlined into a kernel of the caller.
-    ///
     /// Between two rows of poses there may be many of the inputs: each of their intervals has steps of its own, for what
     /// a step does not look at would not have happened.
     #[inline(always)]
-    pub fn advance_here(&mut self, z: &mut [[f64; L]], s: &mut [[f64; L]], from: &[f64; L], to: &[f64; L]) {
+    fn advance_here(&mut self, z: &mut [[f64; L]], s: &mut [[f64; L]], from: &[f64; L], to: &[f64; L]) {
         let mut at = *from;
         loop {
             let until = self.next_knots(&at, to);

@@ -1,6 +1,7 @@
 //! The variational equations S′ = J_z·S + J_p of several trajectories side by side.
 
 use super::states::{LaneStates, add};
+use crate::formula::{Isa, Kernel};
 use crate::model::{Derived, Equations, Workspace};
 use crate::motion::Signals;
 use crate::motion::inputs::lane_lookup::Lookup;
@@ -25,6 +26,23 @@ pub(crate) struct VariationalEquations<'a, const L: usize> {
     pub hidden_starts: usize,
     /// Which states each rate depends on.
     read_by: Vec<Vec<usize>>,
+    isa: Isa,
+}
+
+/// One evaluation of z′ and S′.
+struct Rate<'s, 'a, const L: usize> {
+    motion: &'s mut VariationalEquations<'a, L>,
+    z: &'s [[f64; L]],
+    s: &'s [[f64; L]],
+    t: &'s [f64; L],
+    rate: &'s mut LaneStates<L>,
+}
+
+impl<const L: usize> Kernel for Rate<'_, '_, L> {
+    #[inline(always)]
+    fn run(self) {
+        self.motion.rate_here(self.z, self.s, self.t, self.rate);
+    }
 }
 
 /// An input that is late by itself.
@@ -69,6 +87,7 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
             first: equations.unread(),
             hidden_starts: 0,
             read_by: equations.read_by(),
+            isa: Isa::best(),
         }
     }
 
@@ -164,8 +183,13 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
     }
 
     /// z′ and S′, but for the rows and columns that stay as they are.
-    #[inline(always)]
     pub fn rate(&mut self, z: &[[f64; L]], s: &[[f64; L]], t: &[f64; L], rate: &mut LaneStates<L>) {
+        let isa = if s.is_empty() { Isa::for_lanes(L) } else { self.isa };
+        isa.dispatch(Rate { motion: self, z, s, t, rate });
+    }
+
+    #[inline(always)]
+    fn rate_here(&mut self, z: &[[f64; L]], s: &[[f64; L]], t: &[f64; L], rate: &mut LaneStates<L>) {
         self.look_up(t);
         if s.is_empty() {
             return self.equations.rates_here(&mut self.workspace, z, &self.lookup.value, &mut rate.z);

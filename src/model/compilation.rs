@@ -155,6 +155,9 @@ impl Model {
         let carried =
             carried.map(|nodes| Ok::<_, Error>((live(&graph, &nodes, rates.len()), compile(&graph, &nodes)?)));
         let carried = carried.transpose()?;
+        let (has_own_slope, own_slopes) =
+            own_slopes(&graph, &jacobian, &states, by).into_iter().unzip::<_, _, Vec<_>, Vec<_>>();
+        let own_slopes = compile(&graph, &own_slopes)?;
         let jacobian = compile(&graph, &jacobian)?;
         let speeds: &[Symbol] = self.forced.as_ref().map_or(&[], |forced| &forced.nodes);
         let outputs = observation::outputs(self.freedom());
@@ -183,6 +186,8 @@ impl Model {
             rates: plain,
             jacobian,
             live: read,
+            own_slopes,
+            has_own_slope,
             outputs,
             quantities,
             quantity_count: self.measured.len(),
@@ -207,6 +212,14 @@ fn with_derivatives(graph: &mut Graph, nodes: &[NodeId], by: &[Symbol]) -> Vec<N
     let columns: Vec<Vec<NodeId>> = by.iter().map(|s| graph.derivatives(nodes, s)).collect();
     let row = |i: usize| columns.iter().map(move |c| c[i]);
     nodes.iter().copied().chain((0..nodes.len()).flat_map(row)).collect()
+}
+
+/// The states whose rate depends on themselves, and how, of rates that are followed by their derivatives; none where those by the
+/// states are not among them.
+fn own_slopes(graph: &Graph, nodes: &[NodeId], states: &[Symbol], by: &[Symbol]) -> Vec<(usize, NodeId)> {
+    let column = |state: &Symbol| by.iter().position(|s| s == state);
+    let own = |(i, state): (usize, &Symbol)| Some((i, nodes[states.len() + i * by.len() + column(state)?]));
+    states.iter().enumerate().filter_map(own).filter(|(_, node)| !graph.is_zero(*node)).collect()
 }
 
 /// Which of the derivatives that follow so many rates are not zero by their formula.

@@ -34,6 +34,9 @@ pub struct Equations {
     pub(super) jacobian: Lanes,
     /// Which of the derivatives are not zero by their formula.
     pub(super) live: Vec<usize>,
+    /// ∂z′ᵢ/∂zᵢ alone, of the states of which it is not zero by its formula.
+    pub(super) own_slopes: Lanes,
+    pub(super) has_own_slope: Vec<usize>,
     pub(super) outputs: Lanes,
     /// What is measured beside the pose, with its derivatives by (z, u, p).
     pub(super) quantities: Lanes,
@@ -67,11 +70,14 @@ const KINK_DISTANCE: f64 = 1e-9;
 pub struct Workspace<const L: usize = 1> {
     rates: Memory<L>,
     jacobian: Memory<L>,
+    own_slopes: Memory<L>,
     outputs: Memory<L>,
     quantities: Memory<L>,
     delay: Memory<L>,
     /// Rates and derivatives of the last evaluation; those that are always zero stay so.
     slopes: Rows<L>,
+    /// ∂z′ᵢ/∂zᵢ of the last evaluation of these alone; those that are always zero stay so.
+    own: Rows<L>,
     results: Rows<L>,
     /// What is measured beside the pose, and its derivatives.
     quantity_values: Rows<L>,
@@ -159,10 +165,12 @@ impl Equations {
         Workspace {
             rates: self.memory(&self.rates, p),
             jacobian: self.memory(&self.jacobian, p),
+            own_slopes: self.memory(&self.own_slopes, p),
             outputs: self.memory(&self.outputs, p),
             quantities: self.memory(&self.quantities, p),
             delay: self.memory(&self.delay, p),
             slopes: Rows::new(self.jacobian.outputs()),
+            own: Rows::new(self.n()),
             results: Rows::new(self.outputs.outputs().max(self.delay.outputs())),
             quantity_values: Rows::new(self.quantities.outputs()),
             isa: Isa::for_lanes(L),
@@ -277,6 +285,30 @@ impl Equations {
                 new[l] = old[l];
             }
         }
+    }
+
+    /// ∂z′ᵢ/∂zᵢ of every state at L states and inputs, where nothing else is asked for; at a kink, where they are undefined, those
+    /// of the whole matrix beside it.
+    pub(crate) fn own_slopes<'w, const L: usize>(
+        &self,
+        w: &'w mut Workspace<L>,
+        z: &[[f64; L]],
+        u: &[[f64; L]],
+    ) -> &'w [[f64; L]] {
+        if self.has_own_slope.is_empty() {
+            return &w.own;
+        }
+        load(&mut w.own_slopes, z, u);
+        self.own_slopes.run(&mut w.own_slopes, w.isa);
+        for (k, i) in self.has_own_slope.iter().enumerate() {
+            w.own[*i] = defined(self.own_slopes.output(&w.own_slopes, k));
+        }
+        if !self.has_own_slope.iter().all(|i| w.own[*i].iter().all(|slope| slope.is_finite())) {
+            self.jacobian_here(w, z, u);
+            let (n, width) = (self.n(), self.jacobian.outputs() / self.n() - 1);
+            self.has_own_slope.iter().for_each(|i| w.own[*i] = w.slopes[n + i * width + i]);
+        }
+        &w.own
     }
 
     /// What [`Equations::jacobian_here`] gave last.
@@ -405,6 +437,27 @@ mod tests {
                 assert_eq!(bits(found.iter().map(|v| v[lane]).collect()), bits(slopes(&e, inputs)), "{inputs:?}");
             }
         }
+    }
+
+    /// The slopes of states by themselves are those on the diagonal of the matrix, to the last bit, and at a kink as near as that is
+    /// looked at beside it; a pose that nothing reads has none.
+    #[test]
+    fn slopes_of_states_by_themselves_are_the_diagonal() {
+        let e = relaxing().equations(&["relaxation_length.e_tc".into()]).unwrap();
+        assert_eq!(e.has_own_slope, [3]);
+        for (inputs, far) in [([2.0, 0.3], 0.0), ([-1.0, 0.0], 0.0), ([0.0, 0.4], 1e-8)] {
+            let mut w = e.side_by_side::<1>([&[0.1]]);
+            let all = e.jacobian_here(&mut w, &STATE.map(|z| [z]), &inputs.map(|u| [u])).to_vec();
+            let own = e.own_slopes(&mut w, &STATE.map(|z| [z]), &inputs.map(|u| [u])).to_vec();
+            let width = all.len() / 4 - 1;
+            for (i, [own]) in own.iter().enumerate() {
+                assert!((own - all[4 + i * width + i][0]).abs() <= far, "{i}: {own} {:?}", all[4 + i * width + i]);
+            }
+            assert!(own[3][0] < 0.0 || inputs[0] == 0.0);
+        }
+        let plain = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap();
+        assert!(plain.equations(&[]).unwrap().has_own_slope.is_empty());
+        assert!(relaxing().equations_by(&["wheel_radius".into()]).unwrap().has_own_slope.is_empty());
     }
 
     #[test]

@@ -143,15 +143,17 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
     }
 
     /// ∂z′ᵢ/∂zᵢ of every state where the rate was last asked for; `known` where S′ was asked for, too.
-    #[inline(always)]
+    #[inline]
     pub fn own_slopes(&mut self, z: &[[f64; L]], known: bool) -> impl Iterator<Item = &[f64; L]> {
-        if !known {
-            self.equations.jacobian_here(&mut self.workspace, z, &self.lookup.value);
-        }
         let n = z.len();
-        let width = n + self.lookup.value.len() + self.delay_slopes.len();
-        let f = self.equations.last_jacobian(&self.workspace);
-        (0..n).map(move |i| &f[n + i * width + i])
+        let (all, first, step) = match known {
+            true => {
+                let width = n + self.lookup.value.len() + self.delay_slopes.len();
+                (self.equations.last_jacobian(&self.workspace), n, width + 1)
+            }
+            false => (self.equations.own_slopes(&mut self.workspace, z, &self.lookup.value), 0, 1),
+        };
+        (0..n).map(move |i| &all[first + i * step])
     }
 
     /// Which states each rate depends on.

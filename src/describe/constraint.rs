@@ -35,6 +35,8 @@ pub struct ConstraintEntry {
     pub ideal: Row,
     /// The row of the model as it stands: what effects changed put in, a coefficient that none changed zero.
     pub model: Expr,
+    /// The force that holds it in place of the row, where a law gives its contact one.
+    pub held_by: Option<Symbol>,
     /// Its creep coefficient in the model as it stands.
     pub coefficient: Coefficient,
     /// Derivatives of row·q̇.
@@ -74,6 +76,7 @@ impl ConstraintEntry {
                 row_holds: true,
                 limits: None,
             },
+            held_by: None,
             model: in_place(&written(constraint, &order), in_model),
             jacobian: Jacobian::of(constraint, coordinates),
         }
@@ -96,6 +99,11 @@ impl ConstraintEntry {
     pub fn rows(&self) -> [(&'static str, Expr); 3] {
         let model = self.model.clone();
         [("Row", self.row.expr()), ("Ideal row", self.ideal.expr()), ("Row of the model as it stands", model)]
+    }
+
+    /// The rows that hold: where a force holds the contact that of the model does not.
+    pub(super) fn told_rows(&self) -> impl Iterator<Item = (&'static str, Expr)> {
+        self.rows().into_iter().take(if self.held_by.is_some() { 2 } else { 3 })
     }
 
     /// Every formula of the entry.

@@ -1,10 +1,12 @@
 //! The description of a model: everything that follows from it, in formulas.
 
+use super::forces::is_as_stated;
 use super::{ConstraintEntry, CreepLimits, DerivativesAt, GivenPoint, Signature, Structure, Symbols};
 use crate::effects::Applied;
 use crate::error::{Error, Result};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Constraint, Definitions, Sample};
+use crate::model::forces::Law;
 use crate::model::{Model, WITH_TRAILERS};
 use std::collections::BTreeSet;
 
@@ -38,6 +40,10 @@ pub struct Description {
     pub states: Vec<Equation>,
     /// Names that effects changed and that are no coefficient in any row: the motion departs from the rows there.
     pub beside_rows: Vec<Symbol>,
+    /// The speeds that forces change; none where the inputs say how the vehicle moves.
+    pub speeds: Vec<Symbol>,
+    /// The inputs, in the order of the log.
+    pub inputs: Vec<Symbol>,
     /// The effects the model includes.
     pub effects: Vec<EffectInModel>,
     /// Derivatives of the constraints at a point that was asked for.
@@ -86,8 +92,8 @@ impl Description {
     /// # Errors
     /// As [`Description::of`] and [`Structure::of_measuring`].
     pub fn of_measuring(model: &Model, also: &[Symbol]) -> Result<Self> {
-        // What is described is the constraints; forces are not among them.
-        let model = &model.kinematic();
+        // The constraints are those of the vehicle without forces; the motion is what forces make of it.
+        let (whole, model) = (model, &model.kinematic());
         if model.trailers.len() > MAX_TRAILERS {
             let found = model.trailers.len();
             return Err(Error::input(format!("{found} trailers are too many to write out"))
@@ -106,7 +112,9 @@ impl Description {
         };
         let constraints: Vec<_> = found.iter().map(|c| ConstraintEntry::of(c, &coordinates, &in_model)).collect();
         let entry = |c: &ConstraintEntry| coordinates.iter().map(|q| c.row.coefficient(&q.rate())).collect();
-        let sorted = definitions.sorted()?.into_iter();
+        let moving = motion(whole)?;
+        let moving_plain = motion(&Model { effects: vec![], ..whole.clone() })?;
+        let sorted = moving.sorted()?.into_iter().filter(|(name, formula)| !is_as_stated(name, formula));
         let mut description = Self {
             vehicle: model.vehicle.id.clone(),
             title: model.vehicle.title.clone(),
@@ -114,26 +122,31 @@ impl Description {
             pfaffian: constraints.iter().map(entry).collect(),
             signature: Signature::of(&found),
             structure: Structure::of_measuring(model, also)?,
-            undetermined,
+            undetermined: undetermined.filter(|_| whole.forced.is_none()),
             definitions: sorted.map(|(name, f)| Equation { name: name.clone(), formula: f.clone() }).collect(),
-            states: model
+            speeds: whole.forced.iter().flat_map(|forced| forced.speeds.clone()).collect(),
+            inputs: whole.inputs.iter().map(|role| Symbol::new(role)).collect(),
+            states: whole
                 .effects
                 .iter()
                 .flat_map(Applied::states)
                 .map(|(name, formula)| Equation { name, formula })
                 .collect(),
-            beside_rows: definitions
+            beside_rows: moving
                 .iter()
                 .map(|(n, _)| n.clone())
-                .filter(|n| changed(n) && !in_rows.contains(n))
+                .filter(|n| moving.get(n) != moving_plain.get(n) && !in_rows.contains(n))
                 .collect(),
-            effects: model.effects.iter().map(|e| EffectInModel::of(e, &plain)).collect(),
-            symbols: Symbols::of(model, &definitions, &BTreeSet::new())?,
+            effects: whole.effects.iter().map(|e| EffectInModel::of(e, &moving_plain)).collect(),
+            symbols: Symbols::of(whole, &moving, &BTreeSet::new())?,
             derivatives: None,
             coordinates,
             constraints,
         };
-        description.symbols = Symbols::of(model, &definitions, &description.used())?;
+        for (i, c) in description.constraints.iter_mut().enumerate() {
+            c.held_by = Some(Law::force_of(i + 1)).filter(|force| moving.get(force).is_some());
+        }
+        description.symbols = Symbols::of(whole, &moving, &description.used())?;
         description.fill_coefficients(&definitions, &plain);
         Ok(description)
     }
@@ -193,8 +206,14 @@ impl Description {
         used.extend(self.coordinates.iter().flat_map(|q| [q.clone(), q.rate()]));
         used.extend(self.definitions.iter().chain(&self.states).map(|e| e.name.clone()));
         used.extend(self.effects.iter().flat_map(|e| e.applied.parameters()));
+        used.extend(self.speeds.iter().flat_map(|s| [s.clone(), s.rate()]));
         used
     }
+}
+
+/// The definitions of the motion under forces, or of what stands in the rows.
+fn motion(model: &Model) -> Result<Definitions> {
+    if model.forced.is_some() { model.definitions() } else { model.row_definitions() }
 }
 
 /// The symbols in the coefficients of a constraint's row.

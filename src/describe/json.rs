@@ -20,6 +20,9 @@ pub fn json(d: &Description) -> Value {
     if let (Some(at), Some(entries)) = (&d.derivatives, found.as_object_mut()) {
         entries.insert("derivatives_at".into(), at.json());
     }
+    if let (false, Some(entries)) = (d.speeds.is_empty(), found.as_object_mut()) {
+        entries.insert("speeds".into(), names(&d.speeds).into());
+    }
     found
 }
 
@@ -87,7 +90,7 @@ fn constraint(s: &Symbols, c: &ConstraintEntry) -> Value {
     let parts: Map<String, Value> = c.parts.iter().map(|p| (p.label.clone(), formula(s, &p.formula))).collect();
     let by_q: Map<String, Value> = c.jacobian.q.iter().map(|(q, d)| (q.to_string(), row(s, d))).collect();
     let by_rate: Map<String, Value> = c.jacobian.rates.iter().map(|(q, d)| (q.to_string(), formula(s, d))).collect();
-    object!({
+    let mut found = object!({
         "name": c.name,
         "form": c.kind.letter.to_string(),
         "creep": c.creep.as_str(),
@@ -98,10 +101,14 @@ fn constraint(s: &Symbols, c: &ConstraintEntry) -> Value {
         },
         "row": row(s, &c.row),
         "ideal_row": row(s, &c.ideal),
-        "model_row": formula(s, &c.model),
+        "model_row": if c.held_by.is_none() { Some(formula(s, &c.model)) } else { None },
         "coefficient": coefficient(c),
         "jacobian": { "q": by_q, "q_dot": by_rate, "e": row(s, &c.jacobian.e) },
-    })
+    });
+    if let (Some(force), Some(entries)) = (&c.held_by, found.as_object_mut()) {
+        entries.insert("held_by".into(), force.as_str().into());
+    }
+    found
 }
 
 /// Null where nothing gives the coefficient and there are no limits to judge it by.

@@ -76,11 +76,14 @@ fn constraint(out: &mut String, s: &Symbols, c: &ConstraintEntry) {
         (None, true) => writeln!(out, "$\\sigma$ is defined everywhere."),
         (None, false) => Ok(()),
     };
-    for (label, row) in c.rows() {
+    for (label, row) in c.told_rows() {
         let _ = writeln!(out, "{label}:");
         let mut display = Display::new(s);
         display.vanishing(&row);
         display.write(out);
+    }
+    if let Some(force) = &c.held_by {
+        let _ = writeln!(out, "In the model as it stands no row holds it but a force, ${}$.", s.latex_symbol(force));
     }
     if c.coefficient.is_told() {
         let value = c.coefficient.value.map_or(String::new(), |v| format!(" = {v}"));
@@ -144,6 +147,9 @@ fn motion(out: &mut String, d: &Description) {
     let _ = writeln!(out, "\\section{{Equations of motion}}");
     if let Some(why) = &d.undetermined {
         let _ = writeln!(out, "None: {}.\n\nWhat stands in the rows:", plain(&why.to_string()));
+    }
+    if !d.speeds.is_empty() {
+        let _ = writeln!(out, "Under forces, in the speeds that ideal contacts leave free (Kane's method).");
     }
     let mut display = Display::new(&d.symbols);
     d.definitions.iter().for_each(|e| display.equation(&d.symbols.latex_symbol(&e.name), &e.formula));

@@ -16,6 +16,7 @@ mod constraint;
 mod derivatives_at;
 mod description;
 mod effects;
+mod forces;
 mod found;
 mod general;
 mod holonomy;

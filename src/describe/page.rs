@@ -93,17 +93,25 @@ fn broken(text: &str) -> String {
     let mut lines = Vec::new();
     let (mut rest, mut indent) = (text, INDENT.to_string());
     while indent.len() + rest.chars().count() > WIDTH {
-        let Some(at) = break_at(rest, WIDTH - indent.len()) else { break };
-        lines.push(format!("{indent}{}", rest[..at].trim_end()));
-        rest = &rest[at + 1..];
+        let room = WIDTH - indent.len();
+        let Some([end, next]) = break_at(rest, room).or_else(|| break_in_product(rest, room)) else { break };
+        lines.push(format!("{indent}{}", rest[..end].trim_end()));
+        rest = &rest[next..];
         indent = INDENT.repeat(2);
     }
     lines.push(format!("{indent}{rest}"));
     lines.join("\n")
 }
 
-/// The blank where a formula is best broken: before `+` or `-` or after a comma, least nested, then last.
-fn break_at(text: &str, room: usize) -> Option<usize> {
+/// Behind the last `*` that a line has room for, of a term longer than a line.
+fn break_in_product(text: &str, room: usize) -> Option<[usize; 2]> {
+    let fitting = text.char_indices().take(room);
+    fitting.filter(|(_, c)| *c == '*').last().map(|(i, _)| [i + 1; 2])
+}
+
+/// The blank where a formula is best broken, its place and that behind it: before `+` or `-` or after a comma, least nested,
+/// then last.
+fn break_at(text: &str, room: usize) -> Option<[usize; 2]> {
     let mut depth = 0i32;
     let mut best: Option<(i32, usize)> = None;
     for (column, (i, c)) in text.char_indices().enumerate() {
@@ -119,7 +127,7 @@ fn break_at(text: &str, room: usize) -> Option<usize> {
             _ => {}
         }
     }
-    best.map(|(_, i)| i)
+    best.map(|(_, i)| [i, i + 1])
 }
 
 #[cfg(test)]
@@ -135,6 +143,10 @@ mod tests {
             assert!(line.trim().trim_start_matches("+ ").starts_with("sin(a + b)"), "{line}");
         }
         assert_eq!(broken("a + b"), "    a + b");
+        let product = ["a_long_name"; 20].join("*");
+        let lines = broken(&product);
+        assert!(lines.lines().count() == 3 && lines.lines().all(|l| l.len() <= WIDTH), "{lines}");
+        assert_eq!(lines.split_whitespace().collect::<String>(), product);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Every symbol of a model with unit, meaning and value.
 
+use super::forces::UnderForces;
 use super::meaning;
 use super::symbol_entry::{Kind, SymbolEntry};
 use crate::effects::Applied;
@@ -26,8 +27,10 @@ impl Symbols {
         let values = values(model, definitions)?;
         let renamed = renamed(used);
         let mut entries: Vec<SymbolEntry> = Vec::new();
+        let plain = |symbol: &Symbol| look_up(model, symbol);
+        let forces = UnderForces::of(model, definitions, &plain)?;
         for symbol in used {
-            let found = look_up(model, symbol);
+            let found = forces.as_ref().and_then(|f| f.meaning(symbol)).or_else(|| plain(symbol));
             let (kind, unit, meaning) = found.ok_or_else(|| Error::run(format!("the name {symbol} has no meaning")))?;
             let latex = latex_symbol(renamed.get(symbol).unwrap_or(symbol));
             let value = values.get(symbol).copied();
@@ -67,8 +70,11 @@ impl Symbols {
 /// A name `effect.parameter` is printed as `parameter`, or with the effect as its index where that is not enough.
 fn renamed(used: &BTreeSet<Symbol>) -> BTreeMap<Symbol, Symbol> {
     let alike = |s: &Symbol| used.iter().filter(|o| latex_symbol(o) == latex_symbol(s)).count() > 1;
-    let dotted = used.iter().filter_map(|s| Some((s, s.as_str().split_once('.')?)));
-    let new = |(effect, name): (&str, &str)| Symbol::new(&format!("{name}_{effect}"));
+    let dotted = used.iter().filter_map(|s| Some((s, s.as_str().rsplit_once('.')?)));
+    let new = |(of, name): (&str, &str)| {
+        let bare = name.trim_end_matches('\'');
+        Symbol::new(&format!("{bare}_{}{}", of.replace('.', "_"), &name[bare.len()..]))
+    };
     dotted.filter(|(s, _)| alike(s)).map(|(s, parts)| (s.clone(), new(parts))).collect()
 }
 

@@ -46,6 +46,11 @@ fn overview(page: &mut Page, d: &Description) {
     };
     page.entry(&format!("coordinates: {}{also}", names.join(", ")));
     page.entry(&format!("constraints by form: {} ({})", d.signature, Signature::COUNTS));
+    if !d.speeds.is_empty() {
+        let listed = |of: &[Symbol]| of.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+        let by = if d.inputs.is_empty() { "nothing".into() } else { listed(&d.inputs) };
+        page.entry(&format!("moved by forces; inputs: {by}; speeds that forces change: {}", listed(&d.speeds)));
+    }
     let effects: Vec<String> = d.effects.iter().map(|e| e.applied.label()).collect();
     page.entry(&format!("effects: {}", if effects.is_empty() { "none".into() } else { effects.join(", ") }));
 }
@@ -79,9 +84,12 @@ fn constraint(page: &mut Page, number: usize, c: &ConstraintEntry) {
         (None, true) => page.line("sigma is defined everywhere."),
         (None, false) => {}
     }
-    for (label, row) in c.rows() {
+    for (label, row) in c.told_rows() {
         page.line(&format!("{label}:"));
         page.formula(&format!("{row} = 0"));
+    }
+    if let Some(force) = &c.held_by {
+        page.line(&format!("In the model as it stands no row holds it but a force, {force}."));
     }
     if c.coefficient.is_told() {
         page.line("Coefficient in the model as it stands:");
@@ -139,7 +147,12 @@ fn line(page: &mut Page, line: &Line) {
 fn motion(page: &mut Page, d: &Description) {
     page.heading(2, "Equations of motion");
     match &d.undetermined {
-        None => page.line("Each uses only earlier ones, states, inputs and parameters."),
+        None => {
+            if !d.speeds.is_empty() {
+                page.line("Under forces, in the speeds that ideal contacts leave free (Kane's method):");
+            }
+            page.line("Each uses only earlier ones, states, inputs and parameters.");
+        }
         Some(why) => {
             page.paragraph(&format!("None: {why}."));
             page.line("What stands in the rows:");

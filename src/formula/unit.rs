@@ -31,6 +31,8 @@ enum Kind {
 }
 
 const NAMES: [&str; 3] = ["m", "s", "kg"];
+/// A newton in metres, seconds and kilograms.
+const NEWTON: [i32; 3] = [1, -2, 1];
 
 impl Unit {
     /// A pure number.
@@ -38,7 +40,7 @@ impl Unit {
         Unit(Kind::Known([Rational32::zero(); 3]))
     }
 
-    /// Reads `m`, `rad/s`, `kg*m^2`, `s^2/m^2`, `1`; `None` when it is no unit.
+    /// Reads `m`, `rad/s`, `kg*m^2`, `s^2/m^2`, `N*m`, `1`; `None` when it is no unit.
     pub fn parse(text: &str) -> Option<Self> {
         let mut exponents = [Rational32::zero(); 3];
         let mut sign = 1;
@@ -48,6 +50,11 @@ impl Unit {
                 let power: i32 = power.parse().ok().filter(|p: &i32| p.abs() < 100)?;
                 match NAMES.iter().position(|n| *n == name) {
                     Some(k) => exponents[k] += Rational32::from(sign * power),
+                    None if name == "N" => {
+                        for (exponent, of_force) in exponents.iter_mut().zip(NEWTON) {
+                            *exponent += Rational32::from(sign * power * of_force);
+                        }
+                    }
                     None if name == "rad" || name == "1" => {}
                     None => return None,
                 }

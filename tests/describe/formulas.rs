@@ -27,7 +27,38 @@ fn all() -> Vec<(String, Model)> {
     speed.inputs = vec!["speed".into(), "yaw_rate".into()];
     let reviewed = reviewed().into_iter().map(|(_, m)| m);
     let later = reviewed_as_text().into_iter().map(|(_, m)| m);
-    machines().into_iter().chain(still()).chain(with).chain(reviewed).chain(later).chain([speed]).map(named).collect()
+    let all = machines().into_iter().chain(still()).chain(with).chain(reviewed).chain(later).chain([speed]);
+    all.chain(moved_by_forces()).map(named).collect()
+}
+
+/// A train that forces move, alone and with the effects whose formulas have no number with a unit, a robot by its torques, and a
+/// car whose tyres have a law with a state.
+fn moved_by_forces() -> Vec<Model> {
+    let train = forced_train();
+    let effects = ["mass", "mass-centre-aside", "cornering-stiffness-front", "side-grip-limit", "trailer-drag"];
+    let with = |id: &&str| {
+        let effect = effects::all().iter().find(|e| e.id == **id).unwrap();
+        let trailer = effect.per_trailer.then_some(1);
+        train.clone().with_effect(Applied::new(effect, trailer, effect.parameters.values().map(|p| p.size).collect()))
+    };
+    let wheels = [("theta_1'".into(), 0.01), ("theta_2'".into(), 0.01)].into();
+    let masses = Masses { mass: 20.0, inertia: 1.0, mass_offset: 0.05, wheels, ..Masses::default() };
+    let robot = Model::new("differential-drive", &[("wheel_radius", 0.08), ("track_width", 0.4)]).unwrap();
+    let robot =
+        Dynamics::new(&robot, &masses).unwrap().driven_by(&["wheel_torque_left", "wheel_torque_right"]).unwrap();
+    let tyres = Masses {
+        mass: 900.0,
+        inertia: 1100.0,
+        mass_offset: 1.2,
+        wheels: [("theta'".into(), 2.0)].into(),
+        ..Masses::default()
+    };
+    let car = Model::new("car", &[("wheel_radius", 0.3), ("wheelbase", 2.6)]).unwrap();
+    let car = Dynamics::new(&car, &tyres).unwrap().driven_by(&["wheel_torque"]).unwrap();
+    let elastic = car.clone().with_laws("elastic", &[4e4, 0.5]).unwrap();
+    let slides = car.with_law("front-axle-direction", "rocard", &[4e4]);
+    let others = [robot, elastic].into_iter().chain(slides.ok()).map(|d| d.model().unwrap());
+    effects.iter().map(with).chain([train.clone()]).chain(others).collect()
 }
 
 /// What is said of all of them, found once for the tests of this file.
@@ -364,4 +395,34 @@ fn forced_train() -> Model {
     let masses = Masses { mass: 1200.0, inertia: 1500.0, mass_offset: 1.2, wheels, trailers, ..Masses::default() };
     let car = Dynamics::new(&car, &masses).unwrap().driven_by(&["wheel_torque"]).unwrap();
     car.with_laws("viscous", &[2e4]).unwrap().model().unwrap()
+}
+
+/// Worked through from the first to the last, by the values of the table, the printed equations give the rates that are integrated;
+/// where a law holds a contact its row is not said to hold.
+#[test]
+fn printed_equations_under_forces_are_those_that_are_integrated() {
+    for model in moved_by_forces() {
+        let d = Description::of(&model).unwrap();
+        assert!(!d.speeds.is_empty() && d.effects.len() == model.effects.len());
+        let equations = model.equations(&[]).unwrap();
+        let z: Vec<f64> = (0..equations.n()).map(|i| 0.3 + 0.1 * (i as f64 * 2.3).sin()).collect();
+        let u: Vec<f64> = (0..equations.inputs.len()).map(|i| 0.4 - 0.15 * i as f64).collect();
+        let mut known: std::collections::BTreeMap<Symbol, f64> =
+            d.symbols.entries().iter().filter_map(|e| Some((e.symbol.clone(), e.value?))).collect();
+        known.extend(equations.states.iter().cloned().zip(z.iter().copied()));
+        known.extend(equations.inputs.iter().cloned().zip(u.iter().copied()));
+        for e in &d.definitions {
+            let value = e.formula.eval(&|s| known.get(s).copied().unwrap_or_else(|| panic!("{s} comes later")));
+            known.insert(e.name.clone(), value.unwrap());
+        }
+        let mut rates = vec![0.0; z.len()];
+        equations.rates(&mut equations.workspace(&[]), &z, &u, &mut rates);
+        for (state, rate) in equations.states.iter().zip(rates) {
+            let printed = known[&state.rate()];
+            assert!((printed - rate).abs() < 1e-9 * (1.0 + rate.abs()), "{state}: {printed} {rate}");
+        }
+        let held = d.constraints.iter().filter(|c| c.held_by.is_some()).count();
+        assert_eq!(describe::text(&d).matches("no row holds it but a force").count(), held);
+        assert_eq!(describe::text(&d).matches("Row of the model as it stands").count(), d.constraints.len() - held);
+    }
 }

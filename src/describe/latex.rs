@@ -83,7 +83,11 @@ fn constraint(out: &mut String, s: &Symbols, c: &ConstraintEntry) {
         display.write(out);
     }
     if let Some(force) = &c.held_by {
-        let _ = writeln!(out, "In the model as it stands no row holds it but a force, ${}$.", s.latex_symbol(force));
+        let _ = writeln!(
+            out,
+            "In the model as it stands a force holds it in place of the row: ${}$.",
+            s.latex_symbol(force)
+        );
     }
     if c.coefficient.is_told() {
         let value = c.coefficient.value.map_or(String::new(), |v| format!(" = {v}"));

@@ -33,7 +33,8 @@ impl Symbols {
             let found = forces.as_ref().and_then(|f| f.meaning(symbol)).or_else(|| plain(symbol));
             let (kind, unit, meaning) = found.ok_or_else(|| Error::run(format!("the name {symbol} has no meaning")))?;
             let latex = latex_symbol(renamed.get(symbol).unwrap_or(symbol));
-            let value = values.get(symbol).copied();
+            // No value is a negative zero.
+            let value = values.get(symbol).map(|v| v + 0.0);
             entries.push(SymbolEntry { symbol: symbol.clone(), latex, unit, meaning, kind, value });
         }
         let place = |s: &Symbol| model.coordinates().iter().position(|c| c == s || c.rate() == *s);

@@ -89,7 +89,7 @@ fn constraint(page: &mut Page, number: usize, c: &ConstraintEntry) {
         page.formula(&format!("{row} = 0"));
     }
     if let Some(force) = &c.held_by {
-        page.line(&format!("In the model as it stands no row holds it but a force, {force}."));
+        page.line(&format!("In the model as it stands a force holds it in place of the row: {force}."));
     }
     if c.coefficient.is_told() {
         page.line("Coefficient in the model as it stands:");

@@ -422,7 +422,7 @@ fn printed_equations_under_forces_are_those_that_are_integrated() {
             assert!((printed - rate).abs() < 1e-9 * (1.0 + rate.abs()), "{state}: {printed} {rate}");
         }
         let held = d.constraints.iter().filter(|c| c.held_by.is_some()).count();
-        assert_eq!(describe::text(&d).matches("no row holds it but a force").count(), held);
+        assert_eq!(describe::text(&d).matches("a force holds it in place of the row").count(), held);
         assert_eq!(describe::text(&d).matches("Row of the model as it stands").count(), d.constraints.len() - held);
     }
 }

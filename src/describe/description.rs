@@ -112,8 +112,10 @@ impl Description {
         };
         let constraints: Vec<_> = found.iter().map(|c| ConstraintEntry::of(c, &coordinates, &in_model)).collect();
         let entry = |c: &ConstraintEntry| coordinates.iter().map(|q| c.row.coefficient(&q.rate())).collect();
-        let moving = motion(whole)?;
-        let moving_plain = motion(&Model { effects: vec![], ..whole.clone() })?;
+        let [moving, moving_plain] = match whole.forced {
+            Some(_) => [whole.definitions()?, Model { effects: vec![], ..whole.clone() }.definitions()?],
+            None => [definitions.clone(), plain.clone()],
+        };
         let sorted = moving.sorted()?.into_iter().filter(|(name, formula)| !is_as_stated(name, formula));
         let mut description = Self {
             vehicle: model.vehicle.id.clone(),
@@ -209,11 +211,6 @@ impl Description {
         used.extend(self.speeds.iter().flat_map(|s| [s.clone(), s.rate()]));
         used
     }
-}
-
-/// The definitions of the motion under forces, or of what stands in the rows.
-fn motion(model: &Model) -> Result<Definitions> {
-    if model.forced.is_some() { model.definitions() } else { model.row_definitions() }
 }
 
 /// The symbols in the coefficients of a constraint's row.

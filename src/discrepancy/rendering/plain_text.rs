@@ -105,7 +105,7 @@ mod tests {
         // No number where none is defined: the sentence falls back to the words of the effect.
         let slips = effects::named("saturating-creep").unwrap();
         let told = plain(&Applied::new(slips, None, vec![0.1, 0.0]), motion);
-        assert_eq!(told, "The vehicle slides outwards in turns, and no faster than a limit");
+        assert_eq!(told, "The vehicle slides outwards or inwards in turns, and no faster than a limit");
         let warming = effects::named("yaw-rate-bias").unwrap().drifting("bias", 10.0).unwrap();
         let told = plain(&Applied::new(&warming, None, vec![0.0, 0.001]), motion);
         assert!(told.starts_with("The robot turns 4.6°/s further to the left"), "{told}");

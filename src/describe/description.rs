@@ -101,7 +101,10 @@ impl Description {
         }
         let definitions = model.row_definitions()?;
         let plain = Model { effects: vec![], ..model.clone() }.row_definitions()?;
-        let undetermined = model.determined().err();
+        let [moving, moving_plain] = match whole.forced {
+            Some(_) => [whole.definitions()?, Model { effects: vec![], ..whole.clone() }.definitions()?],
+            None => [definitions.clone(), plain.clone()],
+        };
         let coordinates = model.coordinates();
         let found = model.constraints();
         let in_rows: BTreeSet<Symbol> = found.iter().flat_map(coefficient_symbols).collect();
@@ -110,12 +113,10 @@ impl Description {
         let in_model = |s: &Symbol| {
             definitions.get(s).filter(|_| in_rows.contains(s) && (creeps.contains(s) || changed(s))).cloned()
         };
-        let constraints: Vec<_> = found.iter().map(|c| ConstraintEntry::of(c, &coordinates, &in_model)).collect();
+        let force = |i: usize| Some(Law::symbol("force", i + 1)).filter(|force| moving.get(force).is_some());
+        let of = |(i, c)| ConstraintEntry { held_by: force(i), ..ConstraintEntry::of(c, &coordinates, &in_model) };
+        let constraints: Vec<_> = found.iter().enumerate().map(of).collect();
         let entry = |c: &ConstraintEntry| coordinates.iter().map(|q| c.row.coefficient(&q.rate())).collect();
-        let [moving, moving_plain] = match whole.forced {
-            Some(_) => [whole.definitions()?, Model { effects: vec![], ..whole.clone() }.definitions()?],
-            None => [definitions.clone(), plain.clone()],
-        };
         let sorted = moving.sorted()?.into_iter().filter(|(name, formula)| !is_as_stated(name, formula));
         let mut description = Self {
             vehicle: model.vehicle.id.clone(),
@@ -124,7 +125,7 @@ impl Description {
             pfaffian: constraints.iter().map(entry).collect(),
             signature: Signature::of(&found),
             structure: Structure::of_measuring(model, also)?,
-            undetermined: undetermined.filter(|_| whole.forced.is_none()),
+            undetermined: whole.determined().err(),
             definitions: sorted.map(|(name, f)| Equation { name: name.clone(), formula: f.clone() }).collect(),
             speeds: whole.forced.iter().flat_map(|forced| forced.speeds.clone()).collect(),
             inputs: whole.inputs.iter().map(|role| Symbol::new(role)).collect(),
@@ -140,14 +141,11 @@ impl Description {
                 .filter(|n| moving.get(n) != moving_plain.get(n) && !in_rows.contains(n))
                 .collect(),
             effects: whole.effects.iter().map(|e| EffectInModel::of(e, &moving_plain)).collect(),
-            symbols: Symbols::of(whole, &moving, &BTreeSet::new())?,
+            symbols: Symbols::default(),
             derivatives: None,
             coordinates,
             constraints,
         };
-        for (i, c) in description.constraints.iter_mut().enumerate() {
-            c.held_by = Some(Law::force_of(i + 1)).filter(|force| moving.get(force).is_some());
-        }
         description.symbols = Symbols::of(whole, &moving, &description.used())?;
         description.fill_coefficients(&definitions, &plain);
         Ok(description)

@@ -1,16 +1,15 @@
 //! Units and meanings of the names of a motion under forces.
 
+use super::meaning::{Known, unit_of_rate};
 use super::symbol_entry::Kind;
 use crate::formula::{Expr, Node, Symbol, Unit};
 use crate::mechanism::Definitions;
 use crate::model::Model;
+use crate::model::forced_motion::{STATED, stated};
 use crate::model::forces::laws;
 use std::collections::{BTreeMap, BTreeSet};
 
 type Meaning = (Kind, String, String);
-
-/// Name, kind, unit, meaning.
-type Known = (&'static str, Kind, &'static str, &'static str);
 
 /// Quantities of a body, after its name and a dot.
 const OF_BODY: &[Known] = &[
@@ -61,8 +60,6 @@ const OF_SOLUTION: &[(&str, &str)] = &[
     ("push.", "what drives, brakes and holds, along the speed"),
 ];
 
-/// The name of the value that a model file states, where the definition of the bare name may be rewritten.
-const STATED: &str = "stated.";
 /// Between a rate and the speed that moves it.
 const BY: &str = ".by_";
 
@@ -78,7 +75,7 @@ pub(super) struct UnderForces<'a> {
 
 /// Whether a definition says no more than that a value is that of the model file: no effect has rewritten it.
 pub(super) fn is_as_stated(name: &Symbol, formula: &Expr) -> bool {
-    matches!(formula.node(), Node::Sym(s) if s.as_str().strip_prefix(STATED) == Some(name.as_str()))
+    matches!(formula.node(), Node::Sym(s) if *s == stated(name))
 }
 
 impl<'a> UnderForces<'a> {
@@ -93,8 +90,8 @@ impl<'a> UnderForces<'a> {
             return Ok(None);
         }
         let contacts = model.kinematic().constraints().into_iter().map(|c| c.name).collect();
-        let stated = definitions.iter().filter(|(name, formula)| is_as_stated(name, formula));
-        let as_stated = stated.map(|(name, _)| name.clone()).collect();
+        let as_stated = definitions.iter().filter(|(name, formula)| is_as_stated(name, formula));
+        let as_stated = as_stated.map(|(name, _)| name.clone()).collect();
         let mut found = Self { model, contacts, as_stated, inferred: BTreeMap::new() };
         for (name, formula) in definitions.sorted()? {
             let bare = name.as_str().trim_end_matches('\'');
@@ -115,14 +112,13 @@ impl<'a> UnderForces<'a> {
         if let Some(unit) = self.inferred.get(symbol) {
             return Some((Kind::Defined, unit.clone(), step_of_solution(name)?));
         }
-        if let Some(stated) = name.strip_prefix(STATED) {
-            let (_, unit, meaning) = self.meaning(&Symbol::new(stated))?;
+        if let Some(bare) = name.strip_prefix(STATED) {
+            let (_, unit, meaning) = self.meaning(&Symbol::new(bare))?;
             return Some((Kind::Parameter, unit, format!("{meaning}, as stated")));
         }
         if let Some(state) = name.strip_suffix('\'') {
             let (_, unit, meaning) = self.meaning(&Symbol::new(state)).filter(|(kind, ..)| *kind == Kind::State)?;
-            let unit = unit.strip_suffix("/s").map_or_else(|| format!("{unit}/s"), |of| format!("{of}/s^2"));
-            return Some((Kind::Rate, unit, format!("rate of the {meaning}")));
+            return Some((Kind::Rate, unit_of_rate(&unit), format!("rate of the {meaning}")));
         }
         let (kind, unit, meaning) = match name.split_once('.') {
             Some((of, quantity)) => self.dotted(of, quantity),

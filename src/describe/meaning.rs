@@ -3,7 +3,7 @@
 use super::symbol_entry::Kind;
 
 /// Name, kind, unit, meaning.
-type Known = (&'static str, Kind, &'static str, &'static str);
+pub(super) type Known = (&'static str, Kind, &'static str, &'static str);
 
 /// Names of every model.
 const NAMES: &[Known] = &[
@@ -43,6 +43,11 @@ const TRAILER: &[Known] = &[
     ("v", Kind::Defined, "m/s", "forward speed of the axle of trailer"),
     ("vt", Kind::Defined, "m/s", "speed to the left of the axle of trailer"),
 ];
+
+/// The unit of the rate of what has a unit.
+pub(super) fn unit_of_rate(unit: &str) -> String {
+    unit.strip_suffix("/s").map_or_else(|| format!("{unit}/s"), |of| format!("{of}/s^2"))
+}
 
 /// What a name means in every model with so many trailers.
 pub(super) fn of(name: &str, trailers: usize) -> Option<(Kind, String, String)> {

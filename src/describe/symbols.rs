@@ -12,7 +12,7 @@ use crate::vehicles::Wheel;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The symbols of a model.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Symbols {
     entries: Vec<SymbolEntry>,
     renamed: BTreeMap<Symbol, Symbol>,
@@ -124,11 +124,7 @@ fn measured(model: &Model, symbol: &Symbol) -> Option<(Kind, String, String)> {
         return Some((Kind::Measured, quantity.unit.clone(), format!("measured {}", quantity.name)));
     }
     let (_, unit, meaning) = look_up(model, &Symbol::new(symbol.as_str().strip_suffix('\'')?))?;
-    let unit = match unit.strip_suffix("/s") {
-        Some(of) => format!("{of}/s^2"),
-        None => format!("{unit}/s"),
-    };
-    Some((Kind::Rate, unit, format!("rate of the {meaning}")))
+    Some((Kind::Rate, meaning::unit_of_rate(&unit), format!("rate of the {meaning}")))
 }
 
 /// A name of a wheel: a coefficient of its creep, its angles and their rates where nothing defines them.

@@ -51,7 +51,10 @@ impl ForcedMotion {
     }
 }
 
+/// Before the name of a value as the model file states it.
+pub(crate) const STATED: &str = "stated.";
+
 /// The symbol of a value as the model file states it; the definition of the bare name may be rewritten by an effect.
 pub(crate) fn stated(name: &Symbol) -> Symbol {
-    Symbol::new(&format!("stated.{name}"))
+    Symbol::new(&format!("{STATED}{name}"))
 }

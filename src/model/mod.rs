@@ -11,7 +11,7 @@ mod constraints;
 pub mod effect_equation;
 mod equations;
 mod file;
-mod forced_motion;
+pub(crate) mod forced_motion;
 pub(crate) mod forces;
 mod free;
 pub mod freedom;

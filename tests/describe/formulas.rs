@@ -56,8 +56,8 @@ fn moved_by_forces() -> Vec<Model> {
     let car = Model::new("car", &[("wheel_radius", 0.3), ("wheelbase", 2.6)]).unwrap();
     let car = Dynamics::new(&car, &tyres).unwrap().driven_by(&["wheel_torque"]).unwrap();
     let elastic = car.clone().with_laws("elastic", &[4e4, 0.5]).unwrap();
-    let slides = car.with_law("front-axle-direction", "rocard", &[4e4]);
-    let others = [robot, elastic].into_iter().chain(slides.ok()).map(|d| d.model().unwrap());
+    let slides = car.with_law("front-axle-direction", "rocard", &[4e4]).unwrap();
+    let others = [robot, elastic, slides].into_iter().map(|d| d.model().unwrap());
     effects.iter().map(with).chain([train.clone()]).chain(others).collect()
 }
 

@@ -117,11 +117,6 @@ impl Law {
         Symbol::new(&format!("contact_{contact}.{name}"))
     }
 
-    /// The symbol of the force at the n-th contact.
-    pub(crate) fn force_of(contact: usize) -> Symbol {
-        Self::symbol("force", contact)
-    }
-
     /// A formula of the law at the n-th contact, with what its slip, speed and deflection are there.
     pub(super) fn written(&self, formula: &Expr, contact: usize, by: &dyn Fn(&str) -> Expr) -> Expr {
         formula.substitute(&|s| match s.as_str() {

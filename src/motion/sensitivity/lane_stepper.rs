@@ -41,7 +41,6 @@ pub(crate) struct LaneStepper<'a, const L: usize> {
     collocation: Vec<CollocationStepper<'a>>,
     /// Of each arc the knot of the signals that it comes to next.
     ahead: [usize; L],
-    isa: Isa,
 }
 
 /// A knot within this share of the interval before it from the beginning or the end of a span counts as lying there:
@@ -74,7 +73,6 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
                 .map(|p| CollocationStepper::new(equations, signals, p))
                 .collect(),
             ahead: [0; L],
-            isa: Isa::best(),
         }
     }
 
@@ -97,7 +95,7 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
 
     /// The instructions that kernels of a caller are to use.
     pub fn isa(&self) -> Isa {
-        self.isa
+        self.motion.isa
     }
 
     /// The inputs that act at some times.
@@ -107,9 +105,7 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
 
     /// Advances arcs from some times to others; where both are the same an arc stays as it is.
     pub fn advance(&mut self, z: &mut [[f64; L]], s: &mut [[f64; L]], from: &[f64; L], to: &[f64; L]) {
-        // One state alone fills no vector.
-        let isa = if L == 1 && s.is_empty() { Isa::default() } else { self.isa };
-        isa.dispatch(Advance { stepper: self, z, s, from, to });
+        self.motion.isa_with(s).dispatch(Advance { stepper: self, z, s, from, to });
     }
 
     /// Advances arcs through rows of a log, each from its first row to the one behind its last.
@@ -221,7 +217,7 @@ impl<'a, const L: usize> LaneStepper<'a, L> {
             take(&mut s[still..], &total.s[still..], &wanted);
         }
         if let Some(spans) = forgotten {
-            self.isa.dispatch(Forget { stepper: self, z, s, spans });
+            self.motion.isa.dispatch(Forget { stepper: self, z, s, spans });
         }
     }
 

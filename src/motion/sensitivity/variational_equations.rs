@@ -26,7 +26,8 @@ pub(crate) struct VariationalEquations<'a, const L: usize> {
     pub hidden_starts: usize,
     /// Which states each rate depends on.
     read_by: Vec<Vec<usize>>,
-    isa: Isa,
+    /// The instructions for many lanes, or many columns of sensitivities.
+    pub isa: Isa,
 }
 
 /// One evaluation of z′ and S′.
@@ -186,8 +187,12 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
 
     /// z′ and S′, but for the rows and columns that stay as they are.
     pub fn rate(&mut self, z: &[[f64; L]], s: &[[f64; L]], t: &[f64; L], rate: &mut LaneStates<L>) {
-        let isa = if s.is_empty() { Isa::for_lanes(L) } else { self.isa };
-        isa.dispatch(Rate { motion: self, z, s, t, rate });
+        self.isa_with(s).dispatch(Rate { motion: self, z, s, t, rate });
+    }
+
+    /// The instructions for states with these sensitivities: one state alone fills no vector.
+    pub fn isa_with(&self, s: &[[f64; L]]) -> Isa {
+        if s.is_empty() { Isa::for_lanes(L) } else { self.isa }
     }
 
     #[inline(always)]

@@ -2,7 +2,8 @@
 //! the model spreads that.
 
 use super::initial_guess::nearest;
-use super::planner::{Plan, Task};
+use super::plan::Plan;
+use super::task::Task;
 use super::tracked_point::TrackedPoint;
 use crate::error::{Error, Result};
 use crate::model::Model;
@@ -28,20 +29,24 @@ pub struct Executed {
 /// Times and inputs of a plan, input by input: values, or means since the row before.
 ///
 /// Rows lie on the ends of the splines' pieces, so that the cubic through them, or through their running integral, is the
-/// planned input exactly.
+/// planned input exactly; where inputs wait for one another they lie beside them, and it is nearly so.
 pub fn plan_rows(plan: &Plan, timing: Timing) -> (Vec<f64>, Vec<Vec<f64>>) {
     let span = plan.duration / plan.spline.spans as f64;
-    let rows = plan.spline.spans * ((span / ROW).ceil() as usize).max(2);
-    let share = |i: f64| i / rows as f64;
-    let time = (0..=rows).map(|i| plan.duration * share(i as f64)).collect();
-    let at = |c: &[f64], i: f64| plan.spline.at(c, share(i));
-    let row = |c: &[f64], i: usize| match timing {
-        Timing::Sample => at(c, i as f64),
-        Timing::IntervalMean if i == 0 => at(c, 0.0),
+    let moving = plan.spline.spans * ((span / ROW).ceil() as usize).max(2);
+    let waiting = (plan.dead_time.longest / plan.duration * moving as f64).ceil() as usize;
+    let rows = moving + waiting;
+    let at = |i: f64| plan.duration * (i / moving as f64);
+    let time = (0..=rows).map(|i| at(i as f64)).collect();
+    let command = |c: usize, i: f64| plan.command(c, at(i));
+    let row = |c: usize, i: usize| match timing {
+        Timing::Sample => command(c, i as f64),
+        Timing::IntervalMean if i == 0 => command(c, 0.0),
         // Simpson's rule has no error for a piece of degree two.
-        Timing::IntervalMean => (at(c, i as f64 - 1.0) + 4.0 * at(c, i as f64 - 0.5) + at(c, i as f64)) / 6.0,
+        Timing::IntervalMean => {
+            (command(c, i as f64 - 1.0) + 4.0 * command(c, i as f64 - 0.5) + command(c, i as f64)) / 6.0
+        }
     };
-    (time, plan.coefficients.iter().map(|c| (0..=rows).map(|i| row(c, i)).collect()).collect())
+    (time, (0..plan.coefficients.len()).map(|c| (0..=rows).map(|i| row(c, i)).collect()).collect())
 }
 
 /// Drives a plan on a model.

@@ -8,16 +8,19 @@
 //! | what is to be reached: the sensor's pose, or a trailer's | `tracked_point`, `path` |
 //! | the nonlinear program, and steps to its solution | `transcription`, `quadratic_program`, `sequential_quadratic_programming` |
 //! | where the search begins | `initial_guess` |
-//! | the plan, or why there is none | `planner` |
+//! | inputs that act late | `dead_time` |
+//! | the task; the plan, or why there is none | `task`, `planner`, `plan` |
 //! | rows that a robot can be given, and what becomes of them on a model | `execution`, `plan_table` |
 //! | the job as a whole, its report, its words | `job`, `report`, `plan_text` |
 
 mod b_spline;
+mod dead_time;
 mod execution;
 mod initial_guess;
 mod job;
 mod limits;
 mod path;
+mod plan;
 mod plan_table;
 mod plan_text;
 mod planner;
@@ -25,19 +28,24 @@ mod quadratic_program;
 mod report;
 mod sequential_quadratic_programming;
 mod shooting;
+mod task;
 mod tracked_point;
 mod transcription;
 
 pub(crate) use b_spline::BSpline;
+pub use dead_time::DeadTime;
+pub(crate) use dead_time::input_delays;
 pub use execution::{Executed, execute, plan_rows, spread};
 pub(crate) use initial_guess::nearest;
 pub use job::{Covariance, Planned, planned};
 pub use limits::{Limit, Said, with_said};
 pub use path::Path;
+pub use plan::Plan;
 pub use plan_table::plan_table;
 pub use plan_text::{infeasible, plan_text};
-pub use planner::{BEND, Infeasible, Plan, Task, plan};
+pub use planner::{BEND, Infeasible, plan};
 pub(crate) use quadratic_program::QuadraticProgram;
 pub use report::{Ideal, PlanReport, Reached, Spread};
 pub(crate) use shooting::Shooting;
+pub use task::Task;
 pub use transcription::Weights;

@@ -1,7 +1,7 @@
 //! A plan as a log: rows that `simulate` reads by the columns of the model file, inputs first, with the pose they lead to.
 
 use super::execution::{Executed, plan_rows};
-use super::planner::Plan;
+use super::plan::Plan;
 use crate::files::{ColumnEntry, Kind, ModelFile, quoted};
 use crate::model::Model;
 use crate::motion::Timing;

@@ -47,7 +47,7 @@ fn length(metres: f64) -> String {
 
 fn missed(reached: &Reached) -> String {
     let heading = reached.miss_rad.map(|r| format!(" and {} rad", significant(r.abs(), 2)));
-    let heading = heading.filter(|_| reached.miss_rad.is_some_and(|r| r.abs() > 1e-9)).unwrap_or_default();
+    let heading = heading.filter(|_| reached.miss_rad.is_some_and(|r| r.abs() > 1e-8)).unwrap_or_default();
     match reached.miss_m < 1e-8 && heading.is_empty() {
         true => "at the goal to 10⁻⁸ m".into(),
         false => format!("{} from the goal{heading}", length(reached.miss_m)),

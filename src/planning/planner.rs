@@ -2,16 +2,18 @@
 //! sequential quadratic programming from several first guesses.
 
 use super::b_spline::BSpline;
+use super::dead_time::DeadTime;
 use super::initial_guess::{Curve, curves, followed, nearest, point, straight};
 use super::limits::Limit;
-use super::path::Path;
+use super::plan::Plan;
 use super::sequential_quadratic_programming::solved;
 use super::shooting::Shooting;
+use super::task::Task;
 use super::tracked_point::TrackedPoint;
-use super::transcription::{Point, Program, Waypoint, Weights};
+use super::transcription::{Point, Program, Waypoint};
 use crate::error::{Error, Result};
 use crate::model::{Equations, Model};
-use crate::motion::{Integrator, initial_hidden, visible_state};
+use crate::motion::{Integrator, Signals, Timing, initial_hidden, simulate};
 use crate::progress::{OnProgress, Stage, tell};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -26,69 +28,6 @@ const REACHES: [f64; 3] = [1.0, 2.5, 0.5];
 /// How often a plan is made again for the sake of states that begin in equilibrium, and when they do.
 const MOST_STARTS: usize = 12;
 const SAME_START: f64 = 1e-11;
-
-/// What is to be planned.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Task {
-    /// The measured pose at the beginning: x, y, heading, headings of trailers.
-    pub start: Vec<f64>,
-    /// Poses to pass, in their order, the goal last; a heading that does not matter is none.
-    pub poses: Vec<(f64, f64, Option<f64>)>,
-    /// Points to follow on the way, in place of poses to pass.
-    pub path: Path,
-    /// Whose pose it is: 0 for what the sensor of the tractor measures, else the trailer.
-    pub of_trailer: usize,
-    /// Limits of the inputs, in the model's order.
-    pub limits: Vec<Limit>,
-    /// The duration, s, where it is given.
-    pub duration: Option<f64>,
-    /// What else counts.
-    pub weights: Weights,
-    /// Polynomial pieces of the inputs.
-    pub spans: usize,
-    /// The degree of the pieces: 3 for samples of the inputs, 2 for means since the row before.
-    pub degree: usize,
-}
-
-impl Task {
-    /// From the origin to poses, the tractor's, within usual limits and in whatever time.
-    pub fn from_origin(model: &Model, poses: Vec<(f64, f64, Option<f64>)>, spans: usize) -> Self {
-        Self {
-            start: vec![0.0; 3 + model.trailer_count()],
-            poses,
-            path: Path::default(),
-            of_trailer: 0,
-            limits: Limit::usual(model),
-            duration: None,
-            weights: Weights::default(),
-            spans,
-            degree: 3,
-        }
-    }
-
-    /// The states of a model, its free parameters at some values, at the beginning.
-    ///
-    /// # Errors
-    /// When no pose of the vehicle gives the measured one.
-    pub fn first_states(&self, equations: &Equations, p: &[f64]) -> Result<Vec<f64>> {
-        let mut states = visible_state(equations, p, &self.start)?;
-        states.extend(initial_hidden(equations, p, &vec![0.0; equations.inputs.len()], &states));
-        Ok(states)
-    }
-}
-
-/// A plan.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Plan {
-    /// The splines of the inputs.
-    pub spline: BSpline,
-    /// Their coefficients, input by input.
-    pub coefficients: Vec<Vec<f64>>,
-    /// How long it takes, s.
-    pub duration: f64,
-    /// The states it is to pass, the first one ahead.
-    pub states: Vec<Vec<f64>>,
-}
 
 /// Why there is no plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -134,10 +73,26 @@ fn unlimited(limit: &Limit) -> Limit {
     Limit { range: [-most, most], rate: 1e3 * most, ..limit.clone() }
 }
 
+/// A plan for a task near one that there is, of the same duration.
+///
+/// # Errors
+/// When the task does not fit the model, or the motion is undefined at its start.
+pub(super) fn planned_near(model: &Model, task: &Task, near: &Plan) -> Result<Option<Plan>> {
+    let planner = Planner::of(model, task)?;
+    let states = near.states[1..].to_vec();
+    let poses: Vec<[f64; 3]> = states.iter().map(|z| planner.point.at(z).0).collect();
+    let spans = legs(task.spans, task.poses.len());
+    let duration = ([near.duration; 2], near.duration);
+    let program = planner.program(task, near.spline, Some(BEND), duration, (&poses, &spans));
+    let guess = Point { states, coefficients: near.coefficients.clone(), duration: near.duration };
+    Ok(planner.begun_at_rest(program, guess).map(|(plan, _)| plan))
+}
+
 struct Planner {
     equations: Equations,
     point: TrackedPoint,
     start: Vec<f64>,
+    dead_time: DeadTime,
 }
 
 impl Planner {
@@ -148,7 +103,8 @@ impl Planner {
         if task.limits.len() != equations.logged() {
             return Err(Error::run("a limit is missing for an input of the model"));
         }
-        Ok(Self { equations, point, start })
+        let dead_time = DeadTime::of(&equations);
+        Ok(Self { equations, point, start, dead_time })
     }
 
     /// The best of the plans that the search finds from its first guesses.
@@ -166,8 +122,8 @@ impl Planner {
             let on_body =
                 Curve { poses: self.on_body(&curve.poses, task), ahead: curve.ahead.clone(), length: curve.length };
             let usual = self.usual_duration(&on_body, &task.limits);
-            let duration = task.duration.map_or([0.02 * usual, LONGEST * usual], |d| [d, d]);
-            let begin = task.duration.unwrap_or(usual);
+            let duration = self.moving(task).map_or([0.02 * usual, LONGEST * usual], |d| [d, d]);
+            let begin = self.moving(task).unwrap_or(usual);
             let guess = point(&on_body, &self.start, &self.equations, &task.limits, spline, begin);
             let program = self.program(task, spline, bend, (duration, begin), (&curve.poses, &spans));
             let found = self.begun_at_rest(program, guess);
@@ -183,24 +139,46 @@ impl Planner {
         Ok(None)
     }
 
+    /// How long the motion itself may take of a duration that is given.
+    fn moving(&self, task: &Task) -> Option<f64> {
+        task.duration.map(|d| (d - self.dead_time.longest).max(1e-3))
+    }
+
     /// The plan of a program from a guess. States that no sensor sees begin in equilibrium under the inputs that the plan begins
-    /// with, as they do where a plan is driven: planned again until both agree.
+    /// with, as they do where a plan is driven, and while inputs wait time goes on: planned again until both agree.
     fn begun_at_rest(&self, mut program: Program, guess: Point) -> Option<(Plan, f64)> {
-        let visible = self.equations.visible;
         let mut found = solved(&program, guess)?;
         for _ in 0..MOST_STARTS {
             let first = program.shooting.first_inputs(&found.0.coefficients, found.0.duration);
-            let hidden = initial_hidden(&self.equations, &[], &first, &self.start[..visible]);
-            let off = hidden.iter().zip(&program.start[visible..]).map(|(a, b)| (a - b).abs() / (1.0 + a.abs()));
+            let begun = self.begun(&first)?;
+            let off = begun.iter().zip(&program.start).map(|(a, b)| (a - b).abs() / (1.0 + a.abs()));
             if off.fold(0.0, f64::max) <= SAME_START {
                 break;
             }
-            program.start.splice(visible.., hidden);
+            program.start = begun;
             found = solved(&program, found.0)?;
         }
         let (Point { states, coefficients, duration }, cost) = found;
         let states = std::iter::once(program.start).chain(states).collect();
-        Some((Plan { spline: program.shooting.spline, coefficients, duration, states }, cost))
+        let dead_time = self.dead_time.clone();
+        Some((Plan { spline: program.shooting.spline, coefficients, duration, dead_time, states }, cost))
+    }
+
+    /// The states when the motion begins, under the inputs that it begins with; none where they are undefined.
+    fn begun(&self, first: &[f64]) -> Option<Vec<f64>> {
+        let (visible, logged) = (self.equations.visible, self.equations.logged());
+        let mut states = self.start[..visible].to_vec();
+        if self.dead_time.longest == 0.0 {
+            states.extend(initial_hidden(&self.equations, &[], first, &states));
+            return Some(states);
+        }
+        // Held, inputs have no slope.
+        let held: Vec<f64> = (0..first.len()).map(|i| if i < logged { first[i] } else { 0.0 }).collect();
+        states.extend(initial_hidden(&self.equations, &[], &held, &states));
+        let times = [0.0, self.dead_time.longest];
+        let columns: Vec<Vec<f64>> = held[..logged].iter().map(|u| vec![*u; 2]).collect();
+        let inputs = Signals::new(&times, &columns, Timing::Sample);
+        simulate(&self.equations, &[], &inputs, &states, &times, &Integrator::default()).ok()?.pop()
     }
 
     /// The start, then the poses to pass, a heading that does not matter along the way to the next.
@@ -249,7 +227,8 @@ impl Planner {
         (guess, spans): (&[[f64; 3]], &[usize]),
     ) -> Program<'a> {
         let integrator = Integrator::default();
-        let shooting = Shooting { equations: &self.equations, parameters: &[], begins: 0.0, spline, integrator };
+        let begins = self.dead_time.longest;
+        let shooting = Shooting { equations: &self.equations, parameters: &[], begins, spline, integrator };
         let mut at = 0;
         let waypoints = task.poses.iter().zip(spans).map(|((x, y, heading), spans)| {
             at += spans;

@@ -2,12 +2,13 @@
 
 use super::commands::Commands;
 use super::extended_kalman_filter::ExtendedKalmanFilter;
-use super::predictive_control::{Now, PredictiveControl, Reference};
+use super::predictive_control::{Now, PredictiveControl};
+use super::reference::Reference;
 use crate::error::Result;
 use crate::export::WALK;
 use crate::model::Equations;
 use crate::motion::{Integrator, simulate};
-use crate::planning::Limit;
+use crate::planning::{Limit, input_delays};
 use nalgebra::{DMatrix, DVector};
 use rand::Rng;
 use rand_distr::StandardNormal;
@@ -122,10 +123,8 @@ fn deviation([position, heading]: [f64; 2], i: usize) -> f64 {
 struct Feedback<'a> {
     filter: ExtendedKalmanFilter<'a>,
     control: PredictiveControl<'a>,
-    /// Commands that were found for the samples to come.
+    /// Commands that were found for the samples at which they act.
     ahead: Vec<Vec<f64>>,
-    /// How many samples pass until a command acts.
-    delay: usize,
 }
 
 impl<'a> Feedback<'a> {
@@ -150,36 +149,36 @@ impl<'a> Feedback<'a> {
             integrator: ON_BOARD,
             parameters: begin,
         };
-        let delay = equations.delay(&mut equations.workspace(&filter.parameters))[0];
+        let in_samples = |delay: &f64| (delay / vehicle.sample).round().max(0.0) as usize;
         let control = PredictiveControl {
             equations,
             limits: belief.limits,
             sample: vehicle.sample,
             horizon: belief.horizon,
+            delays: input_delays(equations, &filter.parameters).iter().map(in_samples).collect(),
             integrator: ON_BOARD,
         };
-        Self { filter, control, ahead: vec![], delay: (delay / vehicle.sample).round().max(0.0) as usize }
+        Self { filter, control, ahead: vec![] }
     }
 
     /// The command that is to be reached at the next sample.
     fn command(&mut self, reference: &Reference, k: usize, pose: &[f64], commands: &Commands) -> Result<Vec<f64>> {
         self.filter.update(pose);
-        let guess: Vec<Vec<f64>> = (0..self.control.horizon)
-            .map(|j| self.ahead.get(j + 1).cloned().unwrap_or_else(|| reference.command(k + 1 + j).to_vec()))
-            .collect();
         let states = self.when_it_acts(k, commands)?;
-        let now =
-            Now { k: k + self.delay, states: &states, parameters: &self.filter.parameters, command: commands.last() };
-        self.ahead = self.control.commands(reference, &now, guess)?;
-        Ok(self.ahead.first().cloned().unwrap_or_else(|| commands.last().to_vec()))
+        let now = Now { k, states: &states, parameters: &self.filter.parameters, commands: commands.rows() };
+        let ahead = self.ahead.split_first().map_or(&[][..], |(_, rest)| rest);
+        self.ahead = self.control.commands(reference, &now, ahead)?;
+        let next = |(c, wait): (usize, usize)| self.ahead[wait][c];
+        Ok(self.control.waits().enumerate().map(next).collect())
     }
 
-    /// The states at which a command of now begins to act, by those that are on their way (Smith's predictor).
+    /// The states at which the first command of now begins to act, by those that are on their way (Smith's predictor).
     fn when_it_acts(&self, k: usize, commands: &Commands) -> Result<Vec<f64>> {
-        if self.delay == 0 {
+        let soonest = self.control.soonest();
+        if soonest == 0 {
             return Ok(self.filter.states.clone());
         }
-        let span = [k, k + self.delay].map(|k| k as f64 * self.control.sample);
+        let span = [k, k + soonest].map(|k| k as f64 * self.control.sample);
         let f = &self.filter;
         let ends = simulate(f.equations, &f.parameters, commands, &f.states, &span, &f.integrator)?;
         Ok(ends.into_iter().next_back().unwrap_or_default())

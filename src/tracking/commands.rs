@@ -22,11 +22,6 @@ impl Commands {
         self.rows.push(row);
     }
 
-    /// The last command.
-    pub fn last(&self) -> &[f64] {
-        self.rows.last().map_or(&[], Vec::as_slice)
-    }
-
     /// Every command, the first ahead.
     pub fn rows(&self) -> &[Vec<f64>] {
         &self.rows
@@ -75,6 +70,6 @@ mod tests {
         assert_eq!(at(0.0), ([2.0, 0.0], [0.0; 2]));
         assert_eq!(at(1.25), ([2.5, -0.5], [2.0, -2.0]));
         assert_eq!(at(1.5), ([3.0, -1.0], [0.0; 2]));
-        assert_eq!((commands.channels(), commands.knots(), commands.last()), (2, &[1.0, 1.5][..], &[3.0, -1.0][..]));
+        assert_eq!((commands.channels(), commands.knots()), (2, &[1.0, 1.5][..]));
     }
 }

@@ -2,7 +2,7 @@
 
 use super::closed_loop::{Belief, Coefficient, Driven, Vehicle, drive, measured};
 use super::commands::Commands;
-use super::predictive_control::Reference;
+use super::reference::Reference;
 use super::report::{Observed, SensorDeviation, TrackingReport, WayReport};
 use crate::error::{Error, Result};
 use crate::model::{Equations, Model};
@@ -119,7 +119,7 @@ pub fn tracked(
         Ok(Way { id, reference: known.reference.clone(), drives })
     };
     let found: Vec<Way> = ways.iter().map(driven).collect::<Result<_>>()?;
-    let reports = found.iter().zip(&ways).map(|(way, (_, known, _))| of_way(way, known.plan.duration)).collect();
+    let reports = found.iter().zip(&ways).map(|(way, (_, known, _))| of_way(way, known.plan.arrives())).collect();
     let observed =
         found.iter().find(|w| w.id == "observer").map_or(vec![], |w| observed(w, &coefficients, &truth_of_these));
     let report = TrackingReport {
@@ -152,15 +152,13 @@ fn known(
 
 /// A plan at the samples, with the poses to which its commands lead the model that it was made on.
 fn reference(equations: &Equations, start: &[f64], plan: &Plan, trials: &Trials) -> Result<Reference> {
-    let samples = (plan.duration / trials.sample).ceil() as usize;
+    let samples = (plan.arrives() / trials.sample).ceil() as usize;
     if samples > MOST_SAMPLES {
         return Err(Error::input(format!("{samples} samples are more than {MOST_SAMPLES}")).help("sample less often"));
     }
     let settling = (trials.settling / trials.sample).ceil() as usize;
-    let at = |k: usize| {
-        let share = (k as f64 * trials.sample / plan.duration).min(1.0);
-        plan.coefficients.iter().map(|c| plan.spline.at(c, share)).collect::<Vec<f64>>()
-    };
+    let inputs = 0..plan.coefficients.len();
+    let at = |k: usize| inputs.clone().map(|input| plan.command(input, k as f64 * trials.sample)).collect();
     let rows: Vec<Vec<f64>> = (0..=samples + settling).map(at).collect();
     let times: Vec<f64> = (0..rows.len()).map(|k| k as f64 * trials.sample).collect();
     let mut commands = Commands::from(0.0, rows[0].clone());

@@ -14,6 +14,7 @@ mod drives_table;
 mod extended_kalman_filter;
 mod job;
 mod predictive_control;
+mod reference;
 mod report;
 mod tracking_text;
 

@@ -2,6 +2,7 @@
 //! limits of its inputs, from one linearisation along the last plan and one quadratic program a sample (real-time iteration,
 //! Diehl and others 2005).
 
+use super::reference::Reference;
 use crate::error::Result;
 use crate::model::Equations;
 use crate::motion::Integrator;
@@ -15,32 +16,6 @@ const OF_TRAILERS: f64 = 0.3;
 /// How far, as a share of an input's range, a command may be from the planned one for that cost.
 const HALF: f64 = 0.5;
 
-/// What a model is led along: measured values and commands, a row a sample.
-#[derive(Clone, Debug)]
-pub struct Reference {
-    /// x, y, heading, headings of trailers.
-    pub poses: Vec<Vec<f64>>,
-    /// The commands under which the model that it was planned on goes there.
-    pub commands: Vec<Vec<f64>>,
-}
-
-impl Reference {
-    /// Row of a sample; behind the end it stays.
-    fn at(rows: &[Vec<f64>], k: usize) -> &[f64] {
-        rows.get(k).or(rows.last()).map_or(&[], Vec::as_slice)
-    }
-
-    /// The commands of a sample.
-    pub fn command(&self, k: usize) -> &[f64] {
-        Self::at(&self.commands, k)
-    }
-
-    /// The pose of a sample.
-    pub fn pose(&self, k: usize) -> &[f64] {
-        Self::at(&self.poses, k)
-    }
-}
-
 /// A controller of a model.
 pub struct PredictiveControl<'a> {
     /// The model.
@@ -51,6 +26,8 @@ pub struct PredictiveControl<'a> {
     pub sample: f64,
     /// How many commands it looks ahead.
     pub horizon: usize,
+    /// How many samples pass until a command acts, input by input.
+    pub delays: Vec<usize>,
     /// How the motion is integrated.
     pub integrator: Integrator,
 }
@@ -59,12 +36,12 @@ pub struct PredictiveControl<'a> {
 pub struct Now<'a> {
     /// Number of the sample.
     pub k: usize,
-    /// States, as estimated.
+    /// States, as estimated, at the sample at which the input that acts soonest is next to be commanded.
     pub states: &'a [f64],
     /// Free parameters, as estimated.
     pub parameters: &'a [f64],
-    /// The command that has been reached.
-    pub command: &'a [f64],
+    /// The commands that have been given, the last one of this sample.
+    pub commands: &'a [Vec<f64>],
 }
 
 /// Commands, and the derivatives of the measured values at each sample by all of them.
@@ -73,14 +50,35 @@ struct Linearised {
     slopes: Vec<DMatrix<f64>>,
 }
 
+/// Inputs sample by sample as they act, the commands of samples before them.
+struct Acting {
+    /// When the first sample begins.
+    first: Vec<f64>,
+    rows: Vec<Vec<f64>>,
+}
+
 impl PredictiveControl<'_> {
-    /// The commands of the next samples, from a guess of them; the guess where no better ones are found.
+    /// Samples until the first of the inputs acts.
+    pub fn soonest(&self) -> usize {
+        self.delays.iter().copied().min().unwrap_or(0)
+    }
+
+    /// By how many samples each input acts later than the first of them.
+    pub fn waits(&self) -> impl Iterator<Item = usize> + '_ {
+        self.delays.iter().map(|delay| delay - self.soonest())
+    }
+
+    /// The commands of the next samples, each in the row of the sample at which it acts, from a guess of the first of them; the
+    /// guess where no better ones are found.
+    ///
+    /// Rows begin with the input that acts soonest; what acts in them of the others is on its way and stays as it is.
     ///
     /// # Errors
     /// When the motion is undefined on the way.
-    pub fn commands(&self, reference: &Reference, now: &Now, guess: Vec<Vec<f64>>) -> Result<Vec<Vec<f64>>> {
-        let linear = self.linearised(now, &guess)?;
-        let program = self.program(reference, now, &guess, &linear);
+    pub fn commands(&self, reference: &Reference, now: &Now, guess: &[Vec<f64>]) -> Result<Vec<Vec<f64>>> {
+        let Acting { first, rows: guess } = self.acting(reference, now, guess);
+        let linear = self.linearised(now, &first, &guess)?;
+        let program = self.program(reference, now, &first, &guess, &linear);
         let channels = self.limits.len();
         let Some(step) = program.solution() else { return Ok(guess) };
         let moved = |(j, row): (usize, &Vec<f64>)| {
@@ -91,7 +89,32 @@ impl PredictiveControl<'_> {
         Ok(guess.iter().enumerate().map(moved).collect())
     }
 
-    fn linearised(&self, now: &Now, commands: &[Vec<f64>]) -> Result<Linearised> {
+    /// The inputs as they act from the sample on at which the first one does: as they are on their way, as guessed, or as planned.
+    fn acting(&self, reference: &Reference, now: &Now, guess: &[Vec<f64>]) -> Acting {
+        let begins = now.k + self.soonest();
+        let given = |acts: usize, c: usize| {
+            let at = (acts.saturating_sub(self.delays[c]) + now.commands.len()).checked_sub(now.k + 1);
+            now.commands.get(at.unwrap_or(0)).or(now.commands.first()).map(|row| row[c])
+        };
+        let of = |j: usize, c: usize| {
+            let acts = begins + j + 1;
+            let on_its_way = (acts <= now.k + self.delays[c]).then(|| given(acts, c)).flatten();
+            on_its_way.unwrap_or_else(|| guess.get(j).map_or_else(|| self.planned(reference, acts, c), |row| row[c]))
+        };
+        let channels = 0..self.limits.len();
+        let rows = self.horizon + self.waits().max().unwrap_or(0);
+        Acting {
+            first: channels.clone().map(|c| given(begins, c).unwrap_or(0.0)).collect(),
+            rows: (0..rows).map(|j| channels.clone().map(|c| of(j, c)).collect()).collect(),
+        }
+    }
+
+    /// The planned command that acts at a sample.
+    fn planned(&self, reference: &Reference, acts: usize, c: usize) -> f64 {
+        reference.command(acts.saturating_sub(self.delays[c]))[c]
+    }
+
+    fn linearised(&self, now: &Now, first: &[f64], commands: &[Vec<f64>]) -> Result<Linearised> {
         let (n, channels, visible) = (self.equations.n(), self.limits.len(), self.equations.visible);
         let spline = BSpline { degree: 1, spans: 1 };
         let mut states = now.states.to_vec();
@@ -99,12 +122,12 @@ impl PredictiveControl<'_> {
         let mut w = self.equations.workspace(now.parameters);
         let mut found = Linearised { outputs: vec![], slopes: vec![] };
         for (j, next) in commands.iter().enumerate() {
-            let before = if j == 0 { now.command } else { &commands[j - 1] };
+            let before = if j == 0 { first } else { &commands[j - 1] };
             let pair: Vec<Vec<f64>> = before.iter().zip(next).map(|(a, b)| vec![*a, *b]).collect();
             let shooting = Shooting {
                 equations: self.equations,
                 parameters: now.parameters,
-                begins: (now.k + j) as f64 * self.sample,
+                begins: (now.k + self.soonest() + j) as f64 * self.sample,
                 spline,
                 integrator: self.integrator,
             };
@@ -130,12 +153,20 @@ impl PredictiveControl<'_> {
     }
 
     /// Squares of errors and of commands that are not the planned ones, within the limits of the commands and of their rates.
-    fn program(&self, reference: &Reference, now: &Now, guess: &[Vec<f64>], linear: &Linearised) -> QuadraticProgram {
+    fn program(
+        &self,
+        reference: &Reference,
+        now: &Now,
+        first: &[f64],
+        guess: &[Vec<f64>],
+        linear: &Linearised,
+    ) -> QuadraticProgram {
+        let begins = now.k + self.soonest();
         let channels = self.limits.len();
         let size = guess.len() * channels;
         let (mut quadratic, mut gradient) = (DMatrix::<f64>::zeros(size, size), DVector::<f64>::zeros(size));
         for (j, (outputs, slopes)) in linear.outputs.iter().zip(&linear.slopes).enumerate() {
-            let wanted = reference.pose(now.k + j + 1);
+            let wanted = reference.pose(begins + j + 1);
             for i in 0..outputs.len() {
                 let off = outputs[i] - wanted[i];
                 let (off, worth) = match i {
@@ -151,9 +182,9 @@ impl PredictiveControl<'_> {
         for j in 0..guess.len() {
             for (c, limit) in self.limits.iter().enumerate() {
                 let (at, weight) = (j * channels + c, 1.0 / (HALF * limit.scale()).powi(2));
-                let planned = reference.command(now.k + j + 1)[c];
-                let planned_before = reference.command(now.k + j)[c];
-                let before = if j == 0 { now.command[c] } else { guess[j - 1][c] };
+                let planned = self.planned(reference, begins + j + 1, c);
+                let planned_before = self.planned(reference, begins + j, c);
+                let before = if j == 0 { first[c] } else { guess[j - 1][c] };
                 // The command itself, and its step.
                 quadratic[(at, at)] += 2.0 * weight;
                 gradient[at] += weight * (guess[j][c] - planned);
@@ -171,23 +202,28 @@ impl PredictiveControl<'_> {
         let mut program = QuadraticProgram { linear: gradient.iter().copied().collect(), ..Default::default() };
         let upper = (0..size).flat_map(|k| (0..=k).map(move |i| (i, k)));
         program.quadratic = upper.map(|(i, k)| (i, k, quadratic[(i, k)])).collect();
-        self.bounded(&mut program, now, guess);
+        self.bounded(&mut program, first, guess);
         program
     }
 
-    fn bounded(&self, program: &mut QuadraticProgram, now: &Now, guess: &[Vec<f64>]) {
+    fn bounded(&self, program: &mut QuadraticProgram, first: &[f64], guess: &[Vec<f64>]) {
         let channels = self.limits.len();
+        // What is on its way stays as it is.
+        let on_its_way = self.waits().enumerate().flat_map(|(c, wait)| (0..wait).map(move |j| j * channels + c));
+        program.equal = on_its_way.enumerate().map(|(row, at)| (row, at, 1.0)).collect();
+        program.equal_to = vec![0.0; program.equal.len()];
         let mut below = |entries: &[(usize, f64)], most: f64| {
             let row = program.below_of.len();
             program.below.extend(entries.iter().map(|(at, v)| (row, *at, *v)));
             program.below_of.push(most);
         };
+        let waits: Vec<usize> = self.waits().collect();
         for (j, row) in guess.iter().enumerate() {
-            for (c, limit) in self.limits.iter().enumerate() {
+            for (c, limit) in self.limits.iter().enumerate().filter(|(c, _)| j >= waits[*c]) {
                 let (at, u) = (j * channels + c, row[c]);
                 below(&[(at, 1.0)], limit.range[1] - u);
                 below(&[(at, -1.0)], u - limit.range[0]);
-                let before = if j == 0 { now.command[c] } else { guess[j - 1][c] };
+                let before = if j == 0 { first[c] } else { guess[j - 1][c] };
                 let most = limit.rate * self.sample;
                 for sign in [1.0, -1.0] {
                     let step = most - sign * (u - before);
@@ -208,6 +244,11 @@ mod tests {
 
     /// A wheel beside a line along x at 1 m/s, within limits of its yaw rate.
     fn led(off: f64, most: f64) -> (Vec<Vec<f64>>, Limit) {
+        led_late(off, most, [0, 0], &[vec![2.0, 0.0]])
+    }
+
+    /// With delays in samples, and commands that have been given.
+    fn led_late(off: f64, most: f64, delays: [usize; 2], commands: &[Vec<f64>]) -> (Vec<Vec<f64>>, Limit) {
         let equations = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap().equations(&[]).unwrap();
         let limit =
             |role: &str, most: f64, rate: f64| Limit { role: role.into(), range: [-most, most], rate, rests: true };
@@ -217,6 +258,7 @@ mod tests {
             limits: &limits,
             sample: 0.1,
             horizon: 15,
+            delays: delays.to_vec(),
             integrator: Integrator::default(),
         };
         let rows: Vec<f64> = (0..20).map(|k| 0.1 * k as f64).collect();
@@ -224,8 +266,22 @@ mod tests {
             poses: rows.iter().map(|x| vec![*x, 0.0, 0.0]).collect(),
             commands: vec![vec![2.0, 0.0]; rows.len()],
         };
-        let now = Now { k: 0, states: &[0.0, off, 0.0], parameters: &[], command: &[2.0, 0.0] };
-        (control.commands(&reference, &now, vec![vec![2.0, 0.0]; 15]).unwrap(), limits[1].clone())
+        let now = Now { k: commands.len() - 1, states: &[0.0, off, 0.0], parameters: &[], commands };
+        (control.commands(&reference, &now, &vec![vec![2.0, 0.0]; 15]).unwrap(), limits[1].clone())
+    }
+
+    /// What has been commanded acts as it was commanded, and what is commanded now is what helps when it acts.
+    #[test]
+    fn commands_on_their_way_stay_and_those_that_follow_reckon_with_them() {
+        let sent: Vec<Vec<f64>> = [0.0, 0.1, 0.2, 0.3].iter().map(|yaw| vec![2.0, *yaw]).collect();
+        let (found, _) = led_late(0.0, 10.0, [1, 3], &sent);
+        // The wheel acts a sample on, the yaw rate three: two commands of it are on their way when the wheel's first acts.
+        assert!((found[0][1] - 0.2).abs() < 1e-9 && (found[1][1] - 0.3).abs() < 1e-9, "{found:?}");
+        assert_eq!(found.len(), 17);
+        // To the left for a while, then to the right.
+        assert!(found[3][1] < -0.05, "{found:?}");
+        let (unaware, _) = led_late(0.0, 10.0, [1, 1], &sent);
+        assert!(unaware.len() == 15 && unaware[0][1] < 0.2, "{unaware:?}");
     }
 
     #[test]

@@ -59,6 +59,34 @@ fn goals_are_reached_and_the_file_that_is_written_drives_there() {
     }
 }
 
+/// Inputs that act late are commanded early, those that do not wait for them; what moves the vehicle while it waits counts.
+#[test]
+fn inputs_that_act_late_are_commanded_ahead() {
+    let dir = tempfile::tempdir().unwrap();
+    let delay = |input: &str, delay: &str| effect("input-delay", &format!("{input}delay = {delay}"));
+    let steering = "input = \"steering_angle\"\n";
+    let left = "input = \"wheel_rate_left\"\n";
+    let drift = effect("drift", "vx = 0.01\nvy = 0.0");
+    for (model, misses, goal) in [
+        (CAR.to_string() + &delay("", "0.2"), false, [4.0, 1.0, 0.5]),
+        (CAR.to_string() + &delay(steering, "0.2"), true, [4.0, 1.0, 0.5]),
+        // A log that is late.
+        (WHEEL.to_string() + &delay("", "-0.15"), true, [1.0, -0.5, 0.0]),
+        (DRIVE.to_string() + &delay("", "0.05") + &delay(left, "0.11") + &drift, true, [-1.0, 0.5, 3.0]),
+    ] {
+        let goal_text = goal.map(|v: f64| v.to_string()).join(",");
+        let found = planned(dir.path(), &model, &["--goal", &goal_text, "--out", "plan.csv"]);
+        assert!(number(&found["reached"]["miss_m"]) < 1e-8, "{found:#}");
+        let end = driven(dir.path(), "plan.csv");
+        let turned = (end[2] - goal[2]) / std::f64::consts::TAU;
+        assert!((0..2).all(|i| (end[i] - goal[i]).abs() < 1e-8) && (turned - turned.round()).abs() < 1e-8, "{end:?}");
+        // All inputs late alike, a vehicle only arrives later.
+        assert_eq!(number(&found["ideal"]["reached"]["miss_m"]) > 2e-3, misses, "{found:#}");
+        let asked = planned(dir.path(), &model, &["--goal", &goal_text, "--duration", "15", "--out", "plan.csv"]);
+        assert!((number(&asked["duration_s"]) - 15.0).abs() < 1e-9 && number(&asked["reached"]["miss_m"]) < 1e-8);
+    }
+}
+
 /// Theory, chapter 09: a plan made on the ideal wheel misses by (κ − 1)·z, whatever it is.
 #[test]
 fn the_plan_without_creep_misses_by_what_the_theory_says() {

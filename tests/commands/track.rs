@@ -48,10 +48,13 @@ fn feedback_pays_and_that_on_a_model_with_creep_pays_more() {
 #[test]
 fn a_delay_is_reckoned_with() {
     let dir = tempfile::tempdir().unwrap();
-    let model = format!("{WHEEL}[[effects]]\nid = \"input-delay\"\ndelay = 0.4\n");
-    let found = tracked(dir.path(), &model, &["--goal", "4,1,0.4", "--drives", "2"]);
-    let off = |id: &str| number(&way(&found, id)["off_plan_m"]);
-    assert!(off("model") < 0.25 * off("ideal") && off("model") < 0.01, "{found:#}");
+    let of_one = "input = \"yaw_rate\"\n";
+    for (input, share) in [("", 0.25), (of_one, 0.5)] {
+        let model = format!("{WHEEL}[[effects]]\nid = \"input-delay\"\n{input}delay = 0.4\n");
+        let found = tracked(dir.path(), &model, &["--goal", "4,1,0.4", "--drives", "2"]);
+        let off = |id: &str| number(&way(&found, id)["off_plan_m"]);
+        assert!(off("model") < share * off("ideal") && off("model") < 0.01, "{found:#}");
+    }
 }
 
 #[test]

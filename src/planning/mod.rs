@@ -8,7 +8,7 @@
 //! | what is to be reached: the sensor's pose, or a trailer's | `tracked_point`, `path` |
 //! | the nonlinear program, and steps to its solution | `transcription`, `quadratic_program`, `sequential_quadratic_programming` |
 //! | where the search begins | `initial_guess` |
-//! | inputs that act late | `dead_time` |
+//! | inputs that act late, or do not act everywhere | `dead_time`, `smoothing` |
 //! | the task; the plan, or why there is none | `task`, `planner`, `plan` |
 //! | rows that a robot can be given, and what becomes of them on a model | `execution`, `plan_table` |
 //! | the job as a whole, its report, its words | `job`, `report`, `plan_text` |
@@ -28,6 +28,7 @@ mod quadratic_program;
 mod report;
 mod sequential_quadratic_programming;
 mod shooting;
+mod smoothing;
 mod task;
 mod tracked_point;
 mod transcription;

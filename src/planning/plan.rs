@@ -14,6 +14,8 @@ pub struct Plan {
     pub duration: f64,
     /// How long the motion waits for inputs that act late, and how long each input is held back for it.
     pub dead_time: DeadTime,
+    /// Over which share of what they are apart kinks of inputs were smoothed, where the model has any.
+    pub smoothed: f64,
     /// The states it is to pass, the first one ahead.
     pub states: Vec<Vec<f64>>,
 }

@@ -8,6 +8,7 @@ use super::limits::Limit;
 use super::plan::Plan;
 use super::sequential_quadratic_programming::solved;
 use super::shooting::Shooting;
+use super::smoothing::{WIDTHS, has_kinks, smoothed};
 use super::task::Task;
 use super::tracked_point::TrackedPoint;
 use super::transcription::{Point, Program, Waypoint};
@@ -47,8 +48,12 @@ pub enum Infeasible {
 /// # Errors
 /// When the task does not fit the model, the motion is undefined at its start, or the listener stops the work.
 pub fn plan(model: &Model, task: &Task, progress: &OnProgress) -> Result<std::result::Result<Plan, Infeasible>> {
-    let planner = Planner::of(model, task)?;
-    if let Some(found) = planner.best(task, Some(BEND), &REACHES, progress)? {
+    let planner = Planner::of(model, task, WIDTHS[0])?;
+    if let Some(mut found) = planner.best(task, Some(BEND), &REACHES, progress)? {
+        for width in WIDTHS.iter().skip(1).filter(|_| has_kinks(model)) {
+            let Some(narrower) = near(&Planner::of(model, task, *width)?, task, &found) else { break };
+            found = narrower;
+        }
         return Ok(Ok(found));
     }
     let without_limits = Task { limits: task.limits.iter().map(unlimited).collect(), ..task.clone() };
@@ -73,19 +78,28 @@ fn unlimited(limit: &Limit) -> Limit {
     Limit { range: [-most, most], rate: 1e3 * most, ..limit.clone() }
 }
 
-/// A plan for a task near one that there is, of the same duration.
+/// A plan for a task near one that there is, of the same duration, with kinks smoothed as little as leads to one.
 ///
 /// # Errors
 /// When the task does not fit the model, or the motion is undefined at its start.
-pub(super) fn planned_near(model: &Model, task: &Task, near: &Plan) -> Result<Option<Plan>> {
-    let planner = Planner::of(model, task)?;
-    let states = near.states[1..].to_vec();
+pub(super) fn planned_near(model: &Model, task: &Task, near_to: &Plan) -> Result<Option<Plan>> {
+    for width in WIDTHS.iter().rev().skip_while(|width| **width < near_to.smoothed) {
+        let found = near(&Planner::of(model, task, *width)?, task, near_to);
+        if found.is_some() || !has_kinks(model) {
+            return Ok(found);
+        }
+    }
+    Ok(None)
+}
+
+fn near(planner: &Planner, task: &Task, plan: &Plan) -> Option<Plan> {
+    let states = plan.states[1..].to_vec();
     let poses: Vec<[f64; 3]> = states.iter().map(|z| planner.point.at(z).0).collect();
     let spans = legs(task.spans, task.poses.len());
-    let duration = ([near.duration; 2], near.duration);
-    let program = planner.program(task, near.spline, Some(BEND), duration, (&poses, &spans));
-    let guess = Point { states, coefficients: near.coefficients.clone(), duration: near.duration };
-    Ok(planner.begun_at_rest(program, guess).map(|(plan, _)| plan))
+    let duration = ([plan.duration; 2], plan.duration);
+    let program = planner.program(task, plan.spline, Some(BEND), duration, (&poses, &spans));
+    let guess = Point { states, coefficients: plan.coefficients.clone(), duration: plan.duration };
+    planner.begun_at_rest(program, guess).map(|(plan, _)| plan)
 }
 
 struct Planner {
@@ -93,18 +107,22 @@ struct Planner {
     point: TrackedPoint,
     start: Vec<f64>,
     dead_time: DeadTime,
+    /// The width over which kinks are smoothed.
+    smoothed: f64,
 }
 
 impl Planner {
-    fn of(model: &Model, task: &Task) -> Result<Self> {
+    /// Of a model whose kinks are smoothed over a width.
+    fn of(model: &Model, task: &Task, width: f64) -> Result<Self> {
+        let model = smoothed(model, &task.limits, width);
         let equations = model.equations(&[])?;
-        let point = TrackedPoint::of(model, &equations, task.of_trailer)?;
+        let point = TrackedPoint::of(&model, &equations, task.of_trailer)?;
         let start = task.first_states(&equations, &[])?;
         if task.limits.len() != equations.logged() {
             return Err(Error::run("a limit is missing for an input of the model"));
         }
         let dead_time = DeadTime::of(&equations);
-        Ok(Self { equations, point, start, dead_time })
+        Ok(Self { equations, point, start, dead_time, smoothed: width })
     }
 
     /// The best of the plans that the search finds from its first guesses.
@@ -160,8 +178,8 @@ impl Planner {
         }
         let (Point { states, coefficients, duration }, cost) = found;
         let states = std::iter::once(program.start).chain(states).collect();
-        let dead_time = self.dead_time.clone();
-        Some((Plan { spline: program.shooting.spline, coefficients, duration, dead_time, states }, cost))
+        let (spline, dead_time, smoothed) = (program.shooting.spline, self.dead_time.clone(), self.smoothed);
+        Some((Plan { spline, coefficients, duration, dead_time, smoothed, states }, cost))
     }
 
     /// The states when the motion begins, under the inputs that it begins with; none where they are undefined.

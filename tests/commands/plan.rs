@@ -87,6 +87,25 @@ fn inputs_that_act_late_are_commanded_ahead() {
     }
 }
 
+/// A limit and a dead band have no slope where they act, and counts that are cut off jump: goals are reached all the same.
+#[test]
+fn inputs_with_kinks_are_planned_for() {
+    let dir = tempfile::tempdir().unwrap();
+    let short = CAR.replace("wheelbase = 2.0", "wheelbase = 0.5");
+    let on_steering = |id: &str, value: &str| effect(id, &format!("input = \"steering_angle\"\n{value}"));
+    let goal = [2.0, 1.0, 0.5];
+    for (id, value) in
+        [("input-saturation", "limit = 0.3"), ("input-dead-band", "width = 0.03"), ("input-truncation", "step = 0.03")]
+    {
+        let model = short.clone() + &on_steering(id, value);
+        let found = planned(dir.path(), &model, &["--goal", "2,1,0.5", "--out", "plan.csv"]);
+        assert!(number(&found["reached"]["miss_m"]) < 1e-6, "{found:#}");
+        assert!(number(&found["ideal"]["reached"]["miss_m"]) > 0.02, "{found:#}");
+        let end = driven(dir.path(), "plan.csv");
+        assert!((0..3).all(|i| (end[i] - goal[i]).abs() < 1e-6), "{id}: {end:?}");
+    }
+}
+
 /// Theory, chapter 09: a plan made on the ideal wheel misses by (κ − 1)·z, whatever it is.
 #[test]
 fn the_plan_without_creep_misses_by_what_the_theory_says() {

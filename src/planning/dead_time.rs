@@ -62,7 +62,7 @@ mod tests {
         assert_eq!((all.longest, all.waits), (0.2, vec![0.0; 2]));
         let one = DeadTime::of(&car(&[(None, 0.1), (Some("steering_angle"), 0.3)]));
         assert!((one.longest - 0.4).abs() < 1e-15);
-        assert!(one.waits.iter().any(|w| *w == 0.0) && one.waits.iter().any(|w| (w - 0.3).abs() < 1e-15), "{one:?}");
+        assert!(one.waits.contains(&0.0) && one.waits.iter().any(|w| (w - 0.3).abs() < 1e-15), "{one:?}");
         // A log that is late: what was logged for later has happened already, and nothing can be commanded before its time.
         let late = DeadTime::of(&car(&[(None, -0.2)]));
         assert_eq!((late.longest, late.waits), (0.0, vec![0.2; 2]));

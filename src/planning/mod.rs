@@ -9,6 +9,7 @@
 //! | the nonlinear program, and steps to its solution | `transcription`, `quadratic_program`, `sequential_quadratic_programming` |
 //! | where the search begins | `initial_guess` |
 //! | inputs that act late, or do not act everywhere | `dead_time`, `smoothing` |
+//! | what no input changes | `reachability` |
 //! | the task; the plan, or why there is none | `task`, `planner`, `plan` |
 //! | rows that a robot can be given, and what becomes of them on a model | `execution`, `plan_table` |
 //! | the job as a whole, its report, its words | `job`, `report`, `plan_text` |
@@ -25,6 +26,7 @@ mod plan_table;
 mod plan_text;
 mod planner;
 mod quadratic_program;
+mod reachability;
 mod report;
 mod sequential_quadratic_programming;
 mod shooting;
@@ -46,6 +48,7 @@ pub use plan_table::plan_table;
 pub use plan_text::{infeasible, plan_text};
 pub use planner::{BEND, Infeasible, plan};
 pub(crate) use quadratic_program::QuadraticProgram;
+pub use reachability::Fixed;
 pub use report::{Ideal, PlanReport, Reached, Spread};
 pub(crate) use shooting::Shooting;
 pub use task::Task;

@@ -1,6 +1,7 @@
 //! A plan in words.
 
 use super::planner::Infeasible;
+use super::reachability::Fixed;
 use super::report::{PlanReport, Reached};
 use crate::number_format::{decimals, plain, prefixed, significant};
 use std::fmt::Write;
@@ -72,6 +73,16 @@ pub fn infeasible(why: Infeasible, duration: Option<f64>) -> (String, &'static s
             "the train reaches the goal only bent by more than 80° at a hitch".into(),
             "give it more room by --via, or a goal that is reached ahead",
         ),
+        Infeasible::Fixed(fixed) => {
+            let (what, help) = match fixed {
+                Fixed::Heading => {
+                    ("no input of this vehicle changes the heading", "ask for the heading that it starts with")
+                }
+                Fixed::Place => ("no input of this vehicle changes the place", "ask for the place where it starts"),
+                Fixed::Line => ("this vehicle stays on one line", "ask for a place on the line through its start"),
+            };
+            (format!("the goal cannot be reached: {what}"), help)
+        }
         Infeasible::Unreached => (
             "no plan was found from any of the first guesses, with or without limits".into(),
             "give a way by --via, or a goal nearer to the start",

@@ -6,6 +6,7 @@ use super::dead_time::DeadTime;
 use super::initial_guess::{Curve, curves, followed, nearest, point, straight};
 use super::limits::Limit;
 use super::plan::Plan;
+use super::reachability::{Fixed, unreachable};
 use super::sequential_quadratic_programming::solved;
 use super::shooting::Shooting;
 use super::smoothing::{WIDTHS, has_kinks, smoothed};
@@ -39,6 +40,8 @@ pub enum Infeasible {
     JackKnife,
     /// There is one that takes longer.
     Duration,
+    /// It would change of the pose, or of one to pass, what no input changes.
+    Fixed(Fixed),
     /// None was found without any of them either.
     Unreached,
 }
@@ -49,6 +52,9 @@ pub enum Infeasible {
 /// When the task does not fit the model, the motion is undefined at its start, or the listener stops the work.
 pub fn plan(model: &Model, task: &Task, progress: &OnProgress) -> Result<std::result::Result<Plan, Infeasible>> {
     let planner = Planner::of(model, task, WIDTHS[0])?;
+    if let Some(fixed) = planner.unreachable(task) {
+        return Ok(Err(Infeasible::Fixed(fixed)));
+    }
     if let Some(mut found) = planner.best(task, Some(BEND), &REACHES, progress)? {
         for width in WIDTHS.iter().skip(1).filter(|_| has_kinks(model)) {
             let Some(narrower) = near(&Planner::of(model, task, *width)?, task, &found) else { break };
@@ -123,6 +129,14 @@ impl Planner {
         }
         let dead_time = DeadTime::of(&equations);
         Ok(Self { equations, point, start, dead_time, smoothed: width })
+    }
+
+    /// What a pose of a task asks for, and no input changes.
+    fn unreachable(&self, task: &Task) -> Option<Fixed> {
+        let spline = BSpline { degree: task.degree, spans: 1 };
+        let (equations, begins, integrator) = (&self.equations, self.dead_time.longest, Integrator::default());
+        let shooting = Shooting { equations, parameters: &[], begins, spline, integrator };
+        task.poses.iter().find_map(|pose| unreachable(&shooting, &self.start, &self.point, &task.limits, *pose))
     }
 
     /// The best of the plans that the search finds from its first guesses.

@@ -190,6 +190,7 @@ fn a_goal_out_of_reach_is_told_with_the_reason_and_nothing_is_written() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("car.toml"), CAR).unwrap();
     fs::write(dir.path().join("drive.toml"), DRIVE).unwrap();
+    fs::write(dir.path().join("synchro.toml"), WHEEL.replace("unicycle", "synchro-drive")).unwrap();
     for (arguments, code, says) in [
         (
             &["car.toml", "--goal", "1,1,1.57", "--limit", "steering_angle=0.0001"][..],
@@ -197,6 +198,7 @@ fn a_goal_out_of_reach_is_told_with_the_reason_and_nothing_is_written() {
             "beyond the limits of the inputs",
         ),
         (&["drive.toml", "--goal", "1,1,1.57", "--duration", "1"], 1, "in 1 s"),
+        (&["synchro.toml", "--goal", "1,1,1"], 1, "no input of this vehicle changes the heading"),
         (&["drive.toml", "--goal", "1,1"], 2, "X,Y,HEADING"),
         (&["drive.toml"], 2, "--goal"),
         (&["drive.toml", "--goal", "1,1,0", "--limit", "speed=1"], 2, "no input \"speed\""),

@@ -31,14 +31,14 @@ impl BSpline {
         (self.knot(j + self.degree + 1) - self.knot(j + 1)) / self.degree as f64
     }
 
-    /// The weights of coefficients span, span + 1, … at a place of a span, 0 ≤ s ≤ 1, and their slopes by s.
-    pub fn weights(self, span: usize, s: f64) -> (Vec<f64>, Vec<f64>) {
+    /// The weights of coefficients span, span + 1, … at a place of a span, 0 ≤ s ≤ 1, and their slopes by s; zeros behind them.
+    pub fn weights(self, span: usize, s: f64) -> ([f64; 4], [f64; 4]) {
         let x = span as f64 + s;
         let lower = self.of_degree(self.degree - 1, span, x);
         let value = self.of_degree(self.degree, span, x);
         // The slope of a spline has coefficients that are differences by their pitch.
-        let mut slope = vec![0.0; self.degree + 1];
-        for (i, weight) in lower.iter().enumerate() {
+        let mut slope = [0.0; 4];
+        for (i, weight) in lower.iter().enumerate().take(self.degree) {
             let by = weight / self.pitch(span + i);
             slope[i] -= by;
             slope[i + 1] += by;
@@ -47,12 +47,12 @@ impl BSpline {
     }
 
     /// The values of the splines of a degree that are not zero on a span, by Cox's and de Boor's recursion.
-    fn of_degree(self, degree: usize, span: usize, x: f64) -> Vec<f64> {
+    fn of_degree(self, degree: usize, span: usize, x: f64) -> [f64; 4] {
         let at = self.degree + span;
-        let mut weights = vec![1.0];
+        let mut weights = [1.0, 0.0, 0.0, 0.0];
         for d in 1..=degree {
-            let mut next = vec![0.0; d + 1];
-            for (i, w) in weights.iter().enumerate() {
+            let mut next = [0.0; 4];
+            for (i, w) in weights.iter().enumerate().take(d) {
                 let (left, right) = (self.knot(at + 1 + i - d), self.knot(at + 1 + i));
                 let share = (x - left) / (right - left);
                 next[i] += (1.0 - share) * w;

@@ -15,7 +15,7 @@ use super::tracked_point::TrackedPoint;
 use super::transcription::{Point, Program, Waypoint};
 use crate::error::{Error, Result};
 use crate::model::{Equations, Model};
-use crate::motion::{Integrator, Signals, Timing, initial_hidden, simulate};
+use crate::motion::{Integrator, Method, Signals, Timing, initial_hidden, simulate};
 use crate::progress::{OnProgress, Stage, tell};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -29,7 +29,12 @@ const REACHES: [f64; 3] = [1.0, 2.5, 0.5];
 
 /// How often a plan is made again for the sake of states that begin in equilibrium, and when they do.
 const MOST_STARTS: usize = 12;
-const SAME_START: f64 = 1e-11;
+/// How a motion is integrated, and what equations may be off by, m and rad: while first guesses are followed, and in the end.
+const SEARCHED: (Integrator, f64) =
+    (Integrator { method: Method::Automatic, rtol: 1e-6, atol: 1e-8, max_steps: 100_000 }, 1e-6);
+fn exact() -> (Integrator, f64) {
+    (Integrator::default(), 1e-10)
+}
 
 /// Why there is no plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -105,7 +110,14 @@ fn near(planner: &Planner, task: &Task, plan: &Plan) -> Option<Plan> {
     let duration = ([plan.duration; 2], plan.duration);
     let program = planner.program(task, plan.spline, Some(BEND), duration, (&poses, &spans));
     let guess = Point { states, coefficients: plan.coefficients.clone(), duration: plan.duration };
-    planner.begun_at_rest(program, guess).map(|(plan, _)| plan)
+    planner.exactly(Found { program, point: guess, cost: 0.0 })
+}
+
+/// A point at which the equations of a program hold.
+struct Found<'a> {
+    program: Program<'a>,
+    point: Point,
+    cost: f64,
 }
 
 struct Planner {
@@ -163,8 +175,10 @@ impl Planner {
             Ok(found)
         };
         for round in &guesses {
-            let found: Vec<Option<(Plan, f64)>> = round.par_iter().map(search).collect::<Result<_>>()?;
-            if let Some((plan, _)) = found.into_iter().flatten().min_by(|a, b| a.1.total_cmp(&b.1)) {
+            let found: Vec<Option<Found>> = round.par_iter().map(search).collect::<Result<_>>()?;
+            let mut found: Vec<Found> = found.into_iter().flatten().collect();
+            found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+            if let Some(plan) = found.into_iter().find_map(|found| self.exactly(found)) {
                 return Ok(Some(plan));
             }
         }
@@ -178,22 +192,30 @@ impl Planner {
 
     /// The plan of a program from a guess. States that no sensor sees begin in equilibrium under the inputs that the plan begins
     /// with, as they do where a plan is driven, and while inputs wait time goes on: planned again until both agree.
-    fn begun_at_rest(&self, mut program: Program, guess: Point) -> Option<(Plan, f64)> {
-        let mut found = solved(&program, guess)?;
+    fn begun_at_rest<'a>(&self, mut program: Program<'a>, guess: Point) -> Option<Found<'a>> {
+        let (mut point, mut cost) = solved(&program, guess)?;
         for _ in 0..MOST_STARTS {
-            let first = program.shooting.first_inputs(&found.0.coefficients, found.0.duration);
+            let first = program.shooting.first_inputs(&point.coefficients, point.duration);
             let begun = self.begun(&first)?;
             let off = begun.iter().zip(&program.start).map(|(a, b)| (a - b).abs() / (1.0 + a.abs()));
-            if off.fold(0.0, f64::max) <= SAME_START {
+            if off.fold(0.0, f64::max) <= 0.1 * program.tolerance {
                 break;
             }
             program.start = begun;
-            found = solved(&program, found.0)?;
+            (point, cost) = solved(&program, point)?;
         }
-        let (Point { states, coefficients, duration }, cost) = found;
+        Some(Found { program, point, cost })
+    }
+
+    /// The plan near one that the search found.
+    fn exactly(&self, found: Found) -> Option<Plan> {
+        let mut program = found.program;
+        (program.shooting.integrator, program.tolerance) = exact();
+        let Found { program, point: Point { states, coefficients, duration }, .. } =
+            self.begun_at_rest(program, found.point)?;
         let states = std::iter::once(program.start).chain(states).collect();
         let (spline, dead_time, smoothed) = (program.shooting.spline, self.dead_time.clone(), self.smoothed);
-        Some((Plan { spline, coefficients, duration, dead_time, smoothed, states }, cost))
+        Some(Plan { spline, coefficients, duration, dead_time, smoothed, states })
     }
 
     /// The states when the motion begins, under the inputs that it begins with; none where they are undefined.
@@ -243,7 +265,10 @@ impl Planner {
         let mut rates = vec![0.0; self.equations.n()];
         let mut full: Vec<f64> = limits.iter().map(|l| if l.rests { l.scale() } else { 0.0 }).collect();
         full.resize(self.equations.inputs.len(), 0.0);
-        self.equations.rates(&mut w, &self.start, &full, &mut rates);
+        // A speed that follows the wheels has followed them.
+        let mut going = self.start[..self.equations.visible].to_vec();
+        going.extend(initial_hidden(&self.equations, &[], &full, &going));
+        self.equations.rates(&mut w, &going, &full, &mut rates);
         let speed = rates[0].hypot(rates[1]).max(1e-3);
         let turned: f64 = curve.poses.windows(2).map(|p| (p[1][2] - p[0][2]).abs()).sum();
         let slowest = limits.iter().map(|l| l.scale() / l.rate).fold(0.0, f64::max);
@@ -258,8 +283,7 @@ impl Planner {
         (duration, usual): ([f64; 2], f64),
         (guess, spans): (&[[f64; 3]], &[usize]),
     ) -> Program<'a> {
-        let integrator = Integrator::default();
-        let begins = self.dead_time.longest;
+        let (begins, (integrator, tolerance)) = (self.dead_time.longest, SEARCHED);
         let shooting = Shooting { equations: &self.equations, parameters: &[], begins, spline, integrator };
         let mut at = 0;
         let waypoints = task.poses.iter().zip(spans).map(|((x, y, heading), spans)| {
@@ -279,6 +303,7 @@ impl Planner {
             duration,
             usual,
             weights: task.weights,
+            tolerance,
         }
     }
 }

@@ -3,8 +3,6 @@
 
 use super::transcription::{Point, Program};
 
-/// What equations may be off by, m and rad.
-pub const TOLERANCE: f64 = 1e-10;
 /// Steps at most.
 const STEPS: usize = 80;
 /// A relative change of the cost that is not worth another step.
@@ -36,12 +34,12 @@ pub fn solved(program: &Program, start: Point) -> Option<(Point, f64)> {
         damping = if halvings == 0 { f64::max(damping * 0.3, 1e-6) } else { (damping * 3.0).min(1e3) };
         let is_small = (next.cost - here.cost).abs() < SETTLED * next.cost.abs().max(1e-3);
         here = next;
-        settled = if is_small && here.off() < TOLERANCE { settled + 1 } else { 0 };
+        settled = if is_small && here.off() < program.tolerance { settled + 1 } else { 0 };
         if settled == 2 {
             break;
         }
     }
-    (here.off() < 10.0 * TOLERANCE).then_some((here.point, here.cost))
+    (here.off() < 10.0 * program.tolerance).then_some((here.point, here.cost))
 }
 
 impl Iterate {
@@ -63,11 +61,12 @@ impl Iterate {
     /// The first point along a step, halved as often as needed, that lowers the merit, and how often it was halved. Where equations
     /// hold to rounding the merit may rise by as much.
     fn along(&self, program: &Program, step: &[f64], penalty: f64) -> Option<(Self, i32)> {
-        let before = self.merit(penalty);
+        let (before, tolerance) = (self.merit(penalty), program.tolerance);
         (0..12).find_map(|halvings| {
             let there = Self::at(program, program.moved(&self.point, step, 0.5_f64.powi(halvings)))?;
-            let (merit, is_near) = (there.merit(penalty), there.off() < TOLERANCE && self.off() < 1e3 * TOLERANCE);
-            let lower = merit < before - 1e-12 * before.abs() || is_near && merit <= before + 1e-9 * before.abs();
+            let (merit, is_near) = (there.merit(penalty), there.off() < tolerance && self.off() < 1e3 * tolerance);
+            let lower =
+                merit < before - 1e-12 * before.abs() || is_near && merit <= before + 10.0 * tolerance * before.abs();
             lower.then_some((there, halvings))
         })
     }

@@ -45,7 +45,7 @@ impl Shooting<'_> {
             Derived::Time => self.begins + share * duration,
             Derived::Rate(c) => of(&coefficients[*c], &slopes) * per_second,
         }));
-        Inputs { value, weights, slopes: slopes.iter().map(|w| w * per_second).collect(), share }
+        Inputs { value, weights, slopes: slopes.map(|w| w * per_second), share }
     }
 
     /// The inputs at the beginning.
@@ -132,9 +132,9 @@ struct Inputs {
     /// Logged ones, then derived ones.
     value: Vec<f64>,
     /// The weights of the coefficients that act.
-    weights: Vec<f64>,
+    weights: [f64; 4],
     /// Their slopes, by a second.
-    slopes: Vec<f64>,
+    slopes: [f64; 4],
     /// The share of the duration that has passed.
     share: f64,
 }

@@ -58,6 +58,8 @@ pub struct Program<'a> {
     pub usual: f64,
     /// What else counts.
     pub weights: Weights,
+    /// What equations may be off by, m and rad.
+    pub tolerance: f64,
 }
 
 /// A value of everything that is unknown.

@@ -106,6 +106,17 @@ fn inputs_with_kinks_are_planned_for() {
     }
 }
 
+/// A speed that follows the wheels is none at rest: what a way usually takes is judged by what it comes to.
+#[test]
+fn a_speed_that_lags_is_driven_in_a_usual_time() {
+    let dir = tempfile::tempdir().unwrap();
+    let lagging = CAR.to_string() + &effect("traction-creep", "mass_over_bR = 0.04");
+    let arguments = ["--goal=-6,-8,0.4", "--out", "plan.csv"];
+    let found = planned(dir.path(), &lagging, &arguments);
+    let ideal = number(&found["ideal"]["duration_s"]);
+    assert!((number(&found["duration_s"]) / ideal - 1.0).abs() < 0.1, "{found:#}");
+}
+
 /// Theory, chapter 09: a plan made on the ideal wheel misses by (κ − 1)·z, whatever it is.
 #[test]
 fn the_plan_without_creep_misses_by_what_the_theory_says() {

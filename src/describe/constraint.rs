@@ -129,15 +129,10 @@ fn written(constraint: &Constraint, order: &[Symbol]) -> Expr {
 fn in_place(e: &Expr, by: &impl Fn(&Symbol) -> Option<Expr>) -> Expr {
     let go = |e: &Expr| in_place(e, by);
     match e.node() {
-        Node::Num(_) => e.clone(),
         Node::Sym(s) => by(s).unwrap_or_else(|| e.clone()),
-        Node::Neg(x) => -&go(x),
         Node::Add(a, b) => sum(&go(a), &go(b)),
-        Node::Sub(a, b) => &go(a) - &go(b),
         Node::Mul(a, b) => product(&go(a), &go(b)),
-        Node::Div(a, b) => &go(a) / &go(b),
-        Node::Pow(x, n) => go(x).pow(*n),
-        Node::Call(f, x) => Expr::call(*f, &go(x)),
+        _ => e.with_parts(go),
     }
 }
 

@@ -43,7 +43,7 @@ fn driven(plan: &Plan, task: &Task, model: &Model) -> Result<DrivenPlan> {
     let executed = execute(plan, task, model, Timing::Sample)?;
     let table = &executed.table;
     let states = 3 + model.trailer_count();
-    let steering = |k: usize| plan.spline.at(&plan.coefficients[1], k as f64 / (table.rows() - 1) as f64);
+    let steering = |k: usize| plan.command(1, table.columns[0][k]);
     let rig = |k: usize| {
         let z: Vec<f64> = (0..states).map(|i| table.columns[1 + i][k]).collect();
         Rig::of(model, &z, &[(model.inputs[0].as_str(), 1.0), (model.inputs[1].as_str(), steering(k))])

@@ -160,6 +160,20 @@ impl Expr {
         }
     }
 
+    /// The expression of the same form with other parts.
+    pub(crate) fn with_parts(&self, mut of: impl FnMut(&Expr) -> Expr) -> Expr {
+        match self.node() {
+            Node::Num(_) | Node::Sym(_) => self.clone(),
+            Node::Neg(x) => -&of(x),
+            Node::Add(a, b) => &of(a) + &of(b),
+            Node::Sub(a, b) => &of(a) - &of(b),
+            Node::Mul(a, b) => &of(a) * &of(b),
+            Node::Div(a, b) => &of(a) / &of(b),
+            Node::Pow(x, n) => of(x).pow(*n),
+            Node::Call(f, x) => Expr::call(*f, &of(x)),
+        }
+    }
+
     /// The value of the expression in a carrier, or `None` where it is undefined.
     ///
     /// ```

@@ -139,13 +139,8 @@ impl Atoms {
             return Expr::sym(self.names.entry(e.to_string()).or_insert((name, e.clone())).0.clone());
         }
         match e.node() {
-            Node::Num(_) | Node::Sym(_) | Node::Call(..) => e.clone(),
-            Node::Neg(x) => -&self.put_away(x),
-            Node::Add(a, b) => &self.put_away(a) + &self.put_away(b),
-            Node::Sub(a, b) => &self.put_away(a) - &self.put_away(b),
-            Node::Mul(a, b) => &self.put_away(a) * &self.put_away(b),
-            Node::Div(a, b) => &self.put_away(a) / &self.put_away(b),
-            Node::Pow(x, n) => self.put_away(x).pow(*n),
+            Node::Call(..) => e.clone(),
+            _ => e.with_parts(|part| self.put_away(part)),
         }
     }
 

@@ -91,24 +91,12 @@ fn ahead(row: &Row) -> Row {
 /// The formula at heading zero, sines and cosines of zero written as numbers.
 fn straight(e: &Expr) -> Expr {
     match e.node() {
-        Node::Num(_) => e.clone(),
-        Node::Sym(s) => {
-            if s.as_str() == "phi" {
-                Expr::int(0)
-            } else {
-                e.clone()
-            }
-        }
-        Node::Neg(x) => -&straight(x),
-        Node::Add(a, b) => &straight(a) + &straight(b),
-        Node::Sub(a, b) => &straight(a) - &straight(b),
-        Node::Mul(a, b) => &straight(a) * &straight(b),
-        Node::Div(a, b) => &straight(a) / &straight(b),
-        Node::Pow(x, n) => straight(x).pow(*n),
+        Node::Sym(s) if s.as_str() == "phi" => Expr::int(0),
         Node::Call(f, x) => match (f, straight(x).tidy()) {
             (Fun::Sin, zero) if zero.is_zero() => zero,
             (Fun::Cos, zero) if zero.is_zero() => Expr::int(1),
             (f, x) => Expr::call(*f, &x),
         },
+        _ => e.with_parts(straight),
     }
 }

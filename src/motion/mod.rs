@@ -38,6 +38,7 @@ pub use sensitivity::states::StateSensitivity;
 pub use simulate::Table;
 #[doc(hidden)]
 pub use simulate::simulate_model;
+pub(crate) use trajectory::input_delays;
 pub use trajectory::simulate;
 #[doc(hidden)]
 pub use trajectory::{integrate, with_sensitivities};

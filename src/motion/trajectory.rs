@@ -206,6 +206,12 @@ pub(crate) fn delays(equations: &Equations, all: &[f64]) -> (f64, Vec<f64>) {
     (all[0], all[1..1 + equations.own_delays].to_vec())
 }
 
+/// The delay of every logged input, s: that of all and its own.
+pub(crate) fn input_delays(equations: &Equations, p: &[f64]) -> Vec<f64> {
+    let (all, own) = delays(equations, &equations.delay_alone(p));
+    (0..equations.logged()).map(|i| all + own.get(i).copied().unwrap_or(0.0)).collect()
+}
+
 /// Where the inputs are not smooth, and where effects begin and end, at the times at which inputs are looked up.
 fn knots(equations: &Equations, inputs: &impl Drive, delay: f64, own: &[f64]) -> Vec<f64> {
     let edges = equations.edges.iter().map(|t| t - delay);

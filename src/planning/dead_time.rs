@@ -2,6 +2,7 @@
 //! until the input with the longest delay acts, so that all act together as they were planned.
 
 use crate::model::Equations;
+use crate::motion::input_delays;
 
 /// The dead times of a model's inputs.
 ///
@@ -30,12 +31,6 @@ impl DeadTime {
     pub fn unknown(self) -> Self {
         Self { waits: vec![0.0; self.waits.len()], ..self }
     }
-}
-
-/// The delay of every logged input, s: that of all and its own.
-pub(crate) fn input_delays(equations: &Equations, p: &[f64]) -> Vec<f64> {
-    let all = equations.delay_alone(p);
-    (0..equations.logged()).map(|i| all[0] + if equations.own_delays > 0 { all[1 + i] } else { 0.0 }).collect()
 }
 
 #[cfg(test)]

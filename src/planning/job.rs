@@ -2,9 +2,10 @@
 
 use super::dead_time::DeadTime;
 use super::execution::{Executed, execute, spread};
+use super::infeasible::Infeasible;
 use super::path::Path;
 use super::plan::Plan;
-use super::planner::{Infeasible, plan, planned_near};
+use super::planner::{plan, planned_near};
 use super::report::{Ideal, PlanReport, Reached, Spread};
 use super::task::Task;
 use crate::error::Result;

@@ -10,13 +10,14 @@
 //! | where the search begins | `initial_guess` |
 //! | inputs that act late, or do not act everywhere | `dead_time`, `smoothing` |
 //! | what no input changes | `reachability` |
-//! | the task; the plan, or why there is none | `task`, `planner`, `plan` |
+//! | the task; the plan, or why there is none | `task`, `planner`, `plan`, `infeasible` |
 //! | rows that a robot can be given, and what becomes of them on a model | `execution`, `plan_table` |
 //! | the job as a whole, its report, its words | `job`, `report`, `plan_text` |
 
 mod b_spline;
 mod dead_time;
 mod execution;
+mod infeasible;
 mod initial_guess;
 mod job;
 mod limits;
@@ -37,8 +38,8 @@ mod transcription;
 
 pub(crate) use b_spline::BSpline;
 pub use dead_time::DeadTime;
-pub(crate) use dead_time::input_delays;
 pub use execution::{Executed, execute, plan_rows, spread};
+pub use infeasible::Infeasible;
 pub(crate) use initial_guess::nearest;
 pub use job::{Covariance, Planned, planned};
 pub use limits::{Limit, Said, with_said};
@@ -46,7 +47,7 @@ pub use path::Path;
 pub use plan::Plan;
 pub use plan_table::plan_table;
 pub use plan_text::{infeasible, plan_text};
-pub use planner::{BEND, Infeasible, plan};
+pub use planner::{BEND, plan};
 pub(crate) use quadratic_program::QuadraticProgram;
 pub use reachability::Fixed;
 pub use report::{Ideal, PlanReport, Reached, Spread};

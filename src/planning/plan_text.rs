@@ -1,6 +1,6 @@
 //! A plan in words.
 
-use super::planner::Infeasible;
+use super::infeasible::Infeasible;
 use super::reachability::Fixed;
 use super::report::{PlanReport, Reached};
 use crate::number_format::{decimals, plain, prefixed, significant};

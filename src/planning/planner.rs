@@ -3,13 +3,14 @@
 
 use super::b_spline::BSpline;
 use super::dead_time::DeadTime;
+use super::infeasible::Infeasible;
 use super::initial_guess::{Curve, curves, followed, nearest, point, straight};
 use super::limits::Limit;
 use super::plan::Plan;
-use super::reachability::{Fixed, unreachable};
+use super::reachability::{Fixed, Motions};
 use super::sequential_quadratic_programming::solved;
 use super::shooting::Shooting;
-use super::smoothing::{WIDTHS, has_kinks, smoothed};
+use super::smoothing::{smoothed, widths};
 use super::task::Task;
 use super::tracked_point::TrackedPoint;
 use super::transcription::{Point, Program, Waypoint};
@@ -36,38 +37,24 @@ fn exact() -> (Integrator, f64) {
     (Integrator::default(), 1e-10)
 }
 
-/// Why there is no plan.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Infeasible {
-    /// There is one without the limits of the inputs.
-    Limits,
-    /// There is one that bends the train further.
-    JackKnife,
-    /// There is one that takes longer.
-    Duration,
-    /// It would change of the pose, or of one to pass, what no input changes.
-    Fixed(Fixed),
-    /// None was found without any of them either.
-    Unreached,
-}
-
 /// The plan of a task, or why there is none.
 ///
 /// # Errors
 /// When the task does not fit the model, the motion is undefined at its start, or the listener stops the work.
 pub fn plan(model: &Model, task: &Task, progress: &OnProgress) -> Result<std::result::Result<Plan, Infeasible>> {
-    let planner = Planner::of(model, task, WIDTHS[0])?;
+    let widths = widths(model);
+    let planner = Planner::of(model, task, widths[0])?;
     if let Some(fixed) = planner.unreachable(task) {
         return Ok(Err(Infeasible::Fixed(fixed)));
     }
     if let Some(mut found) = planner.best(task, Some(BEND), &REACHES, progress)? {
-        for width in WIDTHS.iter().skip(1).filter(|_| has_kinks(model)) {
+        for width in &widths[1..] {
             let Some(narrower) = near(&Planner::of(model, task, *width)?, task, &found) else { break };
             found = narrower;
         }
         return Ok(Ok(found));
     }
-    let without_limits = Task { limits: task.limits.iter().map(unlimited).collect(), ..task.clone() };
+    let without_limits = Task { limits: task.limits.iter().map(Limit::without_limits).collect(), ..task.clone() };
     let without_time = Task { duration: None, ..task.clone() };
     let reached =
         |task: &Task, bend: Option<f64>| Ok::<_, Error>(planner.best(task, bend, &REACHES[..1], progress)?.is_some());
@@ -83,21 +70,14 @@ pub fn plan(model: &Model, task: &Task, progress: &OnProgress) -> Result<std::re
     Ok(Err(why))
 }
 
-/// The same input without limits worth the name: both ways, tenfold, at any rate; a steering angle up to where it locks.
-fn unlimited(limit: &Limit) -> Limit {
-    let most = if limit.rests { 10.0 * limit.scale() } else { limit.scale().max(1.5) };
-    Limit { range: [-most, most], rate: 1e3 * most, ..limit.clone() }
-}
-
 /// A plan for a task near one that there is, of the same duration, with kinks smoothed as little as leads to one.
 ///
 /// # Errors
 /// When the task does not fit the model, or the motion is undefined at its start.
 pub(super) fn planned_near(model: &Model, task: &Task, near_to: &Plan) -> Result<Option<Plan>> {
-    for width in WIDTHS.iter().rev().skip_while(|width| **width < near_to.smoothed) {
-        let found = near(&Planner::of(model, task, *width)?, task, near_to);
-        if found.is_some() || !has_kinks(model) {
-            return Ok(found);
+    for width in widths(model).iter().rev().skip_while(|width| **width < near_to.smoothed) {
+        if let Some(found) = near(&Planner::of(model, task, *width)?, task, near_to) {
+            return Ok(Some(found));
         }
     }
     Ok(None)
@@ -110,7 +90,7 @@ fn near(planner: &Planner, task: &Task, plan: &Plan) -> Option<Plan> {
     let duration = ([plan.duration; 2], plan.duration);
     let program = planner.program(task, plan.spline, Some(BEND), duration, (&poses, &spans));
     let guess = Point { states, coefficients: plan.coefficients.clone(), duration: plan.duration };
-    planner.exactly(Found { program, point: guess, cost: 0.0 })
+    planner.exactly(program, guess)
 }
 
 /// A point at which the equations of a program hold.
@@ -148,7 +128,8 @@ impl Planner {
         let spline = BSpline { degree: task.degree, spans: 1 };
         let (equations, begins, integrator) = (&self.equations, self.dead_time.longest, Integrator::default());
         let shooting = Shooting { equations, parameters: &[], begins, spline, integrator };
-        task.poses.iter().find_map(|pose| unreachable(&shooting, &self.start, &self.point, &task.limits, *pose))
+        let motions = Motions::sampled(&shooting, &self.start, &self.point, &task.limits);
+        task.poses.iter().find_map(|pose| motions.unreachable(*pose))
     }
 
     /// The best of the plans that the search finds from its first guesses.
@@ -178,7 +159,7 @@ impl Planner {
             let found: Vec<Option<Found>> = round.par_iter().map(search).collect::<Result<_>>()?;
             let mut found: Vec<Found> = found.into_iter().flatten().collect();
             found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-            if let Some(plan) = found.into_iter().find_map(|found| self.exactly(found)) {
+            if let Some(plan) = found.into_iter().find_map(|found| self.exactly(found.program, found.point)) {
                 return Ok(Some(plan));
             }
         }
@@ -208,11 +189,10 @@ impl Planner {
     }
 
     /// The plan near one that the search found.
-    fn exactly(&self, found: Found) -> Option<Plan> {
-        let mut program = found.program;
+    fn exactly(&self, mut program: Program, guess: Point) -> Option<Plan> {
         (program.shooting.integrator, program.tolerance) = exact();
         let Found { program, point: Point { states, coefficients, duration }, .. } =
-            self.begun_at_rest(program, found.point)?;
+            self.begun_at_rest(program, guess)?;
         let states = std::iter::once(program.start).chain(states).collect();
         let (spline, dead_time, smoothed) = (program.shooting.spline, self.dead_time.clone(), self.smoothed);
         Some(Plan { spline, coefficients, duration, dead_time, smoothed, states })
@@ -220,19 +200,24 @@ impl Planner {
 
     /// The states when the motion begins, under the inputs that it begins with; none where they are undefined.
     fn begun(&self, first: &[f64]) -> Option<Vec<f64>> {
-        let (visible, logged) = (self.equations.visible, self.equations.logged());
-        let mut states = self.start[..visible].to_vec();
         if self.dead_time.longest == 0.0 {
-            states.extend(initial_hidden(&self.equations, &[], first, &states));
-            return Some(states);
+            return Some(self.in_equilibrium(first));
         }
         // Held, inputs have no slope.
+        let logged = self.equations.logged();
         let held: Vec<f64> = (0..first.len()).map(|i| if i < logged { first[i] } else { 0.0 }).collect();
-        states.extend(initial_hidden(&self.equations, &[], &held, &states));
         let times = [0.0, self.dead_time.longest];
         let columns: Vec<Vec<f64>> = held[..logged].iter().map(|u| vec![*u; 2]).collect();
         let inputs = Signals::new(&times, &columns, Timing::Sample);
+        let states = self.in_equilibrium(&held);
         simulate(&self.equations, &[], &inputs, &states, &times, &Integrator::default()).ok()?.pop()
+    }
+
+    /// The pose at the start, with what no sensor sees in equilibrium under inputs.
+    fn in_equilibrium(&self, inputs: &[f64]) -> Vec<f64> {
+        let mut states = self.start[..self.equations.visible].to_vec();
+        states.extend(initial_hidden(&self.equations, &[], inputs, &states));
+        states
     }
 
     /// The start, then the poses to pass, a heading that does not matter along the way to the next.
@@ -266,9 +251,7 @@ impl Planner {
         let mut full: Vec<f64> = limits.iter().map(|l| if l.rests { l.scale() } else { 0.0 }).collect();
         full.resize(self.equations.inputs.len(), 0.0);
         // A speed that follows the wheels has followed them.
-        let mut going = self.start[..self.equations.visible].to_vec();
-        going.extend(initial_hidden(&self.equations, &[], &full, &going));
-        self.equations.rates(&mut w, &going, &full, &mut rates);
+        self.equations.rates(&mut w, &self.in_equilibrium(&full), &full, &mut rates);
         let speed = rates[0].hypot(rates[1]).max(1e-3);
         let turned: f64 = curve.poses.windows(2).map(|p| (p[1][2] - p[0][2]).abs()).sum();
         let slowest = limits.iter().map(|l| l.scale() / l.rate).fold(0.0, f64::max);

@@ -24,40 +24,45 @@ pub enum Fixed {
     Line,
 }
 
-/// What would have to change for a goal, and no input changes; none where all can change that must.
-///
-/// `shooting` has inputs that are one piece; motions that are undefined say nothing.
-pub fn unreachable(
-    shooting: &Shooting,
-    start: &[f64],
-    point: &TrackedPoint,
-    limits: &[Limit],
-    goal: (f64, f64, Option<f64>),
-) -> Option<Fixed> {
-    let [x, y, heading] = point.at(start).0;
-    let moved = |motion: usize| {
-        let end = shooting.end(start, &sampled(limits, shooting.spline, motion), 0, TIME).ok()?;
-        let at = point.at(&end).0;
-        Some([at[0] - x, at[1] - y, at[2] - heading])
-    };
-    let motions: Vec<[f64; 3]> = (0..MOTIONS).filter_map(moved).collect();
-    if motions.is_empty() {
-        return None;
+/// Motions from a start under sampled inputs.
+pub struct Motions {
+    /// The pose at the start: x, y, heading.
+    start: [f64; 3],
+    /// What each motion changes of it.
+    changes: Vec<[f64; 3]>,
+}
+
+impl Motions {
+    /// Of a point of a vehicle, under inputs within their limits; `shooting` has inputs that are one piece. Motions that are
+    /// undefined say nothing.
+    pub fn sampled(shooting: &Shooting, start: &[f64], point: &TrackedPoint, limits: &[Limit]) -> Self {
+        let from = point.at(start).0;
+        let moved = |motion: usize| {
+            let end = shooting.end(start, &sampled(limits, shooting.spline, motion), 0, TIME).ok()?;
+            let to = point.at(&end).0;
+            Some([0, 1, 2].map(|i| to[i] - from[i]))
+        };
+        Self { start: from, changes: (0..MOTIONS).filter_map(moved).collect() }
     }
-    let most = |of: &dyn Fn(&[f64; 3]) -> f64| motions.iter().map(|m| of(m).abs()).fold(0.0, f64::max);
-    let wanted = [goal.0 - x, goal.1 - y];
-    let turn = goal.2.map_or(0.0, |h| nearest(h - heading, 0.0));
-    if turn.abs() > NOTHING && most(&|m| m[2]) < NOTHING {
-        return Some(Fixed::Heading);
+
+    /// What would have to change for a goal, and no input changes; none where all can change that must.
+    pub fn unreachable(&self, goal: (f64, f64, Option<f64>)) -> Option<Fixed> {
+        let [x, y, heading] = self.start;
+        let most = |of: &dyn Fn(&[f64; 3]) -> f64| self.changes.iter().map(|m| of(m).abs()).fold(0.0, f64::max);
+        let wanted = [goal.0 - x, goal.1 - y];
+        let turn = goal.2.map_or(0.0, |h| nearest(h - heading, 0.0));
+        let farthest = self.changes.iter().max_by(|a, b| a[0].hypot(a[1]).total_cmp(&b[0].hypot(b[1])))?;
+        if turn.abs() > NOTHING && most(&|m| m[2]) < NOTHING {
+            return Some(Fixed::Heading);
+        }
+        let length = farthest[0].hypot(farthest[1]);
+        if length < NOTHING {
+            return (wanted[0].hypot(wanted[1]) > NOTHING).then_some(Fixed::Place);
+        }
+        let across = |v: &[f64]| (farthest[0] * v[1] - farthest[1] * v[0]) / length;
+        let is_line = most(&|m| across(m)) < NOTHING * length.max(1.0);
+        (is_line && across(&wanted).abs() > NOTHING * length.max(1.0)).then_some(Fixed::Line)
     }
-    let farthest = motions.iter().max_by(|a, b| a[0].hypot(a[1]).total_cmp(&b[0].hypot(b[1])))?;
-    let length = farthest[0].hypot(farthest[1]);
-    if length < NOTHING {
-        return (wanted[0].hypot(wanted[1]) > NOTHING).then_some(Fixed::Place);
-    }
-    let across = |v: &[f64]| (farthest[0] * v[1] - farthest[1] * v[0]) / length;
-    let is_line = most(&|m| across(m)) < NOTHING * length.max(1.0);
-    (is_line && across(&wanted).abs() > NOTHING * length.max(1.0)).then_some(Fixed::Line)
 }
 
 /// Coefficients of inputs within their limits, spread by multiples of irrational numbers (Weyl's sequence).
@@ -83,7 +88,7 @@ mod tests {
         let spline = BSpline { degree: 3, spans: 1 };
         let integrator = Integrator::default();
         let shooting = Shooting { equations: &equations, parameters: &[], begins: 0.0, spline, integrator };
-        unreachable(&shooting, &vec![0.0; equations.n()], &point, &Limit::usual(model), goal)
+        Motions::sampled(&shooting, &vec![0.0; equations.n()], &point, &Limit::usual(model)).unreachable(goal)
     }
 
     #[test]

@@ -7,10 +7,15 @@ use crate::model::Model;
 use std::borrow::Cow;
 
 /// Widths of the smoothing, one after another, as shares of what the kinks are apart.
-pub const WIDTHS: [f64; 3] = [0.5, 0.15, 0.03];
+const WIDTHS: [f64; 3] = [0.5, 0.15, 0.03];
+
+/// The widths that a model is planned for with; one, which changes nothing, where it has no kinks.
+pub fn widths(model: &Model) -> &'static [f64] {
+    if has_kinks(model) { &WIDTHS } else { &WIDTHS[..1] }
+}
 
 /// Whether a model has kinks in effects on an input.
-pub fn has_kinks(model: &Model) -> bool {
+fn has_kinks(model: &Model) -> bool {
     model.effects.iter().any(|a| a.effect.on.is_some() && formulas(&a.effect).any(has_kink))
 }
 
@@ -51,17 +56,10 @@ fn smooth(formula: &Expr, square: &Expr) -> Expr {
     let root = |x: &Expr| Expr::call(Fun::Sqrt, &(&x.pow(2) + square));
     let sign = |x: &Expr| x / &root(x);
     match formula.node() {
-        Node::Num(_) | Node::Sym(_) => formula.clone(),
-        Node::Neg(x) => -&of(x),
-        Node::Add(a, b) => &of(a) + &of(b),
-        Node::Sub(a, b) => &of(a) - &of(b),
-        Node::Mul(a, b) => &of(a) * &of(b),
-        Node::Div(a, b) => &of(a) / &of(b),
-        Node::Pow(x, n) => of(x).pow(*n),
         Node::Call(Fun::Abs, x) => root(&of(x)),
         Node::Call(Fun::Sign, x) => sign(&of(x)),
         Node::Call(Fun::Step, x) => &(&Expr::int(1) + &sign(&of(x))) / &Expr::int(2),
-        Node::Call(f, x) => Expr::call(*f, &of(x)),
+        _ => formula.with_parts(of),
     }
 }
 

@@ -7,8 +7,8 @@ use super::reference::Reference;
 use crate::error::Result;
 use crate::export::WALK;
 use crate::model::Equations;
-use crate::motion::{Integrator, simulate};
-use crate::planning::{Limit, input_delays};
+use crate::motion::{Integrator, input_delays, simulate};
+use crate::planning::Limit;
 use nalgebra::{DMatrix, DVector};
 use rand::Rng;
 use rand_distr::StandardNormal;
@@ -165,7 +165,7 @@ impl<'a> Feedback<'a> {
     fn command(&mut self, reference: &Reference, k: usize, pose: &[f64], commands: &Commands) -> Result<Vec<f64>> {
         self.filter.update(pose);
         let states = self.when_it_acts(k, commands)?;
-        let now = Now { k, states: &states, parameters: &self.filter.parameters, commands: commands.rows() };
+        let now = Now { states: &states, parameters: &self.filter.parameters, commands: commands.rows() };
         let ahead = self.ahead.split_first().map_or(&[][..], |(_, rest)| rest);
         self.ahead = self.control.commands(reference, &now, ahead)?;
         let next = |(c, wait): (usize, usize)| self.ahead[wait][c];

@@ -34,14 +34,19 @@ pub struct PredictiveControl<'a> {
 
 /// Where a controller stands.
 pub struct Now<'a> {
-    /// Number of the sample.
-    pub k: usize,
     /// States, as estimated, at the sample at which the input that acts soonest is next to be commanded.
     pub states: &'a [f64],
     /// Free parameters, as estimated.
     pub parameters: &'a [f64],
-    /// The commands that have been given, the last one of this sample.
+    /// The commands that have been given, a row a sample, the last one of this sample.
     pub commands: &'a [Vec<f64>],
+}
+
+impl Now<'_> {
+    /// Number of the sample.
+    fn sample(&self) -> usize {
+        self.commands.len() - 1
+    }
 }
 
 /// Commands, and the derivatives of the measured values at each sample by all of them.
@@ -91,20 +96,16 @@ impl PredictiveControl<'_> {
 
     /// The inputs as they act from the sample on at which the first one does: as they are on their way, as guessed, or as planned.
     fn acting(&self, reference: &Reference, now: &Now, guess: &[Vec<f64>]) -> Acting {
-        let begins = now.k + self.soonest();
-        let given = |acts: usize, c: usize| {
-            let at = (acts.saturating_sub(self.delays[c]) + now.commands.len()).checked_sub(now.k + 1);
-            now.commands.get(at.unwrap_or(0)).or(now.commands.first()).map(|row| row[c])
-        };
-        let of = |j: usize, c: usize| {
-            let acts = begins + j + 1;
-            let on_its_way = (acts <= now.k + self.delays[c]).then(|| given(acts, c)).flatten();
-            on_its_way.unwrap_or_else(|| guess.get(j).map_or_else(|| self.planned(reference, acts, c), |row| row[c]))
+        let begins = now.sample() + self.soonest();
+        let given = |acts: usize, c: usize| now.commands[acts.saturating_sub(self.delays[c])][c];
+        let of = |j: usize, c: usize| match begins + j + 1 {
+            acts if acts <= now.sample() + self.delays[c] => given(acts, c),
+            acts => guess.get(j).map_or_else(|| self.planned(reference, acts, c), |row| row[c]),
         };
         let channels = 0..self.limits.len();
         let rows = self.horizon + self.waits().max().unwrap_or(0);
         Acting {
-            first: channels.clone().map(|c| given(begins, c).unwrap_or(0.0)).collect(),
+            first: channels.clone().map(|c| given(begins, c)).collect(),
             rows: (0..rows).map(|j| channels.clone().map(|c| of(j, c)).collect()).collect(),
         }
     }
@@ -127,7 +128,7 @@ impl PredictiveControl<'_> {
             let shooting = Shooting {
                 equations: self.equations,
                 parameters: now.parameters,
-                begins: (now.k + self.soonest() + j) as f64 * self.sample,
+                begins: (now.sample() + self.soonest() + j) as f64 * self.sample,
                 spline,
                 integrator: self.integrator,
             };
@@ -161,7 +162,7 @@ impl PredictiveControl<'_> {
         guess: &[Vec<f64>],
         linear: &Linearised,
     ) -> QuadraticProgram {
-        let begins = now.k + self.soonest();
+        let begins = now.sample() + self.soonest();
         let channels = self.limits.len();
         let size = guess.len() * channels;
         let (mut quadratic, mut gradient) = (DMatrix::<f64>::zeros(size, size), DVector::<f64>::zeros(size));
@@ -266,7 +267,7 @@ mod tests {
             poses: rows.iter().map(|x| vec![*x, 0.0, 0.0]).collect(),
             commands: vec![vec![2.0, 0.0]; rows.len()],
         };
-        let now = Now { k: commands.len() - 1, states: &[0.0, off, 0.0], parameters: &[], commands };
+        let now = Now { states: &[0.0, off, 0.0], parameters: &[], commands };
         (control.commands(&reference, &now, &vec![vec![2.0, 0.0]; 15]).unwrap(), limits[1].clone())
     }
 

@@ -24,15 +24,10 @@ pub(super) fn folded(identity: &Identity) -> Identity {
 fn fold(e: &Expr, numbers: &BTreeMap<Symbol, Expr>) -> Expr {
     let go = |e: &Expr| fold(e, numbers);
     match e.node() {
-        Node::Num(_) => e.clone(),
         Node::Sym(s) => numbers.get(s).unwrap_or(e).clone(),
-        Node::Neg(x) => -&go(x),
-        Node::Add(a, b) => &go(a) + &go(b),
-        Node::Sub(a, b) => &go(a) - &go(b),
-        Node::Mul(a, b) => &go(a) * &go(b),
-        Node::Div(a, b) => &go(a) / &go(b),
         Node::Pow(x, n) => power(&go(x), *n),
         Node::Call(f, x) => call(*f, &go(x)),
+        _ => e.with_parts(go),
     }
 }
 

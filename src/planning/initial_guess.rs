@@ -4,6 +4,7 @@
 use super::b_spline::BSpline;
 use super::limits::Limit;
 use super::path::Path;
+use super::trailing::{between, trail};
 use super::transcription::Point;
 use crate::model::Equations;
 use nalgebra::{DMatrix, DVector};
@@ -120,7 +121,8 @@ pub fn straight(start: &[f64], equations: &Equations, pose: [f64; 3]) -> Vec<f64
     z
 }
 
-/// The point of a search that follows a curve in a duration.
+/// The point of a search that follows a curve in a duration, and the state that it begins with: the start, with trailers as a curve
+/// that begins backward would have them.
 pub fn point(
     curve: &Curve,
     start: &[f64],
@@ -128,7 +130,7 @@ pub fn point(
     limits: &[Limit],
     spline: BSpline,
     duration: f64,
-) -> Point {
+) -> (Point, Vec<f64>) {
     let step = duration / spline.spans as f64;
     let mut states: Vec<Vec<f64>> = vec![start.to_vec()];
     states.extend(curve.poses.iter().map(|pose| straight(start, equations, *pose)));
@@ -136,11 +138,11 @@ pub fn point(
     let mut last = vec![0.0; limits.len()];
     for k in 0..spline.spans {
         let (a, b) = (&states[k], &states[k + 1]);
-        let middle: Vec<f64> = a.iter().zip(b).map(|(a, b)| 0.5 * (a + b)).collect();
         let wanted = [0, 1, 2].map(|i| (b[i] - a[i]) / step);
-        last = driving(equations, &middle, wanted, curve.ahead[k], &last, limits);
+        last = driving(equations, &between(a, b, 0.5), wanted, curve.ahead[k], &last, limits);
         inputs.push(last.clone());
     }
+    trail(equations, &mut states, &inputs, &curve.ahead, step);
     let at = |channel: usize, x: f64| {
         let place = (x - 0.5).clamp(0.0, spline.spans as f64 - 1.0);
         let (i, share) = (place as usize, place.fract());
@@ -152,7 +154,8 @@ pub fn point(
         let is_end = |j: usize| j == 0 || j + 1 == count;
         (0..count).map(|j| if limit.rests && is_end(j) { 0.0 } else { at(channel, spline.greville(j)) }).collect()
     });
-    Point { coefficients: coefficients.collect(), states: states.split_off(1), duration }
+    let after = states.split_off(1);
+    (Point { coefficients: coefficients.collect(), states: after, duration }, states.remove(0))
 }
 
 /// Inputs within their limits under which the body moves nearly as wanted, by a few steps of Gauss and Newton.

@@ -6,8 +6,8 @@
 //! | inputs as splines whose coefficients bound value and slope | `b_spline`, `limits` |
 //! | motion over a span, with exact derivatives | `shooting` |
 //! | what is to be reached: the sensor's pose, or a trailer's | `tracked_point`, `path` |
-//! | the nonlinear program, and steps to its solution | `transcription`, `quadratic_program`, `sequential_quadratic_programming` |
-//! | where the search begins | `initial_guess` |
+//! | the nonlinear program, and steps to its solution | `transcription`, `cost`, `quadratic_program`, `sequential_quadratic_programming` |
+//! | where the search begins, and how it goes on from there | `initial_guess`, `trailing`, `continuation` |
 //! | inputs that act late, or do not act everywhere | `dead_time`, `smoothing` |
 //! | what no input changes | `reachability` |
 //! | the task; the plan, or why there is none | `task`, `planner`, `plan`, `infeasible` |
@@ -15,6 +15,8 @@
 //! | the job as a whole, its report, its words | `job`, `report`, `plan_text` |
 
 mod b_spline;
+mod continuation;
+mod cost;
 mod dead_time;
 mod execution;
 mod infeasible;
@@ -34,6 +36,7 @@ mod shooting;
 mod smoothing;
 mod task;
 mod tracked_point;
+mod trailing;
 mod transcription;
 
 pub(crate) use b_spline::BSpline;

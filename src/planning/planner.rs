@@ -2,13 +2,13 @@
 //! sequential quadratic programming from several first guesses.
 
 use super::b_spline::BSpline;
+use super::continuation::{continued, near_to};
 use super::dead_time::DeadTime;
 use super::infeasible::Infeasible;
 use super::initial_guess::{Curve, curves, followed, nearest, point, straight};
 use super::limits::Limit;
 use super::plan::Plan;
 use super::reachability::{Fixed, Motions};
-use super::sequential_quadratic_programming::solved;
 use super::shooting::Shooting;
 use super::smoothing::{smoothed, widths};
 use super::task::Task;
@@ -143,15 +143,18 @@ impl Planner {
             false => reaches.iter().map(|reach| curves(&through, &spans, *reach)).collect(),
         };
         let (tried, all) = (AtomicUsize::new(0), guesses.iter().map(Vec::len).sum());
+        let usual = |curve: &Curve| self.usual_duration(&self.on_body(curve, task), &task.limits);
+        // What a second costs is the same wherever a search begins.
+        let shortest = guesses.iter().flatten().map(usual).fold(f64::INFINITY, f64::min);
         let search = |curve: &Curve| {
-            let on_body =
-                Curve { poses: self.on_body(&curve.poses, task), ahead: curve.ahead.clone(), length: curve.length };
+            let on_body = self.on_body(curve, task);
             let usual = self.usual_duration(&on_body, &task.limits);
             let duration = self.moving(task).map_or([0.02 * usual, LONGEST * usual], |d| [d, d]);
             let begin = self.moving(task).unwrap_or(usual);
-            let guess = point(&on_body, &self.start, &self.equations, &task.limits, spline, begin);
-            let program = self.program(task, spline, bend, (duration, begin), (&curve.poses, &spans));
-            let found = self.begun_at_rest(program, guess);
+            let (guess, begins) = point(&on_body, &self.start, &self.equations, &task.limits, spline, begin);
+            let a_usual = self.moving(task).unwrap_or(shortest);
+            let program = self.program(task, spline, bend, (duration, a_usual), (&curve.poses, &spans));
+            let found = self.searched(program, guess, &begins);
             tell(progress, Stage::FirstGuesses, tried.fetch_add(1, Ordering::Relaxed) + 1, all)?;
             Ok(found)
         };
@@ -171,10 +174,26 @@ impl Planner {
         task.duration.map(|d| (d - self.dead_time.longest).max(1e-3))
     }
 
-    /// The plan of a program from a guess. States that no sensor sees begin in equilibrium under the inputs that the plan begins
-    /// with, as they do where a plan is driven, and while inputs wait time goes on: planned again until both agree.
-    fn begun_at_rest<'a>(&self, mut program: Program<'a>, guess: Point) -> Option<Found<'a>> {
-        let (mut point, mut cost) = solved(&program, guess)?;
+    /// The best plan of a program from a guess and the state that it begins with.
+    fn searched<'a>(&self, mut program: Program<'a>, guess: Point, begins: &[f64]) -> Option<Found<'a>> {
+        let point = continued(&mut program, guess, begins)?;
+        let (program, point) = self.begun_at_rest(program, point)?;
+        Some(Found { cost: program.cost(&point), program, point })
+    }
+
+    /// The plan near one that the search found.
+    fn exactly(&self, mut program: Program, guess: Point) -> Option<Plan> {
+        (program.shooting.integrator, program.tolerance) = exact();
+        let point = near_to(&program, guess)?;
+        let (program, Point { states, coefficients, duration }) = self.begun_at_rest(program, point)?;
+        let states = std::iter::once(program.start).chain(states).collect();
+        let (spline, dead_time, smoothed) = (program.shooting.spline, self.dead_time.clone(), self.smoothed);
+        Some(Plan { spline, coefficients, duration, dead_time, smoothed, states })
+    }
+
+    /// A plan whose states that no sensor sees begin in equilibrium under the inputs that it begins with, as they do where it is
+    /// driven, and while inputs wait time goes on: planned again until both agree.
+    fn begun_at_rest<'a>(&self, mut program: Program<'a>, mut point: Point) -> Option<(Program<'a>, Point)> {
         for _ in 0..MOST_STARTS {
             let first = program.shooting.first_inputs(&point.coefficients, point.duration);
             let begun = self.begun(&first)?;
@@ -183,19 +202,9 @@ impl Planner {
                 break;
             }
             program.start = begun;
-            (point, cost) = solved(&program, point)?;
+            point = near_to(&program, point)?;
         }
-        Some(Found { program, point, cost })
-    }
-
-    /// The plan near one that the search found.
-    fn exactly(&self, mut program: Program, guess: Point) -> Option<Plan> {
-        (program.shooting.integrator, program.tolerance) = exact();
-        let Found { program, point: Point { states, coefficients, duration }, .. } =
-            self.begun_at_rest(program, guess)?;
-        let states = std::iter::once(program.start).chain(states).collect();
-        let (spline, dead_time, smoothed) = (program.shooting.spline, self.dead_time.clone(), self.smoothed);
-        Some(Plan { spline, coefficients, duration, dead_time, smoothed, states })
+        Some((program, point))
     }
 
     /// The states when the motion begins, under the inputs that it begins with; none where they are undefined.
@@ -232,8 +241,8 @@ impl Planner {
         all
     }
 
-    /// Poses of the tracked point as poses of the body, as if a train were straight.
-    fn on_body(&self, poses: &[[f64; 3]], task: &Task) -> Vec<[f64; 3]> {
+    /// A curve of the tracked point as one of the body, as if a train were straight.
+    fn on_body(&self, curve: &Curve, task: &Task) -> Curve {
         let straight = |heading: f64| straight(&self.start, &self.equations, [0.0, 0.0, heading]);
         let offset = self.point.at(&straight(0.0)).0;
         let turn = if task.of_trailer == 0 { offset[2] } else { 0.0 };
@@ -241,7 +250,7 @@ impl Planner {
             let at = self.point.at(&straight(heading - turn)).0;
             [x - at[0], y - at[1], heading - turn]
         };
-        poses.iter().map(body).collect()
+        Curve { poses: curve.poses.iter().map(body).collect(), ahead: curve.ahead.clone(), length: curve.length }
     }
 
     /// A duration in which limits let a curve be followed with ease.

@@ -35,21 +35,26 @@ impl QuadraticProgram {
         Self { equal_to: self.equal_to.iter().map(|b| share * b).collect(), ..self.clone() }
     }
 
-    /// The solution; none where there is no feasible point.
-    pub fn solution(&self) -> Option<Solution> {
+    /// The program whose solution is the least x, by weights of its squares, in place of the one of least cost.
+    pub fn nearest(self, weights: Vec<f64>) -> Self {
+        let quadratic = weights.iter().enumerate().map(|(i, w)| (i, i, *w)).collect();
+        Self { quadratic, linear: vec![0.0; weights.len()], ..self }
+    }
+
+    /// The solution to an accuracy; none where there is no feasible point.
+    pub fn solution(&self, accuracy: f64) -> Option<Solution> {
         let (n, equations, bounds) = (self.linear.len(), self.equal_to.len(), self.below_of.len());
         let p = csc(n, n, &self.quadratic);
         let lowered = self.below.iter().map(|(i, j, v)| (equations + i, *j, *v));
         let a = csc(equations + bounds, n, &self.equal.iter().copied().chain(lowered).collect::<Vec<_>>());
         let b = [&self.equal_to[..], &self.below_of].concat();
         let cones = [SupportedConeT::ZeroConeT(equations), SupportedConeT::NonnegativeConeT(bounds)];
-        let tight = 1e-11;
         let settings = DefaultSettingsBuilder::default()
             .verbose(false)
             .max_threads(1)
-            .tol_gap_abs(tight)
-            .tol_gap_rel(tight)
-            .tol_feas(tight)
+            .tol_gap_abs(accuracy)
+            .tol_gap_rel(accuracy)
+            .tol_feas(accuracy)
             .build()
             .ok()?;
         let mut solver = DefaultSolver::new(&p, &self.linear, &a, &b, &cones, settings).ok()?;
@@ -82,9 +87,9 @@ mod tests {
             below: vec![(0, 0, 1.0)],
             below_of: vec![0.5],
         };
-        let found = program.solution().unwrap();
+        let found = program.solution(1e-11).unwrap();
         assert!((found.x[0] - 0.5).abs() < 1e-8 && (found.x[1] - 1.5).abs() < 1e-8, "{found:?}");
         let none = QuadraticProgram { below: vec![(0, 0, 1.0), (1, 0, -1.0)], below_of: vec![0.5, -1.0], ..program };
-        assert_eq!(none.solution(), None);
+        assert_eq!(none.solution(1e-11), None);
     }
 }

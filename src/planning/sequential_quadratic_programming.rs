@@ -1,12 +1,16 @@
 //! Sequential quadratic programming (Nocedal and Wright, *Numerical Optimization*, 2006, chapter 18): steps by linearised equations
 //! and the curvature of the cost, as far as they lower the l₁ merit function.
 
+use super::quadratic_program::QuadraticProgram;
 use super::transcription::{Point, Program};
 
 /// Steps at most.
 const STEPS: usize = 80;
-/// A relative change of the cost that is not worth another step.
-const SETTLED: f64 = 1e-6;
+/// A relative change of the cost that is not worth another step, and how many steps in a row may bring no more.
+const SETTLED: f64 = 1e-4;
+const IDLE: usize = 3;
+/// Projections onto the equations at most.
+const PROJECTIONS: usize = 12;
 /// Shares of what equations are off by that a step tries to take back, for limits that do not let it take back all.
 const SHARES: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
 
@@ -20,10 +24,11 @@ struct Iterate {
 /// A point at which equations hold, and its cost; none where the steps do not lead to one.
 pub fn solved(program: &Program, start: Point) -> Option<(Point, f64)> {
     let mut here = Iterate::at(program, start)?;
-    let (mut penalty, mut damping, mut settled) = (1.0, 1e-3, 0);
+    let (mut penalty, mut damping, mut best, mut idle) = (1.0, 1e-3, f64::INFINITY, 0);
     for _ in 0..STEPS {
-        let Some((step, multiplier)) = step(program, &here.point, damping) else { break };
-        penalty = f64::max(penalty, 2.0 * multiplier);
+        let Some(step) = Step::from(program, &here.point, damping) else { break };
+        // Powell's rule: as large as multipliers ask for, and no larger for long.
+        penalty = f64::max(2.0 * step.multiplier, 0.5 * (penalty + 2.0 * step.multiplier)).max(1.0);
         let Some((next, halvings)) = here.along(program, &step, penalty) else {
             damping *= 10.0;
             if damping > 1e4 {
@@ -32,14 +37,59 @@ pub fn solved(program: &Program, start: Point) -> Option<(Point, f64)> {
             continue;
         };
         damping = if halvings == 0 { f64::max(damping * 0.3, 1e-6) } else { (damping * 3.0).min(1e3) };
-        let is_small = (next.cost - here.cost).abs() < SETTLED * next.cost.abs().max(1e-3);
         here = next;
-        settled = if is_small && here.off() < program.tolerance { settled + 1 } else { 0 };
-        if settled == 2 {
+        if here.off() < program.tolerance {
+            idle = if here.cost < best - SETTLED * best.abs().min(1.0) { 0 } else { idle + 1 };
+            best = best.min(here.cost);
+        }
+        if idle == IDLE {
             break;
         }
     }
     (here.off() < 10.0 * program.tolerance).then_some((here.point, here.cost))
+}
+
+/// The point near one at which equations hold: the nearest one of the linearised equations, again and again, whatever it costs.
+pub fn restored(program: &Program, start: Point) -> Option<Point> {
+    let mut here = Iterate::at(program, start)?;
+    for _ in 0..PROJECTIONS {
+        if here.off() <= program.tolerance {
+            return Some(here.point);
+        }
+        let nearest = program.step(&here.point, 0.0).ok()?.nearest(program.distances());
+        here = Iterate::at(program, program.moved(&here.point, &nearest.solution(0.1 * program.tolerance)?.x, 1.0))?;
+    }
+    None
+}
+
+/// A step and the quadratic program that it solves.
+struct Step {
+    along: Vec<f64>,
+    /// The largest multiplier of an equation.
+    multiplier: f64,
+    program: QuadraticProgram,
+}
+
+impl Step {
+    fn from(program: &Program, point: &Point, damping: f64) -> Option<Self> {
+        let whole = program.step(point, damping).ok()?;
+        SHARES.into_iter().find_map(|share| {
+            let asked = whole.with_share(share);
+            let found = asked.solution(0.1 * program.tolerance)?;
+            Some(Self { along: found.x, multiplier: found.multiplier, program: asked })
+        })
+    }
+
+    /// The second-order correction (Nocedal and Wright 18.3): the step that takes back the curvature of the equations as well,
+    /// which this one met.
+    fn corrected(&self, before: &[f64], after: &[f64], accuracy: f64) -> Option<Vec<f64>> {
+        let mut program = self.program.clone();
+        for (to, (before, after)) in program.equal_to.iter_mut().zip(before.iter().zip(after)) {
+            let foreseen = before + *to;
+            *to -= after - foreseen;
+        }
+        Some(program.solution(accuracy)?.x)
+    }
 }
 
 impl Iterate {
@@ -58,27 +108,34 @@ impl Iterate {
         self.cost + penalty * self.violations.iter().map(|v| v.abs()).sum::<f64>()
     }
 
-    /// The first point along a step, halved as often as needed, that lowers the merit, and how often it was halved. Where equations
-    /// hold to rounding the merit may rise by as much.
-    fn along(&self, program: &Program, step: &[f64], penalty: f64) -> Option<(Self, i32)> {
+    /// The first point along a step, corrected, then halved as often as needed, that lowers the merit, and how often it was halved.
+    /// Where equations hold to rounding the merit may rise by as much.
+    fn along(&self, program: &Program, step: &Step, penalty: f64) -> Option<(Self, i32)> {
         let (before, tolerance) = (self.merit(penalty), program.tolerance);
-        (0..12).find_map(|halvings| {
-            let there = Self::at(program, program.moved(&self.point, step, 0.5_f64.powi(halvings)))?;
+        let lower = |there: &Self| {
             let (merit, is_near) = (there.merit(penalty), there.off() < tolerance && self.off() < 1e3 * tolerance);
-            let lower =
-                merit < before - 1e-12 * before.abs() || is_near && merit <= before + 10.0 * tolerance * before.abs();
-            lower.then_some((there, halvings))
+            merit < before - 1e-12 * before.abs() || is_near && merit <= before + 10.0 * tolerance * before.abs()
+        };
+        let whole = Self::at(program, program.moved(&self.point, &step.along, 1.0));
+        if let Some(whole) = whole {
+            if lower(&whole) {
+                return Some((whole, 0));
+            }
+            // Nearer than that a correction is lost in how exactly the motion is followed.
+            let curved = (whole.off() > 10.0 * tolerance).then_some(&whole.violations);
+            let correction = curved.and_then(|after| step.corrected(&self.violations, after, 0.1 * tolerance));
+            let corrected = correction.and_then(|by| Self::at(program, program.moved(&self.point, &by, 1.0)));
+            if let Some(corrected) = corrected.filter(lower) {
+                return Some((corrected, 0));
+            }
+        }
+        (1..12).find_map(|halvings| {
+            let there = Self::at(program, program.moved(&self.point, &step.along, 0.5_f64.powi(halvings)))?;
+            lower(&there).then_some((there, halvings))
         })
     }
 }
 
 fn size(violations: &[f64]) -> f64 {
     violations.iter().fold(0.0, |most, v| if v.is_finite() { most.max(v.abs()) } else { f64::INFINITY })
-}
-
-/// The step from a point, and the largest multiplier of its equations.
-fn step(program: &Program, point: &Point, damping: f64) -> Option<(Vec<f64>, f64)> {
-    let whole = program.step(point, damping).ok()?;
-    let found = SHARES.into_iter().find_map(|share| whole.with_share(share).solution())?;
-    Some((found.x, found.multiplier))
 }

@@ -73,39 +73,34 @@ pub struct Point {
     pub duration: f64,
 }
 
-/// The weight of distances from a path beside the duration's, by a metre squared.
-const PATH: f64 = 100.0;
-/// A curvature for what no cost asks for.
-const REGULARISATION: f64 = 1e-8;
-
 impl Program<'_> {
-    fn n(&self) -> usize {
+    pub(super) fn n(&self) -> usize {
         self.start.len()
     }
 
-    fn spans(&self) -> usize {
+    pub(super) fn spans(&self) -> usize {
         self.shooting.spline.spans
     }
 
-    fn per_channel(&self) -> usize {
+    pub(super) fn per_channel(&self) -> usize {
         self.shooting.spline.coefficients()
     }
 
     /// How many unknowns there are.
-    fn width(&self) -> usize {
+    pub(super) fn width(&self) -> usize {
         self.spans() * self.n() + self.limits.len() * self.per_channel() + 1
     }
 
     /// The place of a state's component at the end of a span.
-    fn of_state(&self, span: usize, i: usize) -> usize {
+    pub(super) fn of_state(&self, span: usize, i: usize) -> usize {
         span * self.n() + i
     }
 
-    fn of_coefficient(&self, channel: usize, j: usize) -> usize {
+    pub(super) fn of_coefficient(&self, channel: usize, j: usize) -> usize {
         self.spans() * self.n() + channel * self.per_channel() + j
     }
 
-    fn of_duration(&self) -> usize {
+    pub(super) fn of_duration(&self) -> usize {
         self.width() - 1
     }
 
@@ -138,22 +133,6 @@ impl Program<'_> {
     fn missed(&self, way: &Waypoint, at: &[f64; 3]) -> Vec<f64> {
         let (x, y, heading) = way.pose;
         [at[0] - x, at[1] - y].into_iter().chain(heading.map(|h| at[2] - h)).collect()
-    }
-
-    /// The cost of a point.
-    pub fn cost(&self, point: &Point) -> f64 {
-        let per = self.per_channel() as f64;
-        let mut cost = self.weights.time * point.duration / self.usual;
-        for (c, limit) in point.coefficients.iter().zip(self.limits) {
-            let of = |v: f64| (v / limit.scale()).powi(2);
-            cost += 0.5 * self.weights.effort * c.iter().map(|v| of(*v)).sum::<f64>() / per;
-            cost += 0.5 * self.weights.smoothness * c.windows(2).map(|w| of(w[1] - w[0])).sum::<f64>() * per;
-        }
-        let off = |(k, z): (usize, &Vec<f64>)| {
-            let at = self.point.at(z).0;
-            self.path.nearest([at[0], at[1]], self.share(k)).map_or(0.0, |foot| foot.off.powi(2))
-        };
-        cost + 0.5 * PATH * point.states.iter().enumerate().map(off).sum::<f64>()
     }
 
     /// The program of a step from a point that takes back all that equations are off by.
@@ -241,47 +220,6 @@ impl Program<'_> {
                 below(&[(self.of_state(k, ahead), sign), (self.of_state(k, own), -sign)], bend - sign * bent);
             }
         }
-    }
-
-    fn costs(&self, point: &Point, damping: f64, program: &mut QuadraticProgram) {
-        let mut add = |i: usize, j: usize, v: f64| program.quadratic.push((i.min(j), i.max(j), v));
-        (0..self.spans() * self.n()).for_each(|i| add(i, i, REGULARISATION));
-        add(self.of_duration(), self.of_duration(), REGULARISATION + damping / self.usual.powi(2));
-        program.linear[self.of_duration()] += self.weights.time / self.usual;
-        let per = self.per_channel();
-        for (channel, limit) in self.limits.iter().enumerate() {
-            let c = &point.coefficients[channel];
-            let [effort, smoothness] = [self.weights.effort / per as f64, self.weights.smoothness * per as f64]
-                .map(|w| w / limit.scale().powi(2));
-            for j in 0..per {
-                let here = self.of_coefficient(channel, j);
-                add(here, here, effort + damping / limit.scale().powi(2));
-                program.linear[here] += effort * c[j];
-                if j + 1 < per {
-                    let ahead = here + 1;
-                    [here, ahead].into_iter().for_each(|i| add(i, i, smoothness));
-                    add(here, ahead, -smoothness);
-                    program.linear[ahead] += smoothness * (c[j + 1] - c[j]);
-                    program.linear[here] -= smoothness * (c[j + 1] - c[j]);
-                }
-            }
-        }
-        for (k, z) in point.states.iter().enumerate() {
-            let (at, slopes) = self.point.at(z);
-            let Some(foot) = self.path.nearest([at[0], at[1]], self.share(k)) else { continue };
-            let across = |a: usize| foot.normal[0] * slopes[(0, a)] + foot.normal[1] * slopes[(1, a)];
-            for a in 0..self.n() {
-                program.linear[self.of_state(k, a)] += PATH * foot.off * across(a);
-                for b in a..self.n() {
-                    add(self.of_state(k, a), self.of_state(k, b), PATH * across(a) * across(b));
-                }
-            }
-        }
-    }
-
-    /// The share of the duration at the end of a span.
-    fn share(&self, span: usize) -> f64 {
-        (span + 1) as f64 / self.spans() as f64
     }
 
     /// A point that lies a share of a step further.

@@ -15,6 +15,8 @@ const WORTH: [f64; 2] = [0.02, 0.05];
 const OF_TRAILERS: f64 = 0.3;
 /// How far, as a share of an input's range, a command may be from the planned one for that cost.
 const HALF: f64 = 0.5;
+/// To what commands are found, as a share of their limits.
+const ACCURACY: f64 = 1e-11;
 
 /// A controller of a model.
 pub struct PredictiveControl<'a> {
@@ -85,7 +87,7 @@ impl PredictiveControl<'_> {
         let linear = self.linearised(now, &first, &guess)?;
         let program = self.program(reference, now, &first, &guess, &linear);
         let channels = self.limits.len();
-        let Some(step) = program.solution() else { return Ok(guess) };
+        let Some(step) = program.solution(ACCURACY) else { return Ok(guess) };
         let moved = |(j, row): (usize, &Vec<f64>)| {
             let step = &step.x[j * channels..(j + 1) * channels];
             let inside = |((u, d), limit): ((&f64, &f64), &Limit)| (u + d).clamp(limit.range[0], limit.range[1]);

@@ -117,6 +117,25 @@ fn a_speed_that_lags_is_driven_in_a_usual_time() {
     assert!((number(&found["duration_s"]) / ideal - 1.0).abs() < 0.1, "{found:#}");
 }
 
+/// A train is backed, not driven about: what a second costs is the same wherever the search begins, and trailers begin where they
+/// would be drawn from. The ways are those of curves without a detour, a third longer at most.
+#[test]
+fn trains_are_backed_without_detours() {
+    let dir = tempfile::tempdir().unwrap();
+    for (lengths, of, goal, most) in [("1.5", "0", "-8,1.5,0.2", 11.0), ("1.5, 1.5, 1.5", "3", "-10,3,0", 20.0)] {
+        let offsets = lengths.replace("1.5", "0.0");
+        let model = format!(
+            "vehicle = \"n-trailer\"\ntractor = \"car\"\n[parameters]\nwheel_radius = 0.3\nwheelbase = 2.0\n\
+             trailer_lengths = [{lengths}]\nhitch_offsets = [{offsets}]\n{}",
+            effect("traverse-creep", "e_tc = 0.03")
+        );
+        let goal = format!("--goal={goal}");
+        let found = planned(dir.path(), &model, &[&goal, "--of-trailer", of, "--out", "plan.csv"]);
+        assert!(number(&found["reached"]["miss_m"]) < 1e-8, "{found:#}");
+        assert!(number(&found["length_m"]) < most, "{found:#}");
+    }
+}
+
 /// Theory, chapter 09: a plan made on the ideal wheel misses by (κ − 1)·z, whatever it is.
 #[test]
 fn the_plan_without_creep_misses_by_what_the_theory_says() {

@@ -5,7 +5,7 @@ use super::execution::{Executed, execute, spread};
 use super::infeasible::Infeasible;
 use super::path::Path;
 use super::plan::Plan;
-use super::planner::{plan, planned_near};
+use super::planner::{plan, planned_from, planned_near};
 use super::report::{Ideal, PlanReport, Reached, Spread};
 use super::task::Task;
 use crate::error::Result;
@@ -45,7 +45,7 @@ pub fn planned(
     let (found, executed) = corrected(found, model, task, timing)?;
     let ideal = match model.effects.is_empty() {
         true => None,
-        false => ideal(model, task, timing, progress)?,
+        false => ideal(model, task, timing, &found, progress)?,
     };
     let spread = match covariance {
         Some(covariance) => Some(spread(&found, task, model, timing, covariance)?),
@@ -95,10 +95,14 @@ fn off(executed: &Executed) -> f64 {
 const CORRECTIONS: usize = 8;
 const REACHED: f64 = 1e-9;
 
-/// What a plan made without effects does with them.
-fn ideal(model: &Model, task: &Task, timing: Timing, progress: &OnProgress) -> Result<Option<Ideal>> {
+/// What a plan made without effects does with them: the one that a search finds from the plan with them.
+fn ideal(model: &Model, task: &Task, timing: Timing, with: &Plan, progress: &OnProgress) -> Result<Option<Ideal>> {
     let without = Model { effects: vec![], ..model.clone() };
-    let Ok(found) = plan(&without, task, progress)? else { return Ok(None) };
+    let found = match planned_from(&without, task, with)? {
+        Some(found) => Some(found),
+        None => plan(&without, task, progress)?.ok(),
+    };
+    let Some(found) = found else { return Ok(None) };
     // Watched until its last command has acted.
     let found = Plan { dead_time: DeadTime::of(&model.equations(&[])?).unknown(), ..found };
     let executed = execute(&found, task, model, timing)?;

@@ -7,7 +7,7 @@
 //! | motion over a span, with exact derivatives | `shooting` |
 //! | what is to be reached: the sensor's pose, or a trailer's | `tracked_point`, `path` |
 //! | the nonlinear program, and steps to its solution | `transcription`, `cost`, `quadratic_program`, `sequential_quadratic_programming` |
-//! | where the search begins, and how it goes on from there | `initial_guess`, `trailing`, `continuation` |
+//! | where the search begins, and how it goes on from there | `first_guesses`, `initial_guess`, `trailing`, `continuation` |
 //! | inputs that act late, or do not act everywhere | `dead_time`, `smoothing` |
 //! | what no input changes | `reachability` |
 //! | the task; the plan, or why there is none | `task`, `planner`, `plan`, `infeasible` |
@@ -19,6 +19,7 @@ mod continuation;
 mod cost;
 mod dead_time;
 mod execution;
+mod first_guesses;
 mod infeasible;
 mod initial_guess;
 mod job;

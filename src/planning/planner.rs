@@ -5,7 +5,7 @@ use super::b_spline::BSpline;
 use super::continuation::{continued, near_to};
 use super::dead_time::DeadTime;
 use super::infeasible::Infeasible;
-use super::initial_guess::{Curve, curves, followed, nearest, point, straight};
+use super::initial_guess::{Curve, nearest, point, straight};
 use super::limits::Limit;
 use super::plan::Plan;
 use super::reachability::{Fixed, Motions};
@@ -83,13 +83,21 @@ pub(super) fn planned_near(model: &Model, task: &Task, near_to: &Plan) -> Result
     Ok(None)
 }
 
+/// The best plan for a task that a search finds from a plan for another model of the same vehicle, of whatever duration.
+///
+/// # Errors
+/// When the task does not fit the model.
+pub(super) fn planned_from(model: &Model, task: &Task, begun: &Plan) -> Result<Option<Plan>> {
+    let planner = Planner::of(model, task, 0.0)?;
+    let range = planner.moving(task).map_or([0.02 * begun.duration, LONGEST * begun.duration], |d| [d, d]);
+    let (mut program, guess) = planner.beside(task, begun, range);
+    program.usual = planner.a_usual_duration(task, &planner.guesses(task, &REACHES));
+    let found = planner.searched(program, guess, &planner.start);
+    Ok(found.and_then(|found| planner.exactly(found.program, found.point)))
+}
+
 fn near(planner: &Planner, task: &Task, plan: &Plan) -> Option<Plan> {
-    let states = plan.states[1..].to_vec();
-    let poses: Vec<[f64; 3]> = states.iter().map(|z| planner.point.at(z).0).collect();
-    let spans = legs(task.spans, task.poses.len());
-    let duration = ([plan.duration; 2], plan.duration);
-    let program = planner.program(task, plan.spline, Some(BEND), duration, (&poses, &spans));
-    let guess = Point { states, coefficients: plan.coefficients.clone(), duration: plan.duration };
+    let (program, guess) = planner.beside(task, plan, [plan.duration; 2]);
     planner.exactly(program, guess)
 }
 
@@ -100,10 +108,10 @@ struct Found<'a> {
     cost: f64,
 }
 
-struct Planner {
-    equations: Equations,
-    point: TrackedPoint,
-    start: Vec<f64>,
+pub(super) struct Planner {
+    pub(super) equations: Equations,
+    pub(super) point: TrackedPoint,
+    pub(super) start: Vec<f64>,
     dead_time: DeadTime,
     /// The width over which kinks are smoothed.
     smoothed: f64,
@@ -135,24 +143,16 @@ impl Planner {
     /// The best of the plans that the search finds from its first guesses.
     fn best(&self, task: &Task, bend: Option<f64>, reaches: &[f64], progress: &OnProgress) -> Result<Option<Plan>> {
         let spline = BSpline { degree: task.degree, spans: task.spans };
-        let (first, _) = self.point.at(&self.start);
         let spans = legs(task.spans, task.poses.len());
-        let through = self.poses(task, first);
-        let guesses: Vec<Vec<Curve>> = match task.path.length() > 0.0 {
-            true => vec![followed(&task.path, first, task.spans)],
-            false => reaches.iter().map(|reach| curves(&through, &spans, *reach)).collect(),
-        };
+        let guesses = self.guesses(task, reaches);
+        let a_usual = self.a_usual_duration(task, &guesses);
         let (tried, all) = (AtomicUsize::new(0), guesses.iter().map(Vec::len).sum());
-        let usual = |curve: &Curve| self.usual_duration(&self.on_body(curve, task), &task.limits);
-        // What a second costs is the same wherever a search begins.
-        let shortest = guesses.iter().flatten().map(usual).fold(f64::INFINITY, f64::min);
         let search = |curve: &Curve| {
             let on_body = self.on_body(curve, task);
             let usual = self.usual_duration(&on_body, &task.limits);
             let duration = self.moving(task).map_or([0.02 * usual, LONGEST * usual], |d| [d, d]);
             let begin = self.moving(task).unwrap_or(usual);
             let (guess, begins) = point(&on_body, &self.start, &self.equations, &task.limits, spline, begin);
-            let a_usual = self.moving(task).unwrap_or(shortest);
             let program = self.program(task, spline, bend, (duration, a_usual), (&curve.poses, &spans));
             let found = self.searched(program, guess, &begins);
             tell(progress, Stage::FirstGuesses, tried.fetch_add(1, Ordering::Relaxed) + 1, all)?;
@@ -169,8 +169,22 @@ impl Planner {
         Ok(None)
     }
 
+    /// The program of a task whose duration has a range, and a plan as a point of it: what no sensor sees is as at the start.
+    fn beside<'a>(&'a self, task: &'a Task, plan: &Plan, range: [f64; 2]) -> (Program<'a>, Point) {
+        let visible = self.equations.visible;
+        let seen = |z: &Vec<f64>| [&z[..visible], &self.start[visible..]].concat();
+        let states: Vec<Vec<f64>> = match plan.states[0].len() == self.start.len() {
+            true => plan.states[1..].to_vec(),
+            false => plan.states[1..].iter().map(seen).collect(),
+        };
+        let poses: Vec<[f64; 3]> = states.iter().map(|z| self.point.at(z).0).collect();
+        let spans = legs(task.spans, task.poses.len());
+        let program = self.program(task, plan.spline, Some(BEND), (range, plan.duration), (&poses, &spans));
+        (program, Point { states, coefficients: plan.coefficients.clone(), duration: plan.duration })
+    }
+
     /// How long the motion itself may take of a duration that is given.
-    fn moving(&self, task: &Task) -> Option<f64> {
+    pub(super) fn moving(&self, task: &Task) -> Option<f64> {
         task.duration.map(|d| (d - self.dead_time.longest).max(1e-3))
     }
 
@@ -223,48 +237,10 @@ impl Planner {
     }
 
     /// The pose at the start, with what no sensor sees in equilibrium under inputs.
-    fn in_equilibrium(&self, inputs: &[f64]) -> Vec<f64> {
+    pub(super) fn in_equilibrium(&self, inputs: &[f64]) -> Vec<f64> {
         let mut states = self.start[..self.equations.visible].to_vec();
         states.extend(initial_hidden(&self.equations, &[], inputs, &states));
         states
-    }
-
-    /// The start, then the poses to pass, a heading that does not matter along the way to the next.
-    fn poses(&self, task: &Task, first: [f64; 3]) -> Vec<[f64; 3]> {
-        let mut all = vec![first];
-        for (i, (x, y, heading)) in task.poses.iter().enumerate() {
-            let [x0, y0, before] = all[i];
-            let on = task.poses.get(i + 1).map_or((*x, *y, x0, y0), |(x1, y1, _)| (*x1, *y1, x0, y0));
-            let along = (on.1 - on.3).atan2(on.0 - on.2);
-            all.push([*x, *y, nearest(heading.unwrap_or(along), before)]);
-        }
-        all
-    }
-
-    /// A curve of the tracked point as one of the body, as if a train were straight.
-    fn on_body(&self, curve: &Curve, task: &Task) -> Curve {
-        let straight = |heading: f64| straight(&self.start, &self.equations, [0.0, 0.0, heading]);
-        let offset = self.point.at(&straight(0.0)).0;
-        let turn = if task.of_trailer == 0 { offset[2] } else { 0.0 };
-        let body = |[x, y, heading]: &[f64; 3]| {
-            let at = self.point.at(&straight(heading - turn)).0;
-            [x - at[0], y - at[1], heading - turn]
-        };
-        Curve { poses: curve.poses.iter().map(body).collect(), ahead: curve.ahead.clone(), length: curve.length }
-    }
-
-    /// A duration in which limits let a curve be followed with ease.
-    fn usual_duration(&self, curve: &Curve, limits: &[Limit]) -> f64 {
-        let mut w = self.equations.workspace(&[]);
-        let mut rates = vec![0.0; self.equations.n()];
-        let mut full: Vec<f64> = limits.iter().map(|l| if l.rests { l.scale() } else { 0.0 }).collect();
-        full.resize(self.equations.inputs.len(), 0.0);
-        // A speed that follows the wheels has followed them.
-        self.equations.rates(&mut w, &self.in_equilibrium(&full), &full, &mut rates);
-        let speed = rates[0].hypot(rates[1]).max(1e-3);
-        let turned: f64 = curve.poses.windows(2).map(|p| (p[1][2] - p[0][2]).abs()).sum();
-        let slowest = limits.iter().map(|l| l.scale() / l.rate).fold(0.0, f64::max);
-        2.5 * curve.length / speed + 1.5 * turned + 2.0 * slowest
     }
 
     fn program<'a>(
@@ -301,7 +277,7 @@ impl Planner {
 }
 
 /// How many spans each leg has.
-fn legs(spans: usize, legs: usize) -> Vec<usize> {
+pub(super) fn legs(spans: usize, legs: usize) -> Vec<usize> {
     let end = |i: usize| spans * i / legs.max(1);
     (0..legs).map(|i| end(i + 1) - end(i)).collect()
 }

@@ -1,5 +1,6 @@
 //! Effects of a search that are dropped again, or put in the place of others.
 
+use super::memo::Question;
 use super::search::{Search, find, without_effect};
 use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
 use crate::discrepancy::estimation::fit::Effort;
@@ -78,6 +79,12 @@ impl Search<'_> {
     /// Fits with another effect in the place of a chosen one, best first, at the noise and jumps of the fit: those
     /// that promise a good part of what the chosen one gives.
     pub fn in_place_of(&self, fit: &Fit, effect: &Applied) -> Result<Vec<(Applied, Fit)>> {
+        let find = || self.found_in_place_of(fit, effect);
+        let Some(memo) = self.memo else { return find() };
+        memo.answer(Question::of(fit, effect, (self.library, &self.before.model.effects)), find)
+    }
+
+    fn found_in_place_of(&self, fit: &Fit, effect: &Applied) -> Result<Vec<(Applied, Fit)>> {
         let smaller = without_effect(&fit.model, effect, &self.before.model);
         let Some(bare) = self.problem.fit(&smaller, &fit.window_states, &fit.variances, Effort::SCREENING)? else {
             return Ok(vec![]);

@@ -36,7 +36,7 @@ impl Search<'_> {
         let Some(again) = smooth.fit(&fit.model, &fit.window_states, &fit.variances, Effort::FULL)? else {
             return Ok(None);
         };
-        let weighed = Search { problem: &smooth, ..*self }.weighed(&again, None, &[], progress)?;
+        let weighed = Search { problem: &smooth, memo: None, ..*self }.weighed(&again, None, &[], progress)?;
         let chosen: Vec<_> = weighed.into_iter().map(|w| w.effect).collect();
         Ok(self.fallen_by_value(&again, &chosen).map(|(applied, _)| applied))
     }

@@ -7,6 +7,7 @@ pub(crate) mod input_noise;
 pub(crate) mod input_sampling;
 mod interval_search;
 pub(crate) mod limits;
+mod memo;
 pub mod odd_run;
 pub mod other_vehicle;
 pub(crate) mod refusals;

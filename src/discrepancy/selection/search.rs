@@ -1,5 +1,6 @@
 //! Effects added to a model one or two at a time, each asked whether it predicts.
 
+use super::memo::Memo;
 use crate::discrepancy::estimation::fit::Effort;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::estimation::problem::Problem;
@@ -65,6 +66,8 @@ pub(crate) struct Search<'a> {
     pub exchanges: bool,
     /// Whether those the search begins with may be dropped.
     pub drops: bool,
+    /// What was asked of the problem, where it may be asked again.
+    pub memo: Option<&'a Memo>,
 }
 
 /// A model without an effect that was found; one that the model as given has with a value of its own has it again.
@@ -80,7 +83,7 @@ impl<'a> Search<'a> {
     /// The whole search over a library.
     pub fn over(problem: &'a Problem, before: &'a Fit, library: &'a [Effect]) -> Self {
         let size = before.model.applicable(library).len().max(1) as f64;
-        Self { problem, before, library, size, most: MOST, exchanges: true, drops: true }
+        Self { problem, before, library, size, most: MOST, exchanges: true, drops: true, memo: None }
     }
 
     /// What a candidate must gain beyond BIC because the library is large.

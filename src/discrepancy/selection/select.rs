@@ -2,6 +2,7 @@
 
 use super::candidates::FINALISTS;
 use super::input_sampling::{InputSampling, keep_sampled};
+use super::memo::Memo;
 use super::refusals::Standing;
 use super::scopes;
 use super::search::{Search, SearchState, find};
@@ -46,7 +47,8 @@ pub fn choose(problem: &Problem, model: &Model, library: &[Effect], progress: &O
     let starts = problem.starts(model)?;
     let Some(before) = problem.fit(model, &starts, &problem.variances, Effort::FULL)? else { return Ok(None) };
     let quick = transients::without_transients(library);
-    let selection = Search::over(problem, &before, &quick);
+    let memo = Memo::default();
+    let selection = Search { memo: Some(&memo), ..Search::over(problem, &before, &quick) };
     let named = transients::search(&selection, library, selection.grown(&before, progress)?)?;
     let grown = match scopes::search(&selection, &named, progress)? {
         Some(partial) if !remains(&partial.fit) && scopes::are_limits_told(&partial.fit) => partial,

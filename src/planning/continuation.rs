@@ -1,6 +1,7 @@
 //! Plans followed while a program changes (continuation; Allgower and Georg, *Numerical Continuation Methods*, 1990).
 
 use super::sequential_quadratic_programming::{restored, solved};
+use super::trailing::between;
 use super::transcription::{Point, Program};
 
 /// By how much the beginning of a guess moves at a time, m and rad.
@@ -14,17 +15,17 @@ pub fn continued(program: &mut Program, guess: Point, begins: &[f64]) -> Option<
     let mut point = guess;
     for part in 0..parts {
         let share = part as f64 / parts as f64;
-        program.start = begins.iter().zip(&start).map(|(a, b)| a + share * (b - a)).collect();
+        program.start = between(begins, &start, share);
         point = match part {
-            0 => solved(program, point)?.0,
+            0 => solved(program, point)?,
             _ => near_to(program, point)?,
         };
     }
     program.start = start;
-    Some(solved(program, point)?.0)
+    solved(program, point)
 }
 
 /// The point of a program near one that nearly is.
 pub fn near_to(program: &Program, point: Point) -> Option<Point> {
-    restored(program, point.clone()).or_else(|| Some(solved(program, point)?.0))
+    restored(program, point.clone()).or_else(|| solved(program, point))
 }

@@ -67,13 +67,13 @@ impl Program<'_> {
         (span + 1) as f64 / self.spans() as f64
     }
 
-    /// What the square of a change of each unknown counts: states by metres and radians, inputs and the duration by their sizes.
-    pub fn distances(&self) -> Vec<f64> {
-        let mut weights = vec![1.0; self.width()];
+    /// The curvature of a change of each unknown alone: states by metres and radians, inputs and the duration by their sizes.
+    pub(super) fn distances(&self, program: &mut QuadraticProgram) {
+        let mut add = |i: usize, size: f64| program.quadratic.push((i, i, size.powi(-2)));
+        (0..self.spans() * self.n()).for_each(|i| add(i, 1.0));
         for (channel, limit) in self.limits.iter().enumerate() {
-            (0..self.per_channel()).for_each(|j| weights[self.of_coefficient(channel, j)] = limit.scale().powi(-2));
+            (0..self.per_channel()).for_each(|j| add(self.of_coefficient(channel, j), limit.scale()));
         }
-        weights[self.of_duration()] = self.usual.powi(-2);
-        weights
+        add(self.of_duration(), self.usual);
     }
 }

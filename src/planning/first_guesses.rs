@@ -1,25 +1,30 @@
 //! Where a planner's searches begin: curves of the tracked point through the poses of a task, and how long they usually take.
 
-use super::initial_guess::{Curve, curves, followed, nearest, straight};
+use super::initial_guess::{Curve, FirstGuess, curves, followed, nearest, straight};
 use super::limits::Limit;
-use super::planner::{Planner, legs};
+use super::planner::Planner;
 use super::task::Task;
 
 impl Planner {
-    /// Curves to begin a search with, round by round.
-    pub(super) fn guesses(&self, task: &Task, reaches: &[f64]) -> Vec<Vec<Curve>> {
+    /// First guesses, round by round.
+    pub(super) fn guesses(&self, task: &Task, reaches: &[f64]) -> Vec<Vec<FirstGuess>> {
         let (first, _) = self.point.at(&self.start);
-        let (through, spans) = (self.poses(task, first), legs(task.spans, task.poses.len()));
-        match task.path.length() > 0.0 {
+        let (through, spans) = (self.poses(task, first), task.legs());
+        let rounds = match task.path.length() > 0.0 {
             true => vec![followed(&task.path, first, task.spans)],
             false => reaches.iter().map(|reach| curves(&through, &spans, *reach)).collect(),
-        }
+        };
+        let guess = |curve: Curve| {
+            let on_body = self.on_body(&curve, task);
+            let usual = self.usual_duration(&on_body, &task.limits);
+            FirstGuess { poses: curve.poses, on_body, usual }
+        };
+        rounds.into_iter().map(|round: Vec<Curve>| round.into_iter().map(guess).collect()).collect()
     }
 
     /// The duration by which costs measure time, the same wherever a search begins.
-    pub(super) fn a_usual_duration(&self, task: &Task, guesses: &[Vec<Curve>]) -> f64 {
-        let usual = |curve: &Curve| self.usual_duration(&self.on_body(curve, task), &task.limits);
-        let shortest = guesses.iter().flatten().map(usual).fold(f64::INFINITY, f64::min);
+    pub(super) fn a_usual_duration(&self, task: &Task, guesses: &[Vec<FirstGuess>]) -> f64 {
+        let shortest = guesses.iter().flatten().map(|guess| guess.usual).fold(f64::INFINITY, f64::min);
         self.moving(task).unwrap_or(shortest)
     }
 
@@ -36,7 +41,7 @@ impl Planner {
     }
 
     /// A curve of the tracked point as one of the body, as if a train were straight.
-    pub(super) fn on_body(&self, curve: &Curve, task: &Task) -> Curve {
+    fn on_body(&self, curve: &Curve, task: &Task) -> Curve {
         let straight = |heading: f64| straight(&self.start, &self.equations, [0.0, 0.0, heading]);
         let offset = self.point.at(&straight(0.0)).0;
         let turn = if task.of_trailer == 0 { offset[2] } else { 0.0 };
@@ -48,7 +53,7 @@ impl Planner {
     }
 
     /// A duration in which limits let a curve be followed with ease.
-    pub(super) fn usual_duration(&self, curve: &Curve, limits: &[Limit]) -> f64 {
+    fn usual_duration(&self, curve: &Curve, limits: &[Limit]) -> f64 {
         let mut w = self.equations.workspace(&[]);
         let mut rates = vec![0.0; self.equations.n()];
         let mut full: Vec<f64> = limits.iter().map(|l| if l.rests { l.scale() } else { 0.0 }).collect();

@@ -20,6 +20,16 @@ pub struct Curve {
     pub length: f64,
 }
 
+/// Where a search begins.
+pub struct FirstGuess {
+    /// Poses of the tracked point at the ends of spans.
+    pub poses: Vec<[f64; 3]>,
+    /// The curve that the body follows.
+    pub on_body: Curve,
+    /// How long that usually takes, s.
+    pub usual: f64,
+}
+
 /// A leg from a pose to a pose, forward or backward at either end.
 #[derive(Clone, Copy, Debug)]
 struct Leg {

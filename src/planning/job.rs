@@ -99,8 +99,8 @@ const REACHED: f64 = 1e-9;
 fn ideal(model: &Model, task: &Task, timing: Timing, with: &Plan, progress: &OnProgress) -> Result<Option<Ideal>> {
     let without = Model { effects: vec![], ..model.clone() };
     let found = match planned_from(&without, task, with)? {
-        Some(found) => Some(found),
         None => plan(&without, task, progress)?.ok(),
+        found => found,
     };
     let Some(found) = found else { return Ok(None) };
     // Watched until its last command has acted.

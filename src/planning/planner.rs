@@ -5,7 +5,7 @@ use super::b_spline::BSpline;
 use super::continuation::{continued, near_to};
 use super::dead_time::DeadTime;
 use super::infeasible::Infeasible;
-use super::initial_guess::{Curve, nearest, point, straight};
+use super::initial_guess::{FirstGuess, nearest, point, straight};
 use super::limits::Limit;
 use super::plan::Plan;
 use super::reachability::{Fixed, Motions};
@@ -89,15 +89,14 @@ pub(super) fn planned_near(model: &Model, task: &Task, near_to: &Plan) -> Result
 /// When the task does not fit the model.
 pub(super) fn planned_from(model: &Model, task: &Task, begun: &Plan) -> Result<Option<Plan>> {
     let planner = Planner::of(model, task, 0.0)?;
-    let range = planner.moving(task).map_or([0.02 * begun.duration, LONGEST * begun.duration], |d| [d, d]);
-    let (mut program, guess) = planner.beside(task, begun, range);
-    program.usual = planner.a_usual_duration(task, &planner.guesses(task, &REACHES));
+    let a_usual = planner.a_usual_duration(task, &planner.guesses(task, &REACHES));
+    let (program, guess) = planner.beside(task, begun, (planner.durations(task, begun.duration), a_usual));
     let found = planner.searched(program, guess, &planner.start);
     Ok(found.and_then(|found| planner.exactly(found.program, found.point)))
 }
 
 fn near(planner: &Planner, task: &Task, plan: &Plan) -> Option<Plan> {
-    let (program, guess) = planner.beside(task, plan, [plan.duration; 2]);
+    let (program, guess) = planner.beside(task, plan, ([plan.duration; 2], plan.duration));
     planner.exactly(program, guess)
 }
 
@@ -143,17 +142,14 @@ impl Planner {
     /// The best of the plans that the search finds from its first guesses.
     fn best(&self, task: &Task, bend: Option<f64>, reaches: &[f64], progress: &OnProgress) -> Result<Option<Plan>> {
         let spline = BSpline { degree: task.degree, spans: task.spans };
-        let spans = legs(task.spans, task.poses.len());
+        let spans = task.legs();
         let guesses = self.guesses(task, reaches);
         let a_usual = self.a_usual_duration(task, &guesses);
         let (tried, all) = (AtomicUsize::new(0), guesses.iter().map(Vec::len).sum());
-        let search = |curve: &Curve| {
-            let on_body = self.on_body(curve, task);
-            let usual = self.usual_duration(&on_body, &task.limits);
-            let duration = self.moving(task).map_or([0.02 * usual, LONGEST * usual], |d| [d, d]);
-            let begin = self.moving(task).unwrap_or(usual);
-            let (guess, begins) = point(&on_body, &self.start, &self.equations, &task.limits, spline, begin);
-            let program = self.program(task, spline, bend, (duration, a_usual), (&curve.poses, &spans));
+        let search = |FirstGuess { poses, on_body, usual }: &FirstGuess| {
+            let begin = self.moving(task).unwrap_or(*usual);
+            let (guess, begins) = point(on_body, &self.start, &self.equations, &task.limits, spline, begin);
+            let program = self.program(task, spline, bend, (self.durations(task, *usual), a_usual), (poses, &spans));
             let found = self.searched(program, guess, &begins);
             tell(progress, Stage::FirstGuesses, tried.fetch_add(1, Ordering::Relaxed) + 1, all)?;
             Ok(found)
@@ -169,8 +165,9 @@ impl Planner {
         Ok(None)
     }
 
-    /// The program of a task whose duration has a range, and a plan as a point of it: what no sensor sees is as at the start.
-    fn beside<'a>(&'a self, task: &'a Task, plan: &Plan, range: [f64; 2]) -> (Program<'a>, Point) {
+    /// The program of a task with a range of durations and a usual one, and a plan as a point of it: what no sensor sees is as at the
+    /// start where it is not the same.
+    fn beside<'a>(&'a self, task: &'a Task, plan: &Plan, durations: ([f64; 2], f64)) -> (Program<'a>, Point) {
         let visible = self.equations.visible;
         let seen = |z: &Vec<f64>| [&z[..visible], &self.start[visible..]].concat();
         let states: Vec<Vec<f64>> = match plan.states[0].len() == self.start.len() {
@@ -178,14 +175,18 @@ impl Planner {
             false => plan.states[1..].iter().map(seen).collect(),
         };
         let poses: Vec<[f64; 3]> = states.iter().map(|z| self.point.at(z).0).collect();
-        let spans = legs(task.spans, task.poses.len());
-        let program = self.program(task, plan.spline, Some(BEND), (range, plan.duration), (&poses, &spans));
+        let program = self.program(task, plan.spline, Some(BEND), durations, (&poses, &task.legs()));
         (program, Point { states, coefficients: plan.coefficients.clone(), duration: plan.duration })
     }
 
     /// How long the motion itself may take of a duration that is given.
     pub(super) fn moving(&self, task: &Task) -> Option<f64> {
         task.duration.map(|d| (d - self.dead_time.longest).max(1e-3))
+    }
+
+    /// The least and the most that a motion may take whose first guess takes a while.
+    fn durations(&self, task: &Task, guessed: f64) -> [f64; 2] {
+        self.moving(task).map_or([0.02 * guessed, LONGEST * guessed], |d| [d, d])
     }
 
     /// The best plan of a program from a guess and the state that it begins with.
@@ -274,10 +275,4 @@ impl Planner {
             tolerance,
         }
     }
-}
-
-/// How many spans each leg has.
-pub(super) fn legs(spans: usize, legs: usize) -> Vec<usize> {
-    let end = |i: usize| spans * i / legs.max(1);
-    (0..legs).map(|i| end(i + 1) - end(i)).collect()
 }

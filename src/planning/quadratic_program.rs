@@ -35,12 +35,6 @@ impl QuadraticProgram {
         Self { equal_to: self.equal_to.iter().map(|b| share * b).collect(), ..self.clone() }
     }
 
-    /// The program whose solution is the least x, by weights of its squares, in place of the one of least cost.
-    pub fn nearest(self, weights: Vec<f64>) -> Self {
-        let quadratic = weights.iter().enumerate().map(|(i, w)| (i, i, *w)).collect();
-        Self { quadratic, linear: vec![0.0; weights.len()], ..self }
-    }
-
     /// The solution to an accuracy; none where there is no feasible point.
     pub fn solution(&self, accuracy: f64) -> Option<Solution> {
         let (n, equations, bounds) = (self.linear.len(), self.equal_to.len(), self.below_of.len());

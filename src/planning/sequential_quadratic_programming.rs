@@ -21,8 +21,8 @@ struct Iterate {
     violations: Vec<f64>,
 }
 
-/// A point at which equations hold, and its cost; none where the steps do not lead to one.
-pub fn solved(program: &Program, start: Point) -> Option<(Point, f64)> {
+/// A point at which equations hold; none where the steps do not lead to one.
+pub fn solved(program: &Program, start: Point) -> Option<Point> {
     let mut here = Iterate::at(program, start)?;
     let (mut penalty, mut damping, mut best, mut idle) = (1.0, 1e-3, f64::INFINITY, 0);
     for _ in 0..STEPS {
@@ -46,7 +46,7 @@ pub fn solved(program: &Program, start: Point) -> Option<(Point, f64)> {
             break;
         }
     }
-    (here.off() < 10.0 * program.tolerance).then_some((here.point, here.cost))
+    (here.off() < 10.0 * program.tolerance).then_some(here.point)
 }
 
 /// The point near one at which equations hold: the nearest one of the linearised equations, again and again, whatever it costs.
@@ -56,8 +56,8 @@ pub fn restored(program: &Program, start: Point) -> Option<Point> {
         if here.off() <= program.tolerance {
             return Some(here.point);
         }
-        let nearest = program.step(&here.point, 0.0).ok()?.nearest(program.distances());
-        here = Iterate::at(program, program.moved(&here.point, &nearest.solution(0.1 * program.tolerance)?.x, 1.0))?;
+        let step = program.projection(&here.point).ok()?.solution(0.1 * program.tolerance)?.x;
+        here = Iterate::at(program, program.moved(&here.point, &step, 1.0))?;
     }
     None
 }

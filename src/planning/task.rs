@@ -55,4 +55,10 @@ impl Task {
         states.extend(initial_hidden(equations, p, &vec![0.0; equations.inputs.len()], &states));
         Ok(states)
     }
+
+    /// How many polynomial pieces each leg to a pose has.
+    pub fn legs(&self) -> Vec<usize> {
+        let end = |i: usize| self.spans * i / self.poses.len().max(1);
+        (0..self.poses.len()).map(|i| end(i + 1) - end(i)).collect()
+    }
 }

@@ -11,6 +11,9 @@ const DRAWN: usize = 10;
 /// Lets trailers follow the body: ahead from where they are, backward as they would have been drawn the other way from straight
 /// behind it, for only drawn they come to rest.
 pub fn trail(equations: &Equations, states: &mut [Vec<f64>], inputs: &[Vec<f64>], ahead: &[bool], step: f64) {
+    if equations.poses <= 3 {
+        return;
+    }
     for k in (0..ahead.len()).rev().filter(|k| !ahead[*k]) {
         states[k] = trailed(equations, [&states[k + 1], &states[k]], &inputs[k], -step);
     }

@@ -140,13 +140,29 @@ impl Program<'_> {
     /// # Errors
     /// When the motion from the point is undefined.
     pub fn step(&self, point: &Point, damping: f64) -> Result<QuadraticProgram> {
+        let mut program = self.linearised(point)?;
+        self.costs(point, damping, &mut program);
+        Ok(program)
+    }
+
+    /// The program of the least change of a point that does, whatever it costs.
+    ///
+    /// # Errors
+    /// When the motion from the point is undefined.
+    pub fn projection(&self, point: &Point) -> Result<QuadraticProgram> {
+        let mut program = self.linearised(point)?;
+        self.distances(&mut program);
+        Ok(program)
+    }
+
+    /// Equations and limits at a point, without a cost.
+    fn linearised(&self, point: &Point) -> Result<QuadraticProgram> {
         let span = |k: usize| self.shooting.span(self.before(point, k), &point.coefficients, k, point.duration);
         let spans: Vec<Span> = (0..self.spans()).into_par_iter().map(span).collect::<Result<_>>()?;
         let mut program = QuadraticProgram { linear: vec![0.0; self.width()], ..QuadraticProgram::default() };
         self.joined(point, &spans, &mut program);
         self.reached(point, &mut program);
         self.bounded(point, &mut program);
-        self.costs(point, damping, &mut program);
         Ok(program)
     }
 

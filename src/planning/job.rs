@@ -1,11 +1,12 @@
 //! Planning as a job: the plan, what becomes of it, and what would have become of one made without creep.
 
+use super::correction::corrected;
 use super::dead_time::DeadTime;
 use super::execution::{Executed, execute, spread};
 use super::infeasible::Infeasible;
 use super::path::Path;
 use super::plan::Plan;
-use super::planner::{plan, planned_from, planned_near};
+use super::planner::{plan, planned_from};
 use super::report::{Ideal, PlanReport, Reached, Spread};
 use super::task::Task;
 use crate::error::Result;
@@ -64,36 +65,6 @@ pub fn planned(
     };
     Ok(Ok(Planned { plan: found, report, executed }))
 }
-
-/// A plan and what becomes of its rows. Rows are not quite the planned inputs where these wait for one another, or bend between
-/// rows: as far as they lead beside the goal a plan is made for a goal as far on the other side.
-fn corrected(mut found: Plan, model: &Model, task: &Task, timing: Timing) -> Result<(Plan, Executed)> {
-    let mut executed = execute(&found, task, model, timing)?;
-    let mut aimed = task.clone();
-    for _ in 0..CORRECTIONS {
-        let Some(pose) = aimed.poses.last_mut().filter(|_| off(&executed) > REACHED) else { break };
-        let Some((x, y, _)) = task.poses.last() else { break };
-        pose.0 -= executed.end[0] - x;
-        pose.1 -= executed.end[1] - y;
-        pose.2 = pose.2.map(|h| h - executed.heading_miss.unwrap_or(0.0));
-        let Some(again) = planned_near(model, &aimed, &found)? else { break };
-        let driven = execute(&again, task, model, timing)?;
-        if off(&driven) >= off(&executed) {
-            break;
-        }
-        (found, executed) = (again, driven);
-    }
-    Ok((found, executed))
-}
-
-/// How far a plan ends from its goal, m and rad.
-fn off(executed: &Executed) -> f64 {
-    executed.miss.max(executed.heading_miss.unwrap_or(0.0).abs())
-}
-
-/// Corrections of a plan at most, and an end that needs none, m and rad.
-const CORRECTIONS: usize = 8;
-const REACHED: f64 = 1e-9;
 
 /// What a plan made without effects does with them: the one that a search finds from the plan with them.
 fn ideal(model: &Model, task: &Task, timing: Timing, with: &Plan, progress: &OnProgress) -> Result<Option<Ideal>> {

@@ -11,11 +11,12 @@
 //! | inputs that act late, or do not act everywhere | `dead_time`, `smoothing` |
 //! | what no input changes | `reachability` |
 //! | the task; the plan, or why there is none | `task`, `planner`, `plan`, `infeasible` |
-//! | rows that a robot can be given, and what becomes of them on a model | `execution`, `plan_table` |
+//! | rows that a robot can be given, what becomes of them on a model, and how they lead to the goal | `plan_table`, `execution`, `correction` |
 //! | the job as a whole, its report, its words | `job`, `report`, `plan_text` |
 
 mod b_spline;
 mod continuation;
+mod correction;
 mod cost;
 mod dead_time;
 mod execution;

@@ -9,6 +9,7 @@ use super::initial_guess::{FirstGuess, nearest, point, straight};
 use super::limits::Limit;
 use super::plan::Plan;
 use super::reachability::{Fixed, Motions};
+use super::sequential_quadratic_programming::restored;
 use super::shooting::Shooting;
 use super::smoothing::{smoothed, widths};
 use super::task::Task;
@@ -49,7 +50,7 @@ pub fn plan(model: &Model, task: &Task, progress: &OnProgress) -> Result<std::re
     }
     if let Some(mut found) = planner.best(task, Some(BEND), &REACHES, progress)? {
         for width in &widths[1..] {
-            let Some(narrower) = near(&Planner::of(model, task, *width)?, task, &found) else { break };
+            let Some(narrower) = Planner::of(model, task, *width)?.near(task, &found) else { break };
             found = narrower;
         }
         return Ok(Ok(found));
@@ -70,19 +71,6 @@ pub fn plan(model: &Model, task: &Task, progress: &OnProgress) -> Result<std::re
     Ok(Err(why))
 }
 
-/// A plan for a task near one that there is, of the same duration, with kinks smoothed as little as leads to one.
-///
-/// # Errors
-/// When the task does not fit the model, or the motion is undefined at its start.
-pub(super) fn planned_near(model: &Model, task: &Task, near_to: &Plan) -> Result<Option<Plan>> {
-    for width in widths(model).iter().rev().skip_while(|width| **width < near_to.smoothed) {
-        if let Some(found) = near(&Planner::of(model, task, *width)?, task, near_to) {
-            return Ok(Some(found));
-        }
-    }
-    Ok(None)
-}
-
 /// The best plan for a task that a search finds from a plan for another model of the same vehicle, of whatever duration.
 ///
 /// # Errors
@@ -95,11 +83,6 @@ pub(super) fn planned_from(model: &Model, task: &Task, begun: &Plan) -> Result<O
     Ok(found.and_then(|found| planner.exactly(found.program, found.point)))
 }
 
-fn near(planner: &Planner, task: &Task, plan: &Plan) -> Option<Plan> {
-    let (program, guess) = planner.beside(task, plan, ([plan.duration; 2], plan.duration));
-    planner.exactly(program, guess)
-}
-
 /// A point at which the equations of a program hold.
 struct Found<'a> {
     program: Program<'a>,
@@ -109,6 +92,8 @@ struct Found<'a> {
 
 pub(super) struct Planner {
     pub(super) equations: Equations,
+    /// The equations with their kinks, by which states that no sensor sees begin.
+    driven: Equations,
     pub(super) point: TrackedPoint,
     pub(super) start: Vec<f64>,
     dead_time: DeadTime,
@@ -118,16 +103,17 @@ pub(super) struct Planner {
 
 impl Planner {
     /// Of a model whose kinks are smoothed over a width.
-    fn of(model: &Model, task: &Task, width: f64) -> Result<Self> {
+    pub(super) fn of(model: &Model, task: &Task, width: f64) -> Result<Self> {
+        let driven = model.equations(&[])?;
+        let start = task.first_states(&driven, &[])?;
         let model = smoothed(model, &task.limits, width);
         let equations = model.equations(&[])?;
         let point = TrackedPoint::of(&model, &equations, task.of_trailer)?;
-        let start = task.first_states(&equations, &[])?;
         if task.limits.len() != equations.logged() {
             return Err(Error::run("a limit is missing for an input of the model"));
         }
         let dead_time = DeadTime::of(&equations);
-        Ok(Self { equations, point, start, dead_time, smoothed: width })
+        Ok(Self { equations, driven, point, start, dead_time, smoothed: width })
     }
 
     /// What a pose of a task asks for, and no input changes.
@@ -179,6 +165,20 @@ impl Planner {
         (program, Point { states, coefficients: plan.coefficients.clone(), duration: plan.duration })
     }
 
+    /// The plan for a task near one for the task or another, of the same duration.
+    fn near(&self, task: &Task, plan: &Plan) -> Option<Plan> {
+        let (program, guess) = self.beside(task, plan, (self.durations(task, plan.duration), plan.duration));
+        self.exactly(program, guess)
+    }
+
+    /// As [`Self::near`], by projection alone.
+    pub(super) fn nearest_to(&self, task: &Task, plan: &Plan) -> Option<Plan> {
+        let (mut program, guess) = self.beside(task, plan, (self.durations(task, plan.duration), plan.duration));
+        (program.shooting.integrator, program.tolerance) = exact();
+        let point = restored(&program, guess)?;
+        self.begun_as_driven(program, point)
+    }
+
     /// How long the motion itself may take of a duration that is given.
     pub(super) fn moving(&self, task: &Task) -> Option<f64> {
         task.duration.map(|d| (d - self.dead_time.longest).max(1e-3))
@@ -200,6 +200,10 @@ impl Planner {
     fn exactly(&self, mut program: Program, guess: Point) -> Option<Plan> {
         (program.shooting.integrator, program.tolerance) = exact();
         let point = near_to(&program, guess)?;
+        self.begun_as_driven(program, point)
+    }
+
+    fn begun_as_driven(&self, program: Program, point: Point) -> Option<Plan> {
         let (program, Point { states, coefficients, duration }) = self.begun_at_rest(program, point)?;
         let states = std::iter::once(program.start).chain(states).collect();
         let (spline, dead_time, smoothed) = (program.shooting.spline, self.dead_time.clone(), self.smoothed);
@@ -234,13 +238,13 @@ impl Planner {
         let columns: Vec<Vec<f64>> = held[..logged].iter().map(|u| vec![*u; 2]).collect();
         let inputs = Signals::new(&times, &columns, Timing::Sample);
         let states = self.in_equilibrium(&held);
-        simulate(&self.equations, &[], &inputs, &states, &times, &Integrator::default()).ok()?.pop()
+        simulate(&self.driven, &[], &inputs, &states, &times, &Integrator::default()).ok()?.pop()
     }
 
     /// The pose at the start, with what no sensor sees in equilibrium under inputs.
     pub(super) fn in_equilibrium(&self, inputs: &[f64]) -> Vec<f64> {
         let mut states = self.start[..self.equations.visible].to_vec();
-        states.extend(initial_hidden(&self.equations, &[], inputs, &states));
+        states.extend(initial_hidden(&self.driven, &[], inputs, &states));
         states
     }
 

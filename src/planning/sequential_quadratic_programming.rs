@@ -11,6 +11,8 @@ const SETTLED: f64 = 1e-4;
 const IDLE: usize = 3;
 /// Projections onto the equations at most.
 const PROJECTIONS: usize = 12;
+/// How exactly the motion is followed at worst, as a multiple of the tolerance: across kinks, and over long ways.
+const FOLLOWED: f64 = 100.0;
 /// Shares of what equations are off by that a step tries to take back, for limits that do not let it take back all.
 const SHARES: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
 
@@ -50,16 +52,22 @@ pub fn solved(program: &Program, start: Point) -> Option<Point> {
 }
 
 /// The point near one at which equations hold: the nearest one of the linearised equations, again and again, whatever it costs.
+/// Where that brings them no nearer to the tolerance, what is left is how exactly the motion is followed.
 pub fn restored(program: &Program, start: Point) -> Option<Point> {
     let mut here = Iterate::at(program, start)?;
     for _ in 0..PROJECTIONS {
         if here.off() <= program.tolerance {
-            return Some(here.point);
+            break;
         }
         let step = program.projection(&here.point).ok()?.solution(0.1 * program.tolerance)?.x;
-        here = Iterate::at(program, program.moved(&here.point, &step, 1.0))?;
+        let next = Iterate::at(program, program.moved(&here.point, &step, 1.0))?;
+        let is_no_nearer = next.off() > 0.5 * here.off() && here.off() < FOLLOWED * program.tolerance;
+        here = if next.off() < here.off() { next } else { here };
+        if is_no_nearer {
+            return Some(here.point);
+        }
     }
-    None
+    (here.off() < 10.0 * program.tolerance).then_some(here.point)
 }
 
 /// A step and the quadratic program that it solves.

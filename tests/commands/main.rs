@@ -7,6 +7,7 @@ mod cli;
 mod daily_use;
 #[path = "../support/digits.rs"]
 mod digits;
+mod drawn_plans;
 mod edges;
 mod export;
 mod fit;

@@ -1,8 +1,6 @@
 //! `creepage plan`: goals that are reached under creep, by how much a plan without it misses, and what is told of the others.
 
 use crate::program::{creepage, stderr};
-use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -87,16 +85,20 @@ fn inputs_that_act_late_are_commanded_ahead() {
     }
 }
 
-/// A limit and a dead band have no slope where they act, and counts that are cut off jump: goals are reached all the same.
+/// A limit and a dead band have no slope where they act, play has a memory, and counts that are cut off jump: goals are reached all
+/// the same.
 #[test]
 fn inputs_with_kinks_are_planned_for() {
     let dir = tempfile::tempdir().unwrap();
     let short = CAR.replace("wheelbase = 2.0", "wheelbase = 0.5");
     let on_steering = |id: &str, value: &str| effect(id, &format!("input = \"steering_angle\"\n{value}"));
     let goal = [2.0, 1.0, 0.5];
-    for (id, value) in
-        [("input-saturation", "limit = 0.3"), ("input-dead-band", "width = 0.03"), ("input-truncation", "step = 0.03")]
-    {
+    for (id, value) in [
+        ("input-saturation", "limit = 0.3"),
+        ("input-dead-band", "width = 0.03"),
+        ("input-backlash", "width = 0.03"),
+        ("input-truncation", "step = 0.03"),
+    ] {
         let model = short.clone() + &on_steering(id, value);
         let found = planned(dir.path(), &model, &["--goal", "2,1,0.5", "--out", "plan.csv"]);
         assert!(number(&found["reached"]["miss_m"]) < 1e-6, "{found:#}");
@@ -246,45 +248,4 @@ fn a_goal_out_of_reach_is_told_with_the_reason_and_nothing_is_written() {
         );
         assert!(!dir.path().join("plan.csv").exists());
     }
-}
-
-/// Vehicles with creep and goals drawn from a seed: reached, or told.
-#[test]
-fn generated_goals_are_reached_or_told() {
-    let dir = tempfile::tempdir().unwrap();
-    let mut rng = ChaCha8Rng::seed_from_u64(11);
-    let cases = std::env::var("PLANS").ok().and_then(|n| n.parse().ok()).unwrap_or(9);
-    let mut told = 0;
-    for case in 0..cases {
-        let mut draw = |size: f64| size * rng.random_range(-1.0..1.0_f64);
-        let (a, b, reach) = (draw(0.06), draw(0.06), if case % 3 == 2 { 6.0 } else { 2.0 });
-        let goal = [draw(reach), draw(reach), draw(3.0)].map(|v| v.to_string()).join(",");
-        let model = match case % 3 {
-            0 => {
-                WHEEL.to_string()
-                    + &effect("rotation-creep", &format!("e_rc = {a}"))
-                    + &effect("traverse-creep", &format!("e_tc = {b}"))
-            }
-            1 => DRIVE.to_string() + &effect("unequal-rotation-creep", &format!("e_left = {a}\ne_right = {b}")),
-            _ => {
-                CAR.to_string()
-                    + &effect("front-traverse-creep", &format!("e_tc = {a}"))
-                    + &effect("traverse-creep", &format!("e_tc = {b}"))
-            }
-        };
-        fs::write(dir.path().join("model.toml"), &model).unwrap();
-        let goal = format!("--goal={goal}");
-        let output = creepage(dir.path(), &["plan", "model.toml", &goal, "--out", "plan.csv", "--format", "json"]);
-        match output.status.code() {
-            Some(0) => {
-                let found: Value = serde_json::from_slice(&output.stdout).unwrap();
-                assert!(number(&found["reached"]["miss_m"]) < 1e-8, "{model}{goal}: {found:#}");
-                assert!(number(&found["reached"]["miss_rad"]).abs() < 1e-8);
-            }
-            Some(1) => told += 1,
-            code => panic!("{code:?} {model}{goal}: {}", stderr(&output)),
-        }
-    }
-    println!("{told} of {cases} told to be out of reach");
-    assert!(20 * told <= cases, "{told} of {cases} were not reached");
 }

@@ -17,9 +17,10 @@ const NEWTON_TOLERANCE: f64 = 1e-13;
 /// | pose | visible states: x, y, phi, trailer headings |
 ///
 /// Newton's method on the hidden rates with their exact Jacobian, from zero, else from 1 and −1, since a law
-/// with |v| has no derivative at standstill. Zero for all of them where there is no such state or it is not
-/// isolated, as for a vehicle at standstill whose creep builds up over a distance. Source: the quasi-static values of the
-/// effects, −mass_over_bT·v_l·φ̇ and others.
+/// with |v| has no derivative at standstill. Of states that are not isolated the one that these steps come to first,
+/// as within the play of an input; zero for all of them where there is none or they come to none, as for a vehicle at
+/// standstill whose creep builds up over a distance. Source: the quasi-static values of the effects, −mass_over_bT·v_l·φ̇ and
+/// others.
 ///
 /// ```
 /// use creepage::effects::{self, Applied};
@@ -95,7 +96,8 @@ fn newton(z: &mut [f64], first: usize, mut f: impl FnMut(&[f64]) -> (DVector<f64
     }
     for _ in 0..MAX_NEWTON_STEPS {
         let (value, jacobian) = f(z);
-        let Some(step) = jacobian.lu().solve(&value) else { return false };
+        // Where equilibria are not isolated, as within the play of an input, the one that was come to first stands.
+        let Some(step) = jacobian.lu().solve(&value) else { return value.amax() <= NEWTON_TOLERANCE };
         if !step.iter().all(|v| v.is_finite()) {
             return false;
         }
@@ -105,4 +107,27 @@ fn newton(z: &mut [f64], first: usize, mut f: impl FnMut(&[f64]) -> (DVector<f64
         }
     }
     false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::{Applied, named};
+    use crate::model::Model;
+
+    /// Everything within the play of an input is at rest: what follows it begins at the edge that it comes to from zero.
+    #[test]
+    fn what_follows_with_play_begins_at_its_edge() {
+        let car = Model::new("car", &[("wheel_radius", 0.3), ("wheelbase", 2.0)]).unwrap();
+        let play = named("input-backlash").unwrap().on_input("steering_angle", "rad", 0.6);
+        let car = car.with_effect(Applied::new(&play, None, vec![0.03]));
+        let equations = car.equations(&[]).unwrap();
+        let at = equations.inputs.iter().position(|i| i.as_str() == "steering_angle").unwrap();
+        for (steering, begins) in [(0.1, 0.07), (0.088_494_735_81, 0.058_494_735_81), (-0.2, -0.17), (0.02, 0.0)] {
+            let mut inputs = vec![0.0; equations.inputs.len()];
+            inputs[at] = steering;
+            let hidden = initial_hidden(&equations, &[], &inputs, &[0.0; 3]);
+            assert!((hidden[0] - begins).abs() < 1e-12, "{steering}: {hidden:?}");
+        }
+    }
 }

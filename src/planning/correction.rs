@@ -1,0 +1,81 @@
+//! A plan brought to its goal as it is driven, by Broyden's method (Nocedal and Wright, *Numerical Optimization*, 2006, 11.1): rows
+//! are not quite the planned inputs where these wait for one another, or bend between rows, and kinks are planned for smoothed.
+
+use super::execution::{Executed, execute};
+use super::plan::Plan;
+use super::planner::Planner;
+use super::task::Task;
+use crate::error::Result;
+use crate::model::Model;
+use crate::motion::Timing;
+use nalgebra::{DMatrix, DVector};
+
+/// Plans at most that are made for another goal.
+const PLANS: usize = 8;
+/// How often a change of the goal that leads no nearer is halved.
+const HALVINGS: usize = 2;
+/// An end that is at the goal, m and rad.
+const REACHED: f64 = 1e-9;
+
+/// A plan and what becomes of its rows: as far as they lead beside the goal a plan near it is made for another goal, until the rows
+/// of that one lead to the goal, or no nearer.
+///
+/// # Errors
+/// When the motion is undefined.
+pub fn corrected(found: Plan, model: &Model, task: &Task, timing: Timing) -> Result<(Plan, Executed)> {
+    let mut best = (found.clone(), execute(&found, task, model, timing)?);
+    if task.poses.is_empty() || size(&best.1) <= REACHED {
+        return Ok(best);
+    }
+    let planner = Planner::of(model, task, found.smoothed)?;
+    let mut aim = DVector::zeros(off(&best.1).len());
+    // Where the goal of a plan is moved, its end moves as much.
+    let mut inverse: DMatrix<f64> = DMatrix::identity(aim.len(), aim.len());
+    let (mut halvings, mut made) = (0, 0);
+    while size(&best.1) > REACHED && halvings <= HALVINGS && made < PLANS {
+        let step: DVector<f64> = -0.5_f64.powi(halvings as i32) * (&inverse * off(&best.1));
+        made += 1;
+        let Some(plan) = planner.nearest_to(&aimed(task, &(&aim + &step)), &found) else {
+            halvings += 1;
+            continue;
+        };
+        let driven = execute(&plan, task, model, timing)?;
+        learn(&mut inverse, &step, &(off(&driven) - off(&best.1)));
+        halvings = if size(&driven) < size(&best.1) { 0 } else { halvings + 1 };
+        if halvings == 0 {
+            (aim, best) = (aim + step, (plan, driven));
+        }
+    }
+    Ok(best)
+}
+
+/// Broyden's update of an inverse Jacobian by a step and the change that it brought.
+fn learn(inverse: &mut DMatrix<f64>, step: &DVector<f64>, change: &DVector<f64>) {
+    let foreseen = &*inverse * change;
+    let along = inverse.tr_mul(step);
+    let weight = step.dot(&foreseen);
+    if weight.abs() > 1e-3 * step.norm_squared() {
+        *inverse += (step - foreseen) * along.transpose() / weight;
+    }
+}
+
+/// The task with its goal moved.
+fn aimed(task: &Task, by: &DVector<f64>) -> Task {
+    let mut task = task.clone();
+    if let Some((x, y, heading)) = task.poses.last_mut() {
+        *x += by[0];
+        *y += by[1];
+        *heading = heading.zip(by.get(2)).map(|(h, by)| h + by);
+    }
+    task
+}
+
+/// By what a plan ends beside its goal: m, m, and rad where a heading is asked for.
+fn off(executed: &Executed) -> DVector<f64> {
+    let place = executed.off.into_iter();
+    DVector::from_vec(place.chain(executed.heading_miss).collect())
+}
+
+fn size(executed: &Executed) -> f64 {
+    executed.miss.max(executed.heading_miss.unwrap_or(0.0).abs())
+}

@@ -4,6 +4,7 @@
 use super::execution::{Executed, execute};
 use super::plan::Plan;
 use super::planner::Planner;
+use super::sequential_quadratic_programming::restored;
 use super::task::Task;
 use crate::error::Result;
 use crate::model::Model;
@@ -35,7 +36,7 @@ pub fn corrected(found: Plan, model: &Model, task: &Task, timing: Timing) -> Res
     while size(&best.1) > REACHED && halvings <= HALVINGS && made < PLANS {
         let step: DVector<f64> = -0.5_f64.powi(halvings as i32) * (&inverse * off(&best.1));
         made += 1;
-        let Some(plan) = planner.nearest_to(&aimed(task, &(&aim + &step)), &found) else {
+        let Some(plan) = planner.near(&aimed(task, &(&aim + &step)), &found, restored) else {
             halvings += 1;
             continue;
         };
@@ -78,4 +79,23 @@ fn off(executed: &Executed) -> DVector<f64> {
 
 fn size(executed: &Executed) -> f64 {
     executed.miss.max(executed.heading_miss.unwrap_or(0.0).abs())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A linear map of two variables is inverted within four steps.
+    #[test]
+    fn a_linear_map_is_learnt() {
+        let map = DMatrix::from_row_slice(2, 2, &[1.4, 0.3, -0.2, 0.6]);
+        let mut at: DVector<f64> = DVector::from_column_slice(&[0.3, -0.8]);
+        let mut inverse: DMatrix<f64> = DMatrix::identity(2, 2);
+        for _ in 0..4 {
+            let step: DVector<f64> = -(&inverse * (&map * &at));
+            learn(&mut inverse, &step, &(&map * &step));
+            at += step;
+        }
+        assert!(at.norm() < 1e-12, "{at}");
+    }
 }

@@ -9,7 +9,6 @@ use super::initial_guess::{FirstGuess, nearest, point, straight};
 use super::limits::Limit;
 use super::plan::Plan;
 use super::reachability::{Fixed, Motions};
-use super::sequential_quadratic_programming::restored;
 use super::shooting::Shooting;
 use super::smoothing::{smoothed, widths};
 use super::task::Task;
@@ -20,6 +19,7 @@ use crate::model::{Equations, Model};
 use crate::motion::{Integrator, Method, Signals, Timing, initial_hidden, simulate};
 use crate::progress::{OnProgress, Stage, tell};
 use rayon::prelude::*;
+use std::borrow::Cow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The most by which neighbours of a train are bent, rad: beyond a right angle it jack-knifes.
@@ -50,7 +50,7 @@ pub fn plan(model: &Model, task: &Task, progress: &OnProgress) -> Result<std::re
     }
     if let Some(mut found) = planner.best(task, Some(BEND), &REACHES, progress)? {
         for width in &widths[1..] {
-            let Some(narrower) = Planner::of(model, task, *width)?.near(task, &found) else { break };
+            let Some(narrower) = Planner::of(model, task, *width)?.near(task, &found, near_to) else { break };
             found = narrower;
         }
         return Ok(Ok(found));
@@ -80,8 +80,11 @@ pub(super) fn planned_from(model: &Model, task: &Task, begun: &Plan) -> Result<O
     let a_usual = planner.a_usual_duration(task, &planner.guesses(task, &REACHES));
     let (program, guess) = planner.beside(task, begun, (planner.durations(task, begun.duration), a_usual));
     let found = planner.searched(program, guess, &planner.start);
-    Ok(found.and_then(|found| planner.exactly(found.program, found.point)))
+    Ok(found.and_then(|found| planner.exactly(found.program, found.point, near_to)))
 }
+
+/// How a point of a program is come to from one that nearly is.
+type Follow = fn(&Program, Point) -> Option<Point>;
 
 /// A point at which the equations of a program hold.
 struct Found<'a> {
@@ -107,7 +110,10 @@ impl Planner {
         let driven = model.equations(&[])?;
         let start = task.first_states(&driven, &[])?;
         let model = smoothed(model, &task.limits, width);
-        let equations = model.equations(&[])?;
+        let equations = match &model {
+            Cow::Borrowed(_) => driven.clone(),
+            Cow::Owned(model) => model.equations(&[])?,
+        };
         let point = TrackedPoint::of(&model, &equations, task.of_trailer)?;
         if task.limits.len() != equations.logged() {
             return Err(Error::run("a limit is missing for an input of the model"));
@@ -144,7 +150,7 @@ impl Planner {
             let found: Vec<Option<Found>> = round.par_iter().map(search).collect::<Result<_>>()?;
             let mut found: Vec<Found> = found.into_iter().flatten().collect();
             found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-            if let Some(plan) = found.into_iter().find_map(|found| self.exactly(found.program, found.point)) {
+            if let Some(plan) = found.into_iter().find_map(|found| self.exactly(found.program, found.point, near_to)) {
                 return Ok(Some(plan));
             }
         }
@@ -165,18 +171,10 @@ impl Planner {
         (program, Point { states, coefficients: plan.coefficients.clone(), duration: plan.duration })
     }
 
-    /// The plan for a task near one for the task or another, of the same duration.
-    fn near(&self, task: &Task, plan: &Plan) -> Option<Plan> {
+    /// The plan for a task near one for the task or another, as `follow` comes to it.
+    pub(super) fn near(&self, task: &Task, plan: &Plan, follow: Follow) -> Option<Plan> {
         let (program, guess) = self.beside(task, plan, (self.durations(task, plan.duration), plan.duration));
-        self.exactly(program, guess)
-    }
-
-    /// As [`Self::near`], by projection alone.
-    pub(super) fn nearest_to(&self, task: &Task, plan: &Plan) -> Option<Plan> {
-        let (mut program, guess) = self.beside(task, plan, (self.durations(task, plan.duration), plan.duration));
-        (program.shooting.integrator, program.tolerance) = exact();
-        let point = restored(&program, guess)?;
-        self.begun_as_driven(program, point)
+        self.exactly(program, guess, follow)
     }
 
     /// How long the motion itself may take of a duration that is given.
@@ -196,14 +194,10 @@ impl Planner {
         Some(Found { cost: program.cost(&point), program, point })
     }
 
-    /// The plan near one that the search found.
-    fn exactly(&self, mut program: Program, guess: Point) -> Option<Plan> {
+    /// The plan near one that the search found, as `follow` comes to it.
+    fn exactly(&self, mut program: Program, guess: Point, follow: Follow) -> Option<Plan> {
         (program.shooting.integrator, program.tolerance) = exact();
-        let point = near_to(&program, guess)?;
-        self.begun_as_driven(program, point)
-    }
-
-    fn begun_as_driven(&self, program: Program, point: Point) -> Option<Plan> {
+        let point = follow(&program, guess)?;
         let (program, Point { states, coefficients, duration }) = self.begun_at_rest(program, point)?;
         let states = std::iter::once(program.start).chain(states).collect();
         let (spline, dead_time, smoothed) = (program.shooting.spline, self.dead_time.clone(), self.smoothed);

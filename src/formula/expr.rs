@@ -146,6 +146,13 @@ impl Expr {
         found
     }
 
+    /// Whether one of some functions is called in the expression.
+    pub(crate) fn calls(&self, is: impl Fn(Fun) -> bool) -> bool {
+        let mut found = false;
+        self.visit(&mut |e| found |= matches!(e.node(), Node::Call(f, _) if is(*f)));
+        found
+    }
+
     fn visit(&self, f: &mut impl FnMut(&Expr)) {
         f(self);
         self.children().iter().for_each(|c| c.visit(f));

@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, DVector};
 /// Plans at most that are made for another goal.
 const PLANS: usize = 8;
 /// How often a change of the goal that leads no nearer is halved.
-const HALVINGS: usize = 2;
+const HALVINGS: i32 = 2;
 /// An end that is at the goal, m and rad.
 const REACHED: f64 = 1e-9;
 
@@ -25,17 +25,21 @@ const REACHED: f64 = 1e-9;
 /// When the motion is undefined.
 pub fn corrected(found: Plan, model: &Model, task: &Task, timing: Timing) -> Result<(Plan, Executed)> {
     let mut best = (found.clone(), execute(&found, task, model, timing)?);
-    if task.poses.is_empty() || size(&best.1) <= REACHED {
-        return Ok(best);
-    }
+    let Some(goal) = task.poses.last().filter(|_| size(&best.1) > REACHED) else { return Ok(best) };
+    let off = |executed: &Executed| {
+        let place = [executed.end[0] - goal.0, executed.end[1] - goal.1];
+        DVector::from_vec(place.into_iter().chain(executed.heading_miss).collect())
+    };
     let planner = Planner::of(model, task, found.smoothed)?;
     let mut aim = DVector::zeros(off(&best.1).len());
     // Where the goal of a plan is moved, its end moves as much.
     let mut inverse: DMatrix<f64> = DMatrix::identity(aim.len(), aim.len());
-    let (mut halvings, mut made) = (0, 0);
-    while size(&best.1) > REACHED && halvings <= HALVINGS && made < PLANS {
-        let step: DVector<f64> = -0.5_f64.powi(halvings as i32) * (&inverse * off(&best.1));
-        made += 1;
+    let mut halvings = 0;
+    for _ in 0..PLANS {
+        if size(&best.1) <= REACHED || halvings > HALVINGS {
+            break;
+        }
+        let step: DVector<f64> = -0.5_f64.powi(halvings) * (&inverse * off(&best.1));
         let Some(plan) = planner.near(&aimed(task, &(&aim + &step)), &found, restored) else {
             halvings += 1;
             continue;
@@ -71,12 +75,7 @@ fn aimed(task: &Task, by: &DVector<f64>) -> Task {
     task
 }
 
-/// By what a plan ends beside its goal: m, m, and rad where a heading is asked for.
-fn off(executed: &Executed) -> DVector<f64> {
-    let place = executed.off.into_iter();
-    DVector::from_vec(place.chain(executed.heading_miss).collect())
-}
-
+/// How far a plan ends from its goal, m and rad.
 fn size(executed: &Executed) -> f64 {
     executed.miss.max(executed.heading_miss.unwrap_or(0.0).abs())
 }

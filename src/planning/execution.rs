@@ -20,8 +20,6 @@ pub struct Executed {
     pub table: Table,
     /// Where the tracked point ends: x, y, heading.
     pub end: [f64; 3],
-    /// The place less that of the goal, m.
-    pub off: [f64; 2],
     /// Its distance from the goal, m.
     pub miss: f64,
     /// Its heading less that of the goal, rad, where one is asked for.
@@ -67,9 +65,8 @@ pub fn execute(plan: &Plan, task: &Task, model: &Model, timing: Timing) -> Resul
     z.resize(equations.n(), 0.0);
     let (end, _) = point.at(&z);
     let (x, y, heading) = task.poses.last().copied().unwrap_or((end[0], end[1], None));
-    let off = [end[0] - x, end[1] - y];
-    let heading_miss = heading.map(|h| nearest(end[2] - h, 0.0));
-    Ok(Executed { table, end, off, miss: off[0].hypot(off[1]), heading_miss })
+    let (miss, heading_miss) = ((end[0] - x).hypot(end[1] - y), heading.map(|h| nearest(end[2] - h, 0.0)));
+    Ok(Executed { table, end, miss, heading_miss })
 }
 
 /// The standard deviation of where a plan ends, m along its widest direction and rad, from the covariance of the model's

@@ -61,9 +61,13 @@ pub fn restored(program: &Program, start: Point) -> Option<Point> {
         }
         let step = program.projection(&here.point).ok()?.solution(0.1 * program.tolerance)?.x;
         let next = Iterate::at(program, program.moved(&here.point, &step, 1.0))?;
-        let is_no_nearer = next.off() > 0.5 * here.off() && here.off() < FOLLOWED * program.tolerance;
-        here = if next.off() < here.off() { next } else { here };
-        if is_no_nearer {
+        let (before, after) = (here.off(), next.off());
+        let is_followed = before < FOLLOWED * program.tolerance;
+        if after >= before {
+            return is_followed.then_some(here.point);
+        }
+        here = next;
+        if is_followed && after > 0.5 * before {
             return Some(here.point);
         }
     }

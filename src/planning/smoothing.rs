@@ -18,13 +18,12 @@ pub fn widths(model: &Model) -> &'static [f64] {
     let of_inputs = model.effects.iter().filter(|a| a.effect.on.is_some()).map(|a| &a.effect);
     let all: Vec<&Expr> =
         of_inputs.flat_map(|e| e.changes.values().chain(e.states.values().map(|s| &s.rate))).collect();
-    let has = |is: fn(&Fun) -> bool| all.iter().any(|formula| calls(formula, is));
-    if has(|f| matches!(f, Fun::Sign | Fun::Step)) {
-        &WIDTHS[..4]
-    } else if has(|f| matches!(f, Fun::Abs)) {
-        &WIDTHS
-    } else {
-        &WIDTHS[4..]
+    let has = |is: fn(Fun) -> bool| all.iter().any(|formula| formula.calls(is));
+    let (smooth, none) = WIDTHS.split_at(WIDTHS.len() - 1);
+    match (has(|f| matches!(f, Fun::Sign | Fun::Step)), has(|f| f == Fun::Abs)) {
+        (true, _) => smooth,
+        (false, true) => &WIDTHS,
+        (false, false) => none,
     }
 }
 
@@ -48,11 +47,6 @@ pub fn smoothed<'m>(model: &'m Model, limits: &[Limit], share: f64) -> Cow<'m, M
         effect.states.values_mut().for_each(|state| state.rate = smooth(&state.rate, &width));
     }
     Cow::Owned(model)
-}
-
-/// Whether a formula calls such a function.
-fn calls(formula: &Expr, is: fn(&Fun) -> bool) -> bool {
-    matches!(formula.node(), Node::Call(f, _) if is(f)) || formula.children().iter().any(|part| calls(part, is))
 }
 
 /// A formula without kinks. Where |x| is in it, it is evaluated in the place of ε·ln(2·cosh(x/ε)), which overflows.

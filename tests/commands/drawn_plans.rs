@@ -15,9 +15,13 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
+/// Vehicles whose inputs do not change all of a pose, which is a test of its own.
+const HELD: [&str; 3] = ["synchro-drive", "hopper", "disk"];
+
 /// Vehicles that inputs move everywhere, as files to begin with make them.
 fn makes(folder: &Path) -> Vec<(String, Model)> {
-    let ids = creepage::vehicles::all().iter().map(|v| (v.id.clone(), None));
+    let moved = creepage::vehicles::all().iter().filter(|v| !HELD.contains(&v.id.as_str()));
+    let ids = moved.map(|v| (v.id.clone(), None));
     let trains = (1..=3).map(|n| ("n-trailer".to_string(), Some(n)));
     let make = |(vehicle, trailers): (String, Option<usize>)| {
         let text = Starter::new(&Wanted { vehicle, trailers, ..Wanted::default() }).ok()?.text;
@@ -25,13 +29,7 @@ fn makes(folder: &Path) -> Vec<(String, Model)> {
         fs::write(&path, &text).unwrap();
         let file = ModelFile::read(&path, &model::known(effects::all())).unwrap();
         Model::check_motion(&file).ok()?;
-        let model = Model::of_file(&file, effects::all()).ok()?;
-        let asked = ["plan", "make.toml", "--goal=0.7,0.4,0.3", "--out", "make.csv", "-q"];
-        let refused = stderr(&creepage(folder, &asked));
-        match refused.contains("no input of this vehicle") {
-            true => None,
-            false => Some((text, model)),
-        }
+        Some((text, Model::of_file(&file, effects::all()).ok()?))
     };
     ids.chain(trains).filter_map(make).collect()
 }

@@ -203,6 +203,24 @@ impl Scope {
         opened
     }
 
+    /// Intervals of which the first has no beginning; `None` where it has none, or is all there would be.
+    pub(crate) fn without_beginning(&self) -> Option<Self> {
+        let Self::Times(intervals) = self else { return None };
+        let mut intervals = intervals.clone();
+        let first = intervals.first_mut().filter(|i| i[0].is_finite())?;
+        first[0] = f64::NEG_INFINITY;
+        (first[1].is_finite()).then_some(Self::Times(intervals))
+    }
+
+    /// Intervals of which the last has no end; `None` where it has none, or is all there would be.
+    pub(crate) fn without_end(&self) -> Option<Self> {
+        let Self::Times(intervals) = self else { return None };
+        let mut intervals = intervals.clone();
+        let last = intervals.last_mut().filter(|i| i[1].is_finite())?;
+        last[1] = f64::INFINITY;
+        (last[0].is_finite()).then_some(Self::Times(intervals))
+    }
+
     /// Whether two scopes are of one kind, whatever their numbers.
     pub fn is_like(&self, other: &Scope) -> bool {
         std::mem::discriminant(self) == std::mem::discriminant(other)
@@ -276,6 +294,18 @@ mod tests {
             name => numbers.iter().find(|(n, _)| n == name).unwrap().1,
         };
         scope.gate().eval(&|s| value(s.as_str())).unwrap()
+    }
+
+    #[test]
+    fn an_end_is_left_open_where_the_other_remains() {
+        let of = |ends: &[[f64; 2]]| Scope::Times(ends.to_vec());
+        let (early, late) = (f64::NEG_INFINITY, f64::INFINITY);
+        let two = of(&[[1.0, 2.0], [3.0, 4.0]]);
+        assert_eq!(two.without_beginning(), Some(of(&[[early, 2.0], [3.0, 4.0]])));
+        assert_eq!(two.without_end(), Some(of(&[[1.0, 2.0], [3.0, late]])));
+        // What neither begins nor ends is no scope.
+        assert_eq!([of(&[[early, 2.0]]).without_end(), of(&[[3.0, late]]).without_beginning()], [None, None]);
+        assert_eq!([of(&[[early, 2.0]]).without_beginning(), Scope::Above(1.0).without_end()], [None, None]);
     }
 
     #[test]

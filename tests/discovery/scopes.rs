@@ -132,6 +132,32 @@ fn a_beginning_is_told_from_its_image_beyond_a_turn() {
     }
 }
 
+/// Where no heading is measured, and the vehicle hardly turns, the headings of a model without the slope take its slip angle for
+/// theirs, and the linear screen sees a drift alone: the slope is fitted in full within the times of the drift.
+#[test]
+fn a_slope_that_headings_hide_is_named_with_its_times() {
+    let times = "scope = { from = 30.85, until = 49.73 }";
+    let time: Vec<f64> = (0..1600).map(|i| 0.05 * f64::from(i)).collect();
+    let side = |sign: f64| {
+        let rate = |t: &f64| 5.0 + (0.31 * t).sin() + sign * (0.5 * (0.53 * t).sin() + 0.2 * (1.1 * t).cos());
+        time.iter().map(rate).collect::<Vec<f64>>()
+    };
+    let inputs = [("wheel_rate_left", side(-1.0)), ("wheel_rate_right", side(1.0))];
+    for (rate, direction) in [(0.12, 1.2), (0.12, -1.0)] {
+        let hidden = effect("side-slope", &format!("rate = {rate}\ndirection = {direction}\n{times}"));
+        let truth = Model::parse(&format!("{DRIVE}{hidden}")).unwrap();
+        let run = Run { heading: None, ..noisy_run(&truth, time.clone(), inputs.to_vec(), 1e-4, 8) };
+        let report = creepage::discover(&Model::parse(DRIVE).unwrap(), &[run]).unwrap().report;
+        let [one] = &report.effects[..] else { panic!("{rate}: {}", report.summary) };
+        let scope = one.scope.as_ref().unwrap();
+        let [from, until] = [scope.from, scope.until].map(|t| t.unwrap_or(f64::NAN));
+        assert!(one.id == "side-slope" && report.remains.is_none(), "{}", report.summary);
+        assert!((from - 30.85).abs() < 0.05 && (until - 49.73).abs() < 0.05, "{}", report.summary);
+        let found = &one.parameters["rate"];
+        assert!((found.value - rate).abs() < 4.0 * found.std.unwrap(), "{found:?}");
+    }
+}
+
 /// What cannot be told from an effect is listed for the time in which that holds: on one circle an angle and a gain are one.
 #[test]
 fn rivals_of_what_begins_are_those_that_begin_with_it() {

@@ -3,7 +3,9 @@
 pub(crate) mod backward;
 pub(crate) mod candidates;
 pub mod choice;
-pub(crate) mod input_noise;
+mod disk_times;
+mod effects_within;
+mod input_noise;
 pub(crate) mod input_sampling;
 mod interval_search;
 pub(crate) mod limits;

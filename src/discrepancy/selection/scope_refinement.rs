@@ -1,22 +1,14 @@
-//! The scope of an effect refined: its numbers moved by a coordinate search (Hooke and Jeeves, 1961) and at last by parabolas,
-//! its name that of the effect which explains most there.
+//! The scope of an effect refined: its numbers moved by a coordinate search (Hooke and Jeeves, 1961) and at last by parabolas.
 
-use super::candidates::{place, rounded};
-use super::scope_screen::may_hold_in_part;
 use super::search::{Search, find};
-use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
 use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::estimation::unexplained::{explains_half, explains_most, remains};
 use crate::discrepancy::evidence::information_criterion::bic;
 use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::shooting::windows::WINDOW;
-use crate::effects::{Applied, Effect, Scope};
+use crate::effects::{Applied, Scope};
 use crate::error::Result;
 
-/// Two fits whose criteria differ by no more say the same.
-const SAME: f64 = 1.0;
-/// Other effects in the scope of one that are fitted, at most.
-const RIVALS: usize = 4;
 /// The effort of a fit by which scopes are compared.
 const QUICK: Effort = Effort { passes: 3, begins_near: true, ..Effort::SCREENING };
 /// A gain that counts while they are moved, as a share of what the effect explains: its edges are not told any better.
@@ -41,31 +33,6 @@ const VALLEYS: f64 = 0.15;
 const HALF_WIDTHS: [f64; 3] = [0.1, 0.02, 0.004];
 
 impl Search<'_> {
-    /// The effects that may hold where one holds; `None` where it holds always.
-    pub(super) fn library_within(&self, own: &Applied) -> Option<Vec<Effect>> {
-        let scope = own.effect.scope.as_ref()?;
-        Some(self.library.iter().filter(|e| may_hold_in_part(e)).map(|e| e.within(scope.clone())).collect())
-    }
-
-    /// The fit with the effect that explains most in the same scope; of those that say the same the first of the library.
-    pub(super) fn named_in_scope(&self, base: &Fit, own: &Applied, fit: &Fit) -> Result<Fit> {
-        let Some(within) = self.library_within(own) else { return Ok(fit.clone()) };
-        let beside = Search { library: &within, ..*self };
-        let mut fits = vec![(own.clone(), fit.clone())];
-        for (other, rough) in beside.in_place_of(fit, own)?.into_iter().take(RIVALS) {
-            let Some(full) = self.refit(&rough)? else { continue };
-            let is_sound = find(&full.model, &other).is_some_and(|a| is_possible(&a) && !vanishes(&a));
-            if is_sound && !self.problem.predicts_worse(&full, base)? {
-                fits.push((other, full));
-            }
-        }
-        let n = fits.iter().map(|(_, f)| f.sample_size).fold(0.0, f64::max);
-        let worth = |f: &Fit| rounded(bic(f, n));
-        let best = fits.iter().map(|(_, f)| worth(f)).fold(f64::INFINITY, f64::min);
-        let same = fits.into_iter().filter(|(_, f)| worth(f) <= best + SAME);
-        Ok(same.min_by_key(|(a, _)| (a.values.len(), place(a))).map_or_else(|| fit.clone(), |(_, f)| f))
-    }
-
     /// The fit with the numbers of an effect's scope moved to where they explain most. What an edge in the wrong place leaves
     /// is taken for noise, and hides the right one: while something remains they are moved again, unless the rest is large
     /// and has another cause.
@@ -121,22 +88,39 @@ impl Search<'_> {
         Ok(best)
     }
 
-    /// The fit with intervals of a scope that touch made one, those of no length left out, and edges beyond the data left
-    /// open, where that explains as much.
+    /// The fit with intervals of a scope that touch made one, those of no length left out, and edges beyond the data, or where
+    /// the vehicle does nothing that tells them, left open, where that explains as much.
     fn simplified(&self, fit: Fit, own: &Applied) -> Result<Fit> {
-        let Some(mut simpler) = find(&fit.model, own) else { return Ok(fit) };
-        let Some(scope) = &simpler.effect.scope else { return Ok(fit) };
+        let Some(scope) = find(&fit.model, own).and_then(|a| a.effect.scope) else { return Ok(fit) };
         let spans = self.problem.records.iter().map(Record::span);
         let widest = |[a, b]: [f64; 2], [from, until]: [f64; 2]| [a.min(from), b.max(until)];
         let [first, last] = spans.fold([f64::INFINITY, f64::NEG_INFINITY], widest);
         let few =
             scope.without_slivers(SLIVER).unwrap_or_else(|| scope.clone()).open_beyond(first + SLIVER, last - SLIVER);
-        if few == *scope || few.movable().is_empty() {
+        let mut fit = self.at_simpler(fit, own, few)?;
+        for open in [Scope::without_beginning, Scope::without_end] {
+            let scope = find(&fit.model, own).and_then(|a| a.effect.scope);
+            let Some(open) = scope.as_ref().and_then(open) else { continue };
+            fit = self.at_simpler(fit, own, open)?;
+        }
+        Ok(fit)
+    }
+
+    /// The fit at a simpler scope where that explains as much, and the fit as it is elsewhere.
+    fn at_simpler(&self, fit: Fit, own: &Applied, scope: Scope) -> Result<Fit> {
+        let Some(mut simpler) = find(&fit.model, own) else { return Ok(fit) };
+        if simpler.effect.scope.as_ref() == Some(&scope) || scope.movable().is_empty() {
             return Ok(fit);
         }
-        simpler.effect.scope = Some(few);
-        let Some(other) = self.fit_instead(&fit, &fit.model.clone().with_effect(simpler))? else { return Ok(fit) };
-        let n = fit.sample_size.max(other.sample_size);
+        simpler.effect.scope = Some(scope);
+        let model = fit.model.clone().with_effect(simpler);
+        let n = fit.sample_size;
+        let quick = self.problem.fit(&model, &fit.window_states, &fit.variances, QUICK)?;
+        if quick.is_none_or(|quick| bic(&quick, n) > bic(&fit, n)) {
+            return Ok(fit);
+        }
+        let Some(other) = self.fit_instead(&fit, &model)? else { return Ok(fit) };
+        let n = n.max(other.sample_size);
         Ok(if bic(&other, n) < bic(&fit, n) { other } else { fit })
     }
 

@@ -34,10 +34,25 @@ pub(super) struct Proposed {
     pub scoped: Vec<(Effect, Option<usize>)>,
     /// Effects with their first parameter moving, with their second one, and so on.
     pub moving: Vec<Vec<(Effect, Option<usize>)>>,
+    /// What a choice among so many costs.
+    pub price: Price,
+}
+
+/// The price of a choice among all scopes that were tried: what the best of them gains by chance.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Price {
     /// How many scopes of one interval and of all other kinds were tried.
-    pub tried: f64,
+    tried: f64,
     /// How many blocks there are between which intervals begin and end.
-    pub blocks: usize,
+    blocks: usize,
+}
+
+impl Price {
+    /// Of an effect within its scope.
+    pub fn of(&self, applied: &Applied) -> f64 {
+        let more = applied.effect.scope.as_ref().map_or(0.0, |scope| ways_of_more_intervals(scope, self.blocks));
+        2.0 * (self.tried.ln() + more)
+    }
 }
 
 /// An effect where it vanishes, and which of its parameters are weighed there.
@@ -84,7 +99,7 @@ impl Search<'_> {
         let is_regular = |(e, t): &(&Effect, Option<usize>)| score_test::is_regular(e, &base.model, *t);
         let regular: Vec<(&Effect, Option<usize>)> = open.into_iter().filter(is_regular).collect();
         let tried = (regular.len() * blocks.count * TRIED_PER_BLOCK).max(1) as f64;
-        Ok(Proposed { scoped, moving: self.moving(&regular), tried, blocks: blocks.count })
+        Ok(Proposed { scoped, moving: self.moving(&regular), price: Price { tried, blocks: blocks.count } })
     }
 
     /// Effects within the scopes by which they promise most, a few of each effect.

@@ -1,9 +1,9 @@
 //! Effects that hold in part only, or move with time, asked for where what holds always does not explain the data.
 
 use super::candidates::{FINALISTS, place, rounded};
-use super::interval_search::ways_of_more_intervals;
+use super::effects_within::{InPart, by_evidence};
 use super::scope_proposals::{BORNE_OUT, SHORTEST};
-use super::scope_screen::Proposed;
+use super::scope_screen::{Price, Proposed};
 use super::search::{Search, SearchState, find, first_of};
 use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
 use crate::discrepancy::estimation::fit::{Effort, Fit};
@@ -101,9 +101,10 @@ impl Search<'_> {
 
     /// The effect in part that gains most beyond what it costs, and the fit with it; where none explains most of a rest that may
     /// hide it, it is sought again at the noise that there is once it is explained. What a name leaves hides nothing: at so
-    /// little noise the little that it is off by shows too.
+    /// little noise the little that it is off by shows too. At last all effects are fitted within the scopes that others found.
     fn next_in_part(&self, base: &Fit, is_hidden: bool) -> Result<Option<(String, Fit)>> {
-        let found = self.best_in_part(base, base)?;
+        let seen = self.promising_in_part(base)?;
+        let found = self.best_in_part(base, &seen)?;
         if !is_hidden || found.as_ref().is_some_and(|(_, fit)| explains_most(fit, base)) {
             return Ok(found);
         }
@@ -111,16 +112,18 @@ impl Search<'_> {
         let Some(quiet) = self.problem.fit(&base.model, &base.window_states, &quiet, Effort::SCREENING)? else {
             return Ok(found);
         };
-        let other = self.best_in_part(base, &quiet)?.filter(|(_, fit)| explains_most(fit, base));
-        Ok(other.or(found))
+        let hidden = self.promising_in_part(&quiet)?;
+        let explaining = |found: Option<(String, Fit)>| found.filter(|(_, fit)| explains_most(fit, base));
+        if let Some(other) = explaining(self.best_in_part(base, &hidden)?) {
+            return Ok(Some(other));
+        }
+        let within = self.in_full_within(&quiet, [seen, hidden])?;
+        Ok(explaining(self.best_in_part(base, &within)?).or(found))
     }
 
-    /// The effect in part that gains most beyond what it costs, and the fit with it, of those that promise most at the noise of
-    /// a fit of the same model.
-    fn best_in_part(&self, base: &Fit, at: &Fit) -> Result<Option<(String, Fit)>> {
-        let Proposed { scoped, moving, tried, blocks } = self.proposed(at)?;
-        let more = |scope: &Scope| ways_of_more_intervals(scope, blocks);
-        let margin = |a: &Applied| 2.0 * (tried.ln() + a.effect.scope.as_ref().map_or(0.0, more));
+    /// The effects in part that promise most at the noise of a fit, fitted with their scopes as proposed, best first.
+    fn promising_in_part(&self, at: &Fit) -> Result<InPart> {
+        let Proposed { scoped, moving, price } = self.proposed(at)?;
         let promises = |some: &[(&Effect, Option<usize>)]| score_test::promises(self.problem, at, &at.model, some);
         // Each scope of an effect is a candidate of its own; of a parameter that moves there is one for each effect.
         let alone = scoped.par_iter().map(|(e, t)| promises(&[(e, *t)]));
@@ -130,40 +133,46 @@ impl Search<'_> {
             let open: Vec<(&Effect, Option<usize>)> = one_each.iter().map(|(e, t)| (e, *t)).collect();
             weighed.extend(promises(&open)?.single);
         }
-        let n = base.sample_size;
+        let n = at.sample_size;
         let cost = |a: &Applied| (a.values.len() + a.effect.scope.as_ref().map_or(0, |s| s.cost())) as f64 * n.ln();
         let worth = |p: &ScoreTest| rounded(p.deviance + cost(&p.applied));
         weighed.sort_by(|a, b| worth(a).total_cmp(&worth(b)).then(place(&a.applied).cmp(&place(&b.applied))));
-        let rough =
-            of_each_kind(&weighed).into_par_iter().map(|promise| self.rough(at, promise, margin(&promise.applied)));
-        let mut rough: Vec<(Applied, Fit)> = rough.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
-        by_evidence(&mut rough, n);
-        let finalists = best_of_each_kind(rough).into_par_iter().map(|(own, fit)| {
-            let margin = margin(&own);
+        let rough = of_each_kind(&weighed).into_par_iter().map(|promise| self.rough(at, promise, &price));
+        let fits: Vec<(Applied, Fit)> = rough.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
+        Ok(InPart::ordered(fits, price, n))
+    }
+
+    /// Of effects in part the one that gains most beyond what it costs where its scope explains most, and the fit with it.
+    fn best_in_part(&self, base: &Fit, rough: &InPart) -> Result<Option<(String, Fit)>> {
+        let refined = |(own, fit): (Applied, Fit)| {
+            let margin = rough.price.of(&own);
             self.refined(base, own, fit, margin)
-        });
+        };
+        let finalists = best_of_each_kind(rough.fits.clone()).into_par_iter().map(refined);
         let mut fits: Vec<(Applied, Fit)> = finalists.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
-        by_evidence(&mut fits, n);
+        by_evidence(&mut fits, base.sample_size);
         for (own, fit) in fits {
-            if !self.problem.predicts_worse(&fit, base)? {
-                return Ok(Some((own.label(), fit)));
+            if self.problem.predicts_worse(&fit, base)? {
+                continue;
             }
+            let (own, fit) = self.in_time_instead(base, (own, fit), &rough.price)?;
+            return Ok(Some((own.label(), fit)));
         }
         Ok(None)
     }
 
     /// The fit with an effect in part, its scope as proposed, at the noise and jumps of the model without it; `None` where it
     /// is not worth what it costs.
-    fn rough(&self, base: &Fit, promise: &ScoreTest, margin: f64) -> Result<Option<(Applied, Fit)>> {
+    fn rough(&self, base: &Fit, promise: &ScoreTest, price: &Price) -> Result<Option<(Applied, Fit)>> {
         let fit = score_test::settled(self.problem, base, &base.model, &[promise], Effort::SCREENING)?;
         let n = base.sample_size;
-        let fit = fit.filter(|fit| bic(fit, n) + margin < bic(base, n));
+        let fit = fit.filter(|fit| bic(fit, n) + price.of(&promise.applied) < bic(base, n));
         Ok(fit.and_then(|fit| Some((find(&fit.model, &promise.applied)?, fit))))
     }
 
     /// The fit with an effect in part, the numbers of its scope moved to where they explain most, and the effect that
     /// explains most there in its place; `None` where it is not worth what it costs.
-    fn refined(&self, base: &Fit, own: Applied, fit: Fit, margin: f64) -> Result<Option<(Applied, Fit)>> {
+    pub(super) fn refined(&self, base: &Fit, own: Applied, fit: Fit, margin: f64) -> Result<Option<(Applied, Fit)>> {
         let Some(fit) = self.refit(&fit)? else { return Ok(None) };
         let mut fit = self.with_scope_at_best(base, fit, &own)?;
         let mut renamed = own;
@@ -234,12 +243,6 @@ fn is_like(a: &Applied, b: &Applied) -> bool {
         (Some(a), Some(b)) => a.is_like(b),
         (a, b) => a.is_none() == b.is_none(),
     }
-}
-
-/// In the order of their evidence; of identical ones the first of the library comes first.
-fn by_evidence(fits: &mut [(Applied, Fit)], n: f64) {
-    let n = fits.iter().map(|(_, f)| f.sample_size).fold(n, f64::max);
-    fits.sort_by(|(a, f), (b, g)| rounded(bic(f, n)).total_cmp(&rounded(bic(g, n))).then(place(a).cmp(&place(b))));
 }
 
 /// Whether the data tell what an effect in part is held by, as a limit is: one of fewer deviations than these is not told.

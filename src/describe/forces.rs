@@ -23,6 +23,7 @@ const OF_BODY: &[Known] = &[
     ("force_ahead", Kind::Defined, "N", "force forward at the centre of mass, or at the axle, of the"),
     ("force_aside", Kind::Defined, "N", "force to the left at the centre of mass of the"),
     ("torque", Kind::Defined, "N*m", "torque about the vertical on the"),
+    ("push", Kind::Defined, "N", "force forward of all that drives and brakes the"),
     ("drag", Kind::Defined, "1/s", "rate at which a resistance slows the"),
 ];
 
@@ -30,6 +31,7 @@ const OF_BODY: &[Known] = &[
 const OF_CONTACT: &[Known] = &[
     ("slip", Kind::Defined, "m/s", "speed at which it slips, of the contact"),
     ("speed", Kind::Defined, "m/s", "speed along the wheel of the contact"),
+    ("law", Kind::Defined, "N", "force by its law of the contact"),
     ("force", Kind::Defined, "N", "force along the slip of the contact"),
     ("deflection", Kind::State, "m", "deflection of the tyre at the contact"),
 ];
@@ -40,6 +42,8 @@ const BY_CONTACT: &[Known] = &[
     ("grip_front", Kind::Defined, "1", "factor on the force of the contact"),
     ("grip_rear", Kind::Defined, "1", "factor on the force of the contact"),
     ("drive_force", Kind::Defined, "N", "force that the law gives the contact"),
+    ("asked_force", Kind::Defined, "N", "force that the law asks for at the contact"),
+    ("built_force", Kind::Defined, "N", "force that has built up at the contact"),
     ("side_force", Kind::Defined, "N", "force that the law gives the contact"),
 ];
 

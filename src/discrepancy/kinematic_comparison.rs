@@ -20,7 +20,7 @@ use crate::progress::OnProgress;
 use std::collections::BTreeMap;
 
 /// What the kinematic model of a log with forces says, where the log measures all that drives it; `None` where it does not,
-/// or where the model has no forces.
+/// where the model has no forces, and where its constraints alone determine no motion.
 ///
 /// # Errors
 /// When an effect of the file does not apply to the vehicle without forces.
@@ -54,6 +54,10 @@ impl Rates {
             return Ok(None);
         }
         let model = Model::from_file(file, request.library, &first.roles)?.kinematic();
+        // A skid steer has none: its wheels contradict one another in every turn.
+        if model.determined().is_err() {
+            return Ok(None);
+        }
         let names: Vec<String> = file.measured.iter().map(|m| m.name.clone()).collect();
         let logged = |run: &Run| {
             let is_there = |role: &String| names.contains(role) || run.roles.contains(role);

@@ -37,7 +37,7 @@ impl Model {
     pub fn definitions(&self) -> Result<Definitions> {
         let mut d = self.with_effects(self.ideal_definitions()?)?;
         if let Some(forced) = &self.forced {
-            forced.without_idle_losses(&mut d);
+            forced.without_idle_parts(&mut d);
             for angle in &forced.turned {
                 // The motion asks for it even where nothing turns it.
                 if self.rate_along_motion(angle, &mut d).is_zero() {
@@ -92,6 +92,7 @@ impl Model {
 
     /// What an effect rewrites on this vehicle; `None` when it does not apply.
     pub(crate) fn targets(&self, e: &Effect, trailer: Option<usize>, names: &[Symbol]) -> Option<Vec<(Symbol, Expr)>> {
+        let e = &e.at_contacts(names);
         let found = match &e.on {
             Some(name) if e.per_quantity => {
                 let quantity = self.measured_quantity(name)?;
@@ -117,6 +118,7 @@ impl Model {
 
     /// The first name in an effect's formulas that means nothing in this model.
     pub(crate) fn stranger(&self, e: &Effect, names: &[Symbol]) -> Option<Symbol> {
+        let e = &e.at_contacts(names);
         let own = |s: &Symbol| e.parameters.contains_key(s.as_str()) || e.states.contains_key(s.as_str());
         let mut used: BTreeSet<Symbol> = e.formulas().flat_map(Expr::symbols).filter(|s| !own(s)).collect();
         if let Some(scope) = &e.scope {

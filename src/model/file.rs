@@ -139,9 +139,10 @@ impl Model {
             let term = if entry.id.starts_with(terms::PREFIX) { model.term(&entry.id)? } else { None };
             let of = (vehicle, &model.measured[..]);
             let known = applied(entry, library, of).or_else(|| applied(entry, term.as_slice(), of));
-            model.effects.push(known.ok_or_else(|| {
+            let known = known.ok_or_else(|| {
                 Error::input(format!("unknown effect {:?}", entry.id)).at_file(&file.path).at(entry.line, 1)
-            })?);
+            })?;
+            model.effects.push(model.at_contacts(known));
             model.row_definitions().and_then(|d| d.sorted().map(|_| ())).map_err(|e| {
                 let advice = "remove the entry; `creepage describe` shows what the vehicle has";
                 e.at_file(&file.path).at(entry.line, 1).help(advice)

@@ -33,12 +33,16 @@ pub struct ForcedMotion {
 }
 
 impl ForcedMotion {
-    /// Takes losses away whose coefficients no effect has changed from zero.
-    pub(crate) fn without_idle_losses(&self, d: &mut Definitions) {
+    /// Takes away what no effect asks for: losses whose coefficients are zero, and the push by which load would move.
+    pub(crate) fn without_idle_parts(&self, d: &mut Definitions) {
         for (loss, coefficients) in &self.losses {
             if coefficients.iter().all(|c| d.get(c).is_none_or(Expr::is_zero)) {
                 d.define(loss.clone(), Expr::int(0));
             }
+        }
+        let push = Symbol::new(PUSH);
+        if !d.iter().any(|(_, formula)| formula.mentions(&push)) {
+            d.define(push, Expr::int(0));
         }
     }
 
@@ -50,6 +54,9 @@ impl ForcedMotion {
         self
     }
 }
+
+/// What pushes the body ahead.
+pub(crate) const PUSH: &str = "body.push";
 
 /// Before the name of a value as the model file states it.
 pub(crate) const STATED: &str = "stated.";

@@ -139,7 +139,17 @@ impl Model {
     /// The model with one more effect; a value of the same effect and trailer is replaced.
     pub fn with_effect(mut self, applied: Applied) -> Self {
         self.effects.retain(|e| !e.same_as(&applied));
+        let applied = self.at_contacts(applied);
         self.effects.push(applied);
         self
+    }
+
+    /// An effect with the states that it has at the contacts of this vehicle.
+    pub(crate) fn at_contacts(&self, mut applied: Applied) -> Applied {
+        if applied.effect.per_contact {
+            let names: Vec<Symbol> = self.bare_definitions().iter().map(|(name, _)| name.clone()).collect();
+            applied.effect = applied.effect.at_contacts(&names);
+        }
+        applied
     }
 }

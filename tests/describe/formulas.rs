@@ -35,7 +35,8 @@ fn all() -> Vec<(String, Model)> {
 /// car whose tyres have a law with a state.
 fn moved_by_forces() -> Vec<Model> {
     let train = forced_train();
-    let effects = ["mass", "mass-centre-aside", "cornering-stiffness-front", "side-grip-limit", "trailer-drag"];
+    let effects =
+        ["mass", "mass-centre-aside", "cornering-stiffness-front", "relaxation", "side-grip-limit", "trailer-drag"];
     let with = |id: &&str| {
         let effect = effects::all().iter().find(|e| e.id == **id).unwrap();
         let trailer = effect.per_trailer.then_some(1);
@@ -371,6 +372,8 @@ fn the_catalogues_parse_and_hold_these_entries() {
         "traction",
         "cornering-stiffness-rear",
         "cornering-stiffness-front",
+        "load-transfer",
+        "relaxation",
         "side-grip-limit",
         "traction-limit",
         "trailer-mass",
@@ -382,7 +385,10 @@ fn the_catalogues_parse_and_hold_these_entries() {
     for e in effects::all().iter().filter(|e| !e.per_input && !e.per_quantity) {
         assert!(e.parameters.values().all(|p| Unit::parse(&p.unit).is_some() && p.range[0] < p.range[1]), "{}", e.id);
         let applies = |m: &Model| !m.applicable(std::slice::from_ref(e)).is_empty();
-        assert!(machines().iter().any(applies) || applies(&forced_train()), "{}", e.id);
+        let by_forces = applies(&forced_train());
+        assert!(machines().iter().any(applies) || by_forces, "{}", e.id);
+        // What holds a contact is nothing of a vehicle that its inputs move.
+        assert!(e.place != "contact force" || !machines().iter().any(applies), "{}", e.id);
     }
 }
 
@@ -415,10 +421,16 @@ fn printed_equations_under_forces_are_those_that_are_integrated() {
             let value = e.formula.eval(&|s| known.get(s).copied().unwrap_or_else(|| panic!("{s} comes later")));
             known.insert(e.name.clone(), value.unwrap());
         }
+        let of_effects: std::collections::BTreeMap<Symbol, _> =
+            model.effects.iter().flat_map(Applied::states).collect();
         let mut rates = vec![0.0; z.len()];
         equations.rates(&mut equations.workspace(&[]), &z, &u, &mut rates);
         for (state, rate) in equations.states.iter().zip(rates) {
-            let printed = known[&state.rate()];
+            let printed = known.get(&state.rate()).copied().unwrap_or_else(|| {
+                let rate = &of_effects[state];
+                assert!(describe::text(&d).contains(&format!("{state}' = ")), "{state}' is not printed");
+                rate.eval(&|s| known[s]).unwrap()
+            });
             assert!((printed - rate).abs() < 1e-9 * (1.0 + rate.abs()), "{state}: {printed} {rate}");
         }
         let held = d.constraints.iter().filter(|c| c.held_by.is_some()).count();

@@ -42,6 +42,17 @@ fn encoders_tell_what_the_pose_does_not() {
     assert!(alone.effects.iter().all(|e| e.id != "traction"), "{}", alone.summary);
 }
 
+/// A skid steer has no kinematic model for its encoders to drive: its log is read by its forces alone.
+#[test]
+fn a_skid_steer_with_encoders_is_read_by_its_forces() {
+    let secret = Secret { id: "mass", trailer: None, values: vec![("scale", 0.3)] };
+    let drive = Drive { make: Make::SkidSteer, seed: 7, seconds: 24.0, secret: Some(secret), sensors: true };
+    let run = drive.runs(1).remove(0);
+    let file = parse(&run.model);
+    let (report, _) = asked(&file, &Run::parse("run.csv", &run.csv, &file).unwrap());
+    assert!(ids(&report) == ["mass"] && report.kinematic.is_none(), "{}", report.summary);
+}
+
 /// Nothing is hidden and nothing named; a bias that the gyro is given is, with its size.
 #[test]
 fn a_bias_of_the_gyro_is_named_as_the_sensor_s() {

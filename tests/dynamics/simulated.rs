@@ -1,10 +1,11 @@
 //! The independent simulator of forces against the library, and against what no force can change.
 
-use crate::forces::{Drawn, Inputs, MAKES, Make, State, Wave, advance, begun};
+use crate::forces::{Drawn, Inputs, MAKES, Make, Secret, State, Wave, advance, begun};
 use creepage::dynamics::{known, simulate_file};
 use creepage::effects;
 use creepage::files::{Initial, ModelFile};
-use creepage::motion::{Integrator, Signals, Timing};
+use creepage::model::Model;
+use creepage::motion::{Integrator, Method, Signals, Timing};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
@@ -42,6 +43,30 @@ fn by_library(drawn: &Drawn, waves: &[Wave]) -> Vec<f64> {
     all.map(|name| *run.column(&name).unwrap().last().unwrap()).collect()
 }
 
+/// The same with effects, by the equations that are fitted: wheels roll, and nothing else moves, at the beginning.
+fn by_equations(drawn: &Drawn, waves: &[Wave], effect: &str) -> Vec<f64> {
+    let text = format!("{}{effect}", drawn.model);
+    let file = ModelFile::parse(&text, "model.toml", &known(effects::all())).unwrap();
+    let equations = Model::of_file(&file, effects::all()).unwrap().equations(&[]).unwrap();
+    let start = equations.states.iter().map(|s| match s.as_str() {
+        "body.u" => drawn.speed,
+        wheel if wheel.starts_with("theta") => drawn.speed / drawn.machine.wheels[0].radius,
+        _ => 0.0,
+    });
+    let input = |role: &str, t: f64| match role.strip_suffix('\'') {
+        Some(role) => waves[place(drawn, role)].at(t)[1],
+        None => waves[place(drawn, role)].at(t)[0],
+    };
+    let mut workspace = equations.workspace(&[]);
+    let rates = |t: f64, z: &[f64], rates: &mut [f64]| {
+        let u: Vec<f64> = equations.inputs.iter().map(|role| input(role.as_str(), t)).collect();
+        equations.rates(&mut workspace, z, &u, rates);
+    };
+    let stiff = Integrator { method: Method::Radau5, ..Integrator::default() };
+    let end = stiff.solve(rates, 0.0, &start.collect::<Vec<f64>>(), &[SECONDS]).unwrap().remove(0);
+    end[..equations.poses].to_vec()
+}
+
 fn place(drawn: &Drawn, role: &str) -> usize {
     drawn.roles.iter().position(|r| *r == role).unwrap()
 }
@@ -65,6 +90,37 @@ fn the_simulator_and_the_library_drive_alike() {
         }
         // It went somewhere, and turned.
         assert!(found[0].hypot(found[1]) > 0.5 && found[2].abs() > 1e-3, "{}: {found:?}", make.name());
+    }
+}
+
+/// Load that moves and side forces that build up, by the simulator and by the effects of the library. The library moves the load
+/// by side forces at a steady load.
+#[test]
+fn tyres_answer_alike_in_the_simulator_and_in_the_library() {
+    let cases = [
+        (Make::Car, "load-transfer", "height", 0.3, 5e-6),
+        (Make::SkidSteer, "load-transfer", "height", 0.3, 5e-6),
+        (Make::Car, "relaxation", "length", 0.4, 5e-6),
+        (Make::DifferentialDrive, "relaxation", "length", 0.3, 5e-6),
+        (Make::Train, "relaxation", "length", 0.3, 5e-6),
+    ];
+    for (make, id, parameter, value, near) in cases {
+        let mut random = ChaCha8Rng::seed_from_u64(5);
+        let mut drawn = make.drawn(&mut random);
+        let waves = waves(&drawn, &mut random);
+        let (_, without) = simulated(&drawn, &waves);
+        Secret { id, trailer: None, values: vec![(parameter, value)] }.hide(&mut drawn.machine);
+        let (_, found) = simulated(&drawn, &waves);
+        let effect = format!("[[effects]]\nid = \"{id}\"\n{parameter} = {value}\n");
+        let said = by_equations(&drawn, &waves, &effect);
+        let off = |other: &[f64]| found.iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(
+            off(&said) < near && off(&without) > 100.0 * near,
+            "{} {id}: {} {}",
+            make.name(),
+            off(&said),
+            off(&without)
+        );
     }
 }
 

@@ -5,10 +5,11 @@ use super::description::Dynamics;
 use super::driving_force::{Torque, wheel_torques};
 use super::law::Law;
 use super::masses::symbols;
-use super::rate_forms::{RateForms, times};
+use super::rate_forms::{RateForms, sum, times};
 use crate::formula::{Expr, Symbol};
 use crate::mechanism::{Definitions, Row};
 use crate::model::constraints::{moving, section_heading};
+use crate::model::forced_motion::PUSH;
 
 impl Dynamics {
     /// What the inputs do, and forces on the body and torques on the wheels that effects may add; by quasi-velocity.
@@ -75,6 +76,17 @@ impl Dynamics {
         })
     }
 
+    /// What pushes the body ahead, with side forces as their laws have them: the load that it moves may change what they are.
+    pub(super) fn define_push(&self, forms: &RateForms, d: &mut Definitions, push: &[Vec<Expr>]) {
+        let ahead = forms.speeds.iter().position(|s| s.as_str() == "body.u");
+        let all = sum(ahead.into_iter().flat_map(|k| push[k].iter().cloned()));
+        let by_law = |s: &Symbol| {
+            let number: usize = s.as_str().strip_prefix("contact_")?.strip_suffix(".force")?.parse().ok()?;
+            (self.contacts[number - 1].letter != 'R').then(|| Expr::sym(Law::symbol("law", number)))
+        };
+        d.define(PUSH, all.substitute(&by_law));
+    }
+
     /// The force of a contact with a law, and what it does; its state where it has one.
     pub(super) fn define_contact(
         &self,
@@ -91,9 +103,18 @@ impl Dynamics {
         d.define(name("speed"), contact.speed.expr());
         let grip = self.grip(number);
         d.define(grip.clone(), Expr::int(1));
-        let side = if contact.letter == 'R' { "drive_force" } else { "side_force" };
-        let along = Symbol::new(&format!("{side}_{number}"));
-        d.define(along.clone(), &Expr::sym(grip) * &written(&law.force));
+        d.define(name("law"), written(&law.force));
+        let asked = &Expr::sym(grip) * &Expr::sym(name("law"));
+        let along = match contact.letter {
+            'R' => self.defined("drive_force", number, asked, d),
+            // What a tyre without memory is asked for, what of it is built up, and what it holds of that.
+            _ if law.rate.is_none() => {
+                let asked = self.defined("asked_force", number, asked, d);
+                let built = self.defined("built_force", number, Expr::sym(asked), d);
+                self.defined("side_force", number, Expr::sym(built), d)
+            }
+            _ => self.defined("side_force", number, asked, d),
+        };
         d.define(name("force"), Expr::sym(along));
         for (push, c) in push.iter_mut().zip(forms.of(&contact.slip)) {
             push.push(times(&c.value, &Expr::sym(name("force"))));
@@ -101,6 +122,13 @@ impl Dynamics {
         let rate = law.rate.as_ref()?;
         d.define(name("deflection").rate(), written(rate));
         Some(name("deflection"))
+    }
+
+    /// A quantity of a contact by its number.
+    fn defined(&self, stem: &str, number: usize, formula: Expr, d: &mut Definitions) -> Symbol {
+        let name = Symbol::new(&format!("{stem}_{number}"));
+        d.define(name.clone(), formula);
+        name
     }
 
     /// The factor on the force of a contact, by its place: `traction_1`, `grip_front_1`, `grip_rear_2`, `grip_trailer_1`.

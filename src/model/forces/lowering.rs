@@ -101,6 +101,7 @@ impl Dynamics {
             let swung = contact.slip.rates().map(unprimed).filter(|q| self.given().contains(q));
             turned.extend(swung);
         }
+        self.define_push(forms, &mut d, &push);
         let n = forms.speeds.len();
         let mass: Vec<Vec<Expr>> =
             (0..n).map(|j| (0..=j).map(|k| self.define_mass(&energy, j, k, &mut d)).collect()).collect();

@@ -30,10 +30,10 @@ pub fn secrets(make: Make) -> Vec<(&'static str, Option<usize>)> {
             "traction-limit",
             "cornering-stiffness-rear",
         ]);
-        ids.push("side-grip-limit");
+        ids.extend(["side-grip-limit", "relaxation"]);
     }
     if matches!(make, Make::Car | Make::Train | Make::SkidSteer) {
-        ids.push("cornering-stiffness-front");
+        ids.extend(["cornering-stiffness-front", "load-transfer"]);
     }
     let mut found: Vec<_> = ids.into_iter().map(|id| (id, None)).collect();
     if make == Make::Train {
@@ -62,6 +62,8 @@ impl Secret {
             }
             "side-grip-limit" | "traction-limit" => vec![("softness", between(0.6, 1.6))],
             "trailer-drag" => vec![("rate", between(0.1, 0.4))],
+            "load-transfer" => vec![("height", between(0.2, 0.6))],
+            "relaxation" => vec![("length", between(0.15, 0.6))],
             other => panic!("no secret is called {other}"),
         };
         Self { id, trailer, values }
@@ -92,6 +94,8 @@ impl Secret {
             "viscous-drag" => machine.drag[0] = rate * body.mass,
             "air-drag" => machine.drag[1] = self.value("c") * body.mass,
             "turning-drag" => machine.turning = rate * body.inertia,
+            "load-transfer" => machine.height = self.value("height"),
+            "relaxation" => machine.relaxation = self.value("length"),
             "hill" => {
                 let (sin, cos) = self.value("downhill").sin_cos();
                 machine.hill = [cos, sin].map(|e| G * self.value("grade") * body.mass * e);

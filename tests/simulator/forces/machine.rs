@@ -127,6 +127,10 @@ pub struct Machine {
     pub trailing: Vec<f64>,
     /// Gravity along the ground for the towing body, N, in the world's axes.
     pub hill: [f64; 2],
+    /// Height of the centre of mass of the towing body as a share of its wheelbase, midway.
+    pub height: f64,
+    /// How far wheels roll until their side forces have built up, m; at once where it is zero.
+    pub relaxation: f64,
 }
 
 impl Machine {
@@ -143,6 +147,8 @@ impl Machine {
             drag: [0.0; 2],
             turning: 0.0,
             hill: [0.0; 2],
+            height: 0.0,
+            relaxation: 0.0,
         }
     }
 }

@@ -8,6 +8,8 @@ use super::newton::Inputs;
 pub struct State {
     pub place: Vec<f64>,
     pub speed: Vec<f64>,
+    /// The side force that has built up at every contact, where it does not follow at once.
+    pub built: Vec<f64>,
 }
 
 /// A machine slows down by no more than this from one row to the next, m/s.
@@ -41,14 +43,19 @@ impl Machine {
 
     fn rates(&self, state: &State, t: f64, inputs: Signal) -> State {
         let (u, rate) = inputs(t);
-        let speed = self.accelerations(state, &Inputs { u: &u, rate: &rate });
-        State { place: state.speed[..state.place.len()].to_vec(), speed }
+        let inputs = Inputs { u: &u, rate: &rate };
+        let speed = self.accelerations(state, &inputs);
+        State { place: state.speed[..state.place.len()].to_vec(), speed, built: self.building(state, &inputs) }
     }
 }
 
 fn moved(state: &State, by: &State, h: f64) -> State {
     let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + h * b).collect();
-    State { place: sum(&state.place, &by.place), speed: sum(&state.speed, &by.speed) }
+    State {
+        place: sum(&state.place, &by.place),
+        speed: sum(&state.speed, &by.speed),
+        built: sum(&state.built, &by.built),
+    }
 }
 
 /// A machine from one time to another.

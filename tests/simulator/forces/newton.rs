@@ -19,6 +19,11 @@ pub struct Inputs<'u> {
 /// The smallest speed, m/s, at which dry friction is what it is at speed: below it is smooth.
 const SLOW: f64 = 0.01;
 
+/// m/s².
+const GRAVITY: f64 = 9.81;
+/// Loads and accelerations are made to agree in so many rounds; each leaves a small share of what the one before left.
+const ROUNDS: usize = 6;
+
 impl Machine {
     /// How many velocities there are.
     fn size(&self) -> usize {
@@ -105,8 +110,8 @@ impl Machine {
         ([cos, sin], state.speed[k] + rate)
     }
 
-    /// Everything that pushes.
-    fn pushed(&self, state: &State, inputs: &Inputs) -> DVector<f64> {
+    /// Everything that pushes, while the towing body speeds up by so much, m/s².
+    fn pushed(&self, state: &State, inputs: &Inputs, growth: f64) -> DVector<f64> {
         let mut q = DVector::zeros(self.size());
         let mut push = |body: usize, arm: [f64; 2], f: [f64; 2]| {
             q[3 * body] += f[0];
@@ -114,11 +119,10 @@ impl Machine {
             q[3 * body + 2] += arm[0] * f[1] - arm[1] * f[0];
         };
         let mut torques = vec![0.0; self.wheels.len()];
-        for contact in &self.contacts {
+        for (i, contact) in self.contacts.iter().enumerate() {
             let (e, _) = self.heading(state, contact, inputs);
             let arm = self.arm(state, contact.body, contact.at);
-            let v = self.velocity(state, contact.body, arm);
-            let (along, left) = (v[0] * e[0] + v[1] * e[1], v[1] * e[0] - v[0] * e[1]);
+            let [along, left] = self.sliding(state, contact, inputs);
             if let Some((wheel, grip)) = contact.rolls {
                 let spin = state.speed[3 * self.solids.len() + wheel];
                 let radius = self.wheels[wheel].radius;
@@ -127,7 +131,8 @@ impl Machine {
                 torques[wheel] -= radius * f;
             }
             if let Some(grip) = contact.side {
-                let f = grip.force(left, along);
+                let at_once = grip.scaled(self.load(contact, growth)).force(left, along);
+                let f = if self.relaxation > 0.0 { state.built[i] } else { at_once };
                 push(contact.body, arm, [-f * e[1], f * e[0]]);
             }
         }
@@ -152,10 +157,47 @@ impl Machine {
         q
     }
 
-    /// Accelerations.
+    /// The velocity of a contact along its wheel and to its left.
+    fn sliding(&self, state: &State, contact: &super::machine::Contact, inputs: &Inputs) -> [f64; 2] {
+        let (e, _) = self.heading(state, contact, inputs);
+        let v = self.velocity(state, contact.body, self.arm(state, contact.body, contact.at));
+        [v[0] * e[0] + v[1] * e[1], v[1] * e[0] - v[0] * e[1]]
+    }
+
+    /// How fast the side forces build up.
+    pub fn building(&self, state: &State, inputs: &Inputs) -> Vec<f64> {
+        let of = |(i, contact): (usize, &super::machine::Contact)| {
+            let Some(grip) = contact.side.filter(|_| self.relaxation > 0.0) else { return 0.0 };
+            let [along, left] = self.sliding(state, contact, inputs);
+            (grip.force(left, along) - state.built[i]) * along.abs() / self.relaxation
+        };
+        self.contacts.iter().enumerate().map(of).collect()
+    }
+
+    /// The load of a contact as a share of what it is at a steady speed.
+    fn load(&self, contact: &super::machine::Contact, growth: f64) -> f64 {
+        let moved = 2.0 * self.height * growth / GRAVITY;
+        match contact.body {
+            0 if contact.at[0] > 0.0 => 1.0 - moved,
+            0 => 1.0 + moved,
+            _ => 1.0,
+        }
+    }
+
+    /// Accelerations; where load moves with them, those that agree with their own loads.
     pub fn accelerations(&self, state: &State, inputs: &Inputs) -> Vec<f64> {
+        let (sin, cos) = state.place[2].sin_cos();
+        let mut found = self.accelerations_at(state, inputs, 0.0);
+        let rounds = if self.height == 0.0 { 0 } else { ROUNDS };
+        for _ in 0..rounds {
+            found = self.accelerations_at(state, inputs, found[0] * cos + found[1] * sin);
+        }
+        found
+    }
+
+    fn accelerations_at(&self, state: &State, inputs: &Inputs, growth: f64) -> Vec<f64> {
         let (n, rows) = (self.size(), self.rows(state, inputs));
-        let (masses, push) = (self.masses(), self.pushed(state, inputs));
+        let (masses, push) = (self.masses(), self.pushed(state, inputs, growth));
         let m = rows.len();
         let mut matrix = DMatrix::zeros(n + m, n + m);
         let mut side = DVector::zeros(n + m);

@@ -123,5 +123,5 @@ pub fn begun(machine: &super::machine::Machine, speed: f64) -> State {
     }
     let moving = machine.solids.iter().flat_map(|_| [speed, 0.0, 0.0]);
     let speeds = moving.chain(machine.wheels.iter().map(|w| speed / w.radius)).collect();
-    State { place, speed: speeds }
+    State { place, speed: speeds, built: vec![0.0; machine.contacts.len()] }
 }

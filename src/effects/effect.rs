@@ -299,42 +299,6 @@ impl Effect {
         Some(found)
     }
 
-    /// An effect with a state at every contact, with those at the contacts of a vehicle whose definitions have these names; any
-    /// other effect as it is.
-    ///
-    /// ```
-    /// use creepage::effects;
-    /// let relaxing = effects::named("relaxation").unwrap();
-    /// let names = ["built_force_2".into(), "contact_2.speed".into(), "built_force_5".into()];
-    /// let states: Vec<String> = relaxing.at_contacts(&names).states.into_keys().collect();
-    /// assert_eq!(states, ["lagging_2", "lagging_5"]);
-    /// // A vehicle without such contacts does not have the effect.
-    /// assert!(relaxing.at_contacts(&[]).targets(&[], None).is_none());
-    /// ```
-    pub fn at_contacts(&self, names: &[Symbol]) -> Self {
-        if !self.per_contact {
-            return self.clone();
-        }
-        let mut own = Self { changes: BTreeMap::new(), states: BTreeMap::new(), per_contact: false, ..self.clone() };
-        for (pattern, formula) in &self.changes {
-            if !names.iter().any(|n| matches(pattern, n.as_str())) {
-                own.changes.insert(pattern.clone(), formula.clone());
-            }
-            for name in names.iter().map(Symbol::as_str).filter(|n| matches(pattern, n)) {
-                let Some((_, number)) = name.rsplit_once('_') else { continue };
-                let there = |text: &str| match text.split_once("_n") {
-                    Some((stem, rest)) if rest.is_empty() || rest.starts_with('.') => format!("{stem}_{number}{rest}"),
-                    _ => text.to_string(),
-                };
-                let at = |e: &Expr| e.substitute(&|s| Some(Expr::sym(Symbol::new(&there(s.as_str())))));
-                own.changes.insert(name.to_string(), at(formula));
-                let states = self.states.iter();
-                own.states.extend(states.map(|(key, s)| (there(key), State { rate: at(&s.rate), ..s.clone() })));
-            }
-        }
-        own
-    }
-
     /// Its formulas: the changes, then the rates of its states.
     pub fn formulas(&self) -> impl Iterator<Item = &Expr> {
         self.changes.values().chain(self.states.values().map(|s| &s.rate))
@@ -374,7 +338,7 @@ impl Effect {
 }
 
 /// `r*` stands for r, r_1, r_2, …; anything else for itself.
-fn matches(pattern: &str, name: &str) -> bool {
+pub(super) fn matches(pattern: &str, name: &str) -> bool {
     let Some(stem) = pattern.strip_suffix('*') else { return pattern == name };
     match name.strip_prefix(stem) {
         Some("") => true,

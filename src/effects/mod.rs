@@ -6,6 +6,7 @@ mod applied;
 mod course;
 mod drifting;
 mod effect;
+mod per_contact;
 mod plain;
 mod random_walk;
 mod scope;

@@ -92,7 +92,8 @@ impl Model {
 
     /// What an effect rewrites on this vehicle; `None` when it does not apply.
     pub(crate) fn targets(&self, e: &Effect, trailer: Option<usize>, names: &[Symbol]) -> Option<Vec<(Symbol, Expr)>> {
-        let e = &e.at_contacts(names);
+        let at_contacts = e.at_contacts(names);
+        let e = &*at_contacts;
         let found = match &e.on {
             Some(name) if e.per_quantity => {
                 let quantity = self.measured_quantity(name)?;
@@ -118,7 +119,8 @@ impl Model {
 
     /// The first name in an effect's formulas that means nothing in this model.
     pub(crate) fn stranger(&self, e: &Effect, names: &[Symbol]) -> Option<Symbol> {
-        let e = &e.at_contacts(names);
+        let at_contacts = e.at_contacts(names);
+        let e = &*at_contacts;
         let own = |s: &Symbol| e.parameters.contains_key(s.as_str()) || e.states.contains_key(s.as_str());
         let mut used: BTreeSet<Symbol> = e.formulas().flat_map(Expr::symbols).filter(|s| !own(s)).collect();
         if let Some(scope) = &e.scope {

@@ -148,7 +148,7 @@ impl Model {
     pub(crate) fn at_contacts(&self, mut applied: Applied) -> Applied {
         if applied.effect.per_contact {
             let names: Vec<Symbol> = self.bare_definitions().iter().map(|(name, _)| name.clone()).collect();
-            applied.effect = applied.effect.at_contacts(&names);
+            applied.effect = applied.effect.at_contacts(&names).into_owned();
         }
         applied
     }

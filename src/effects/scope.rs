@@ -203,22 +203,15 @@ impl Scope {
         opened
     }
 
-    /// Intervals of which the first has no beginning; `None` where it has none, or is all there would be.
-    pub(crate) fn without_beginning(&self) -> Option<Self> {
+    /// Intervals of which the first has no beginning (0), or the last no end (1); `None` where it has none, or is all there would
+    /// be.
+    pub(crate) fn left_open(&self, end: usize) -> Option<Self> {
         let Self::Times(intervals) = self else { return None };
         let mut intervals = intervals.clone();
-        let first = intervals.first_mut().filter(|i| i[0].is_finite())?;
-        first[0] = f64::NEG_INFINITY;
-        (first[1].is_finite()).then_some(Self::Times(intervals))
-    }
-
-    /// Intervals of which the last has no end; `None` where it has none, or is all there would be.
-    pub(crate) fn without_end(&self) -> Option<Self> {
-        let Self::Times(intervals) = self else { return None };
-        let mut intervals = intervals.clone();
-        let last = intervals.last_mut().filter(|i| i[1].is_finite())?;
-        last[1] = f64::INFINITY;
-        (last[0].is_finite()).then_some(Self::Times(intervals))
+        let outer = if end == 0 { intervals.first_mut() } else { intervals.last_mut() };
+        let outer = outer.filter(|ends| ends[end].is_finite())?;
+        outer[end] = [f64::NEG_INFINITY, f64::INFINITY][end];
+        outer[1 - end].is_finite().then_some(Self::Times(intervals))
     }
 
     /// Whether two scopes are of one kind, whatever their numbers.
@@ -301,11 +294,11 @@ mod tests {
         let of = |ends: &[[f64; 2]]| Scope::Times(ends.to_vec());
         let (early, late) = (f64::NEG_INFINITY, f64::INFINITY);
         let two = of(&[[1.0, 2.0], [3.0, 4.0]]);
-        assert_eq!(two.without_beginning(), Some(of(&[[early, 2.0], [3.0, 4.0]])));
-        assert_eq!(two.without_end(), Some(of(&[[1.0, 2.0], [3.0, late]])));
+        assert_eq!(two.left_open(0), Some(of(&[[early, 2.0], [3.0, 4.0]])));
+        assert_eq!(two.left_open(1), Some(of(&[[1.0, 2.0], [3.0, late]])));
         // What neither begins nor ends is no scope.
-        assert_eq!([of(&[[early, 2.0]]).without_end(), of(&[[3.0, late]]).without_beginning()], [None, None]);
-        assert_eq!([of(&[[early, 2.0]]).without_beginning(), Scope::Above(1.0).without_end()], [None, None]);
+        assert_eq!([of(&[[early, 2.0]]).left_open(1), of(&[[3.0, late]]).left_open(0)], [None, None]);
+        assert_eq!([of(&[[early, 2.0]]).left_open(0), Scope::Above(1.0).left_open(1)], [None, None]);
     }
 
     #[test]

@@ -1,11 +1,11 @@
 //! The times at which a vehicle is within a disk of the plane.
 
 use super::scope_screen::Price;
-use super::search::{Search, without_effect};
+use super::search::Search;
 use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::evidence::information_criterion::bic;
 use crate::discrepancy::record::run_record::Record;
-use crate::effects::{Applied, Effect, Scope};
+use crate::effects::{Applied, Scope};
 use crate::error::Result;
 
 /// Visits beyond these are what a place does, and no intervals of time.
@@ -22,9 +22,9 @@ impl Search<'_> {
     ) -> Result<(Applied, Fit)> {
         let times = own.effect.scope.as_ref().and_then(|scope| times_within(&self.problem.records, scope));
         let Some(times) = times else { return Ok((own, fit)) };
-        let effect = Effect { scope: Some(times), ..own.effect.clone() };
-        let then = Applied { effect, ..own.clone() };
-        let model = without_effect(&fit.model, &own, &base.model).with_effect(then.clone());
+        let mut then = own.clone();
+        then.effect.scope = Some(times);
+        let model = fit.model.clone().with_effect(then.clone());
         let Some(begun) = self.problem.fit(&model, &fit.window_states, &fit.variances, Effort::SCREENING)? else {
             return Ok((own, fit));
         };
@@ -54,7 +54,11 @@ fn visits([time, x, y]: [&[f64]; 3], [a, b, radius]: &[f64; 3]) -> Vec<[f64; 2]>
         let middle = if i == 0 { f64::NEG_INFINITY } else { 0.5 * (time[i - 1] + time[i]) };
         match (was_within, is_within(i)) {
             (false, true) => visits.push([middle, f64::INFINITY]),
-            (true, false) => visits.iter_mut().last().into_iter().for_each(|visit| visit[1] = middle),
+            (true, false) => {
+                if let Some(visit) = visits.last_mut() {
+                    visit[1] = middle;
+                }
+            }
             _ => {}
         }
         was_within = is_within(i);

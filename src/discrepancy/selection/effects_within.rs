@@ -24,6 +24,7 @@ pub(super) struct InPart {
 }
 
 impl InPart {
+    /// Fits in the order of their evidence.
     pub fn ordered(mut fits: Vec<(Applied, Fit)>, price: Price, n: f64) -> Self {
         by_evidence(&mut fits, n);
         Self { fits, price }
@@ -54,6 +55,14 @@ pub(super) fn by_evidence(fits: &mut [(Applied, Fit)], n: f64) {
     fits.sort_by(|(a, f), (b, g)| rounded(bic(f, n)).total_cmp(&rounded(bic(g, n))).then(place(a).cmp(&place(b))));
 }
 
+/// An effect in part as a fit has it, and the fit; `None` where it is not worth what it costs beside the fit without it.
+pub(super) fn paid(without: &Fit, fit: Fit, own: &Applied, price: &Price) -> Option<(Applied, Fit)> {
+    let n = without.sample_size;
+    let is_worth_it = bic(&fit, n) + price.of(own) < bic(without, n);
+    let own = find(&fit.model, own).filter(|_| is_worth_it)?;
+    Some((own, fit))
+}
+
 impl Search<'_> {
     /// The effects that may hold where one holds; `None` where it holds always.
     pub(super) fn library_within(&self, own: &Applied) -> Option<Vec<Effect>> {
@@ -79,6 +88,7 @@ impl Search<'_> {
         Ok(same.min_by_key(|(a, _)| (a.values.len(), place(a))).map_or_else(|| fit.clone(), |(_, f)| f))
     }
 
+    /// The effects that may hold in part, in one scope.
     fn library_in(&self, scope: &Scope) -> Vec<Effect> {
         self.library.iter().filter(|e| may_hold_in_part(e)).map(|e| e.within(scope.clone())).collect()
     }
@@ -87,29 +97,25 @@ impl Search<'_> {
     /// effect for a state that is not measured, a heading above all, no step to first order shows it.
     pub(super) fn in_full_within(&self, at: &Fit, others: [InPart; 2]) -> Result<InPart> {
         let price = others[0].price;
-        let mut scopes: Vec<Scope> = others.iter().flat_map(InPart::scopes).collect();
-        let mut known: Vec<Scope> = vec![];
-        scopes.retain(|s| {
-            !known.contains(s) && {
-                known.push(s.clone());
-                true
+        let mut scopes: Vec<Scope> = vec![];
+        for scope in others.iter().flat_map(InPart::scopes) {
+            if !scopes.contains(&scope) {
+                scopes.push(scope);
             }
-        });
+        }
         let all: Vec<Effect> = scopes.iter().flat_map(|s| self.library_in(s)).collect();
         let is_new = |a: &Applied| !at.model.effects.iter().any(|e| e.same_as(a));
         let begun = at.model.applicable(&all).into_iter();
         let begun = begun.flat_map(|(e, t)| e.starts().into_iter().map(move |v| Applied::new(e, t, v).freed()));
         let begun: Vec<Applied> = begun.filter(is_new).collect();
-        let n = at.sample_size;
         let fitted = |own: Applied| {
             let model = at.model.clone().with_effect(own.clone());
             let fit = self.problem.fit(&model, &at.window_states, &at.variances, Effort::SCREENING)?;
-            let fit = fit.filter(|fit| bic(fit, n) + price.of(&own) < bic(at, n));
-            let own = fit.as_ref().and_then(|fit| find(&fit.model, &own)).filter(is_possible);
-            Ok(own.filter(|own| !vanishes(own)).zip(fit))
+            let found = fit.and_then(|fit| paid(at, fit, &own, &price));
+            Ok(found.filter(|(own, _)| is_possible(own) && !vanishes(own)))
         };
         let fits = begun.into_par_iter().map(fitted).collect::<Result<Vec<_>>>()?;
-        Ok(InPart::ordered(fits.into_iter().flatten().collect(), price, n))
+        Ok(InPart::ordered(fits.into_iter().flatten().collect(), price, at.sample_size))
     }
 }
 

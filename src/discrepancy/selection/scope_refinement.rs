@@ -98,9 +98,9 @@ impl Search<'_> {
         let few =
             scope.without_slivers(SLIVER).unwrap_or_else(|| scope.clone()).open_beyond(first + SLIVER, last - SLIVER);
         let mut fit = self.at_simpler(fit, own, few)?;
-        for open in [Scope::without_beginning, Scope::without_end] {
+        for end in [0, 1] {
             let scope = find(&fit.model, own).and_then(|a| a.effect.scope);
-            let Some(open) = scope.as_ref().and_then(open) else { continue };
+            let Some(open) = scope.and_then(|scope| scope.left_open(end)) else { continue };
             fit = self.at_simpler(fit, own, open)?;
         }
         Ok(fit)

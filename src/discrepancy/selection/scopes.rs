@@ -1,7 +1,7 @@
 //! Effects that hold in part only, or move with time, asked for where what holds always does not explain the data.
 
 use super::candidates::{FINALISTS, place, rounded};
-use super::effects_within::{InPart, by_evidence};
+use super::effects_within::{InPart, by_evidence, paid};
 use super::scope_proposals::{BORNE_OUT, SHORTEST};
 use super::scope_screen::{Price, Proposed};
 use super::search::{Search, SearchState, find, first_of};
@@ -144,11 +144,8 @@ impl Search<'_> {
 
     /// Of effects in part the one that gains most beyond what it costs where its scope explains most, and the fit with it.
     fn best_in_part(&self, base: &Fit, rough: &InPart) -> Result<Option<(String, Fit)>> {
-        let refined = |(own, fit): (Applied, Fit)| {
-            let margin = rough.price.of(&own);
-            self.refined(base, own, fit, margin)
-        };
-        let finalists = best_of_each_kind(rough.fits.clone()).into_par_iter().map(refined);
+        let refined = |(own, fit): &(Applied, Fit)| self.refined(base, own.clone(), fit.clone(), rough.price.of(own));
+        let finalists = best_of_each_kind(&rough.fits).into_par_iter().map(refined);
         let mut fits: Vec<(Applied, Fit)> = finalists.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
         by_evidence(&mut fits, base.sample_size);
         for (own, fit) in fits {
@@ -165,9 +162,7 @@ impl Search<'_> {
     /// is not worth what it costs.
     fn rough(&self, base: &Fit, promise: &ScoreTest, price: &Price) -> Result<Option<(Applied, Fit)>> {
         let fit = score_test::settled(self.problem, base, &base.model, &[promise], Effort::SCREENING)?;
-        let n = base.sample_size;
-        let fit = fit.filter(|fit| bic(fit, n) + price.of(&promise.applied) < bic(base, n));
-        Ok(fit.and_then(|fit| Some((find(&fit.model, &promise.applied)?, fit))))
+        Ok(fit.and_then(|fit| paid(base, fit, &promise.applied, price)))
     }
 
     /// The fit with an effect in part, the numbers of its scope moved to where they explain most, and the effect that
@@ -259,13 +254,14 @@ pub(crate) fn are_limits_told(fit: &Fit) -> bool {
 }
 
 /// Of ordered fits the first of each kind of scope, with the first of another effect.
-fn best_of_each_kind(fits: Vec<(Applied, Fit)>) -> Vec<(Applied, Fit)> {
-    let mut found: Vec<(Applied, Fit)> = vec![];
-    for (own, fit) in fits {
-        let alike = |(a, _): &&(Applied, Fit)| is_like(a, &own);
-        let is_other = !found.iter().filter(alike).any(|(a, _)| a.same_as(&own));
+fn best_of_each_kind(fits: &[(Applied, Fit)]) -> Vec<&(Applied, Fit)> {
+    let mut found: Vec<&(Applied, Fit)> = vec![];
+    for one in fits {
+        let (own, _) = one;
+        let alike = |(a, _): &&&(Applied, Fit)| is_like(a, own);
+        let is_other = !found.iter().filter(alike).any(|(a, _)| a.same_as(own));
         if found.len() < REFINED && found.iter().filter(alike).count() < OF_A_KIND_REFINED && is_other {
-            found.push((own, fit));
+            found.push(one);
         }
     }
     found

@@ -23,6 +23,7 @@ mod terminal;
 mod track;
 mod user_catalogues;
 mod verify;
+mod worker_threads;
 
 pub use stage_text::stage_text;
 
@@ -89,8 +90,7 @@ impl Cli {
     pub fn run(self) -> Result<()> {
         // Here, where it can be told: threads that cannot be started later would end the process.
         let threads = self.common.threads.map_or(0, usize::from);
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
-        pool.map_err(|e| {
+        worker_threads::start_pool(threads).map_err(|e| {
             Error::run(format!("no threads could be started: {e}")).help("try --threads 1, or end other programs")
         })?;
         match self.command {

@@ -94,10 +94,12 @@ fn a_full_disk_behind_standard_error_leaves_the_exit_code() {
 #[test]
 fn threads_that_cannot_be_started_are_told() {
     let dir = folder();
-    let line = "ulimit -v 400000; exec {} discover run.csv --model model.toml --out report --threads 1024";
-    let output = shell(dir.path(), line);
-    let message = refused(&output, 1);
-    assert!(message.contains("no threads could be started"), "{message}");
+    for kilobytes in [400_000, 1_000_000, 1_500_000] {
+        let line =
+            format!("ulimit -v {kilobytes}; exec {{}} discover run.csv --model model.toml --out report --threads 1024");
+        let message = refused(&shell(dir.path(), &line), 1);
+        assert!(message.contains("no threads could be started"), "{message}");
+    }
     assert!(!dir.path().join("report").exists());
 }
 

@@ -107,7 +107,7 @@ impl Model {
             Some(_) => None,
             None => e.targets(names, trailer),
         };
-        let found = found.filter(|_| self.has_inputs_of(e))?;
+        let found = found.filter(|_| self.has_inputs_of(e) && !Self::moves_delay(e))?;
         let free = found.iter().all(|(name, _)| !self.vehicle.holds(name));
         (free && self.stranger(e, names).is_none()).then_some(found)
     }
@@ -115,6 +115,11 @@ impl Model {
     /// Whether the vehicle has all inputs that an effect needs.
     fn has_inputs_of(&self, e: &Effect) -> bool {
         e.needs.iter().all(|role| self.vehicle.inputs.contains_key(role))
+    }
+
+    /// Whether an effect would change in time how late inputs are: they are read at one delay along a run.
+    fn moves_delay(e: &Effect) -> bool {
+        (e.scope.is_some() || e.course.is_some()) && e.delays_inputs()
     }
 
     /// The first name in an effect's formulas that means nothing in this model.
@@ -158,6 +163,15 @@ impl Model {
             let targets = self.targets(&applied.effect, applied.trailer, &names);
             let targets = targets.ok_or_else(|| {
                 let (label, vehicle) = (applied.label(), &self.vehicle.id);
+                let (is_late, whole) = (Self::moves_delay(&applied.effect), &applied.effect.id);
+                if is_late {
+                    return Error::input(format!(
+                        "the effect {label} cannot hold in part, nor move: a delay is one for a run"
+                    ))
+                    .help(format!(
+                        "remove the scope or course of {whole}, or cut the run into files where the delay changes"
+                    ));
+                }
                 let is_aimed =
                     self.has_inputs_of(&applied.effect) && applied.effect.targets(&names, applied.trailer).is_some();
                 Error::input(match self.stranger(&applied.effect, &names).filter(|_| is_aimed) {

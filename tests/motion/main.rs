@@ -2,6 +2,7 @@
 
 mod cost_of_trailers;
 mod ensemble;
+mod every_effect;
 mod ideal_limit;
 mod integrator;
 mod kinematics;

@@ -2,7 +2,7 @@
 //! full where none is good.
 
 use super::candidates::{place, rounded};
-use super::scope_screen::{Price, may_hold_in_part};
+use super::scope_screen::Price;
 use super::search::{Search, find};
 use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
 use crate::discrepancy::estimation::fit::{Effort, Fit};
@@ -88,9 +88,9 @@ impl Search<'_> {
         Ok(same.min_by_key(|(a, _)| (a.values.len(), place(a))).map_or_else(|| fit.clone(), |(_, f)| f))
     }
 
-    /// The effects that may hold in part, in one scope.
+    /// The effects of the library in one scope; those with states too, which the screen for scopes leaves out.
     fn library_in(&self, scope: &Scope) -> Vec<Effect> {
-        self.library.iter().filter(|e| may_hold_in_part(e)).map(|e| e.within(scope.clone())).collect()
+        self.library.iter().filter(|e| e.scope.is_none()).map(|e| e.within(scope.clone())).collect()
     }
 
     /// All effects within the scopes of others, each fitted from its own starts at the noise of a fit: where a model took an

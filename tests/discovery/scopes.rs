@@ -87,6 +87,28 @@ fn what_means_nothing_at_zero_may_begin_as_well() {
     }
 }
 
+/// What has a state of its own is sought in part as well, by a share of what it does.
+#[test]
+fn what_builds_up_or_lags_may_begin_as_well() {
+    let cases = [
+        (UNICYCLE, "traction-creep", "", "mass_over_bR", 0.15),
+        (UNICYCLE, "cornering-creep", "", "mass_over_bT", 0.15),
+        (CAR, "relaxation-length", "e_tc = 0.03\n", "length", 0.8),
+        (CAR, "input-lag", "input = \"steering_angle\"\n", "time_constant", 0.3),
+        (CAR, "input-backlash", "input = \"steering_angle\"\n", "width", 0.04),
+    ];
+    for (head, id, more, name, value) in cases {
+        let hidden = effect(id, &format!("{more}{name} = {value}\nscope = {{ from = 24.3, until = 52.3 }}"));
+        let (report, _) = answer(head, &hidden, 6);
+        let [one] = &report.effects[..] else { panic!("{id}: {}", report.summary) };
+        let scope = one.scope.as_ref().unwrap_or_else(|| panic!("{id}: {}", report.summary));
+        let [from, until] = [scope.from, scope.until].map(Option::unwrap);
+        assert!(one.id == id && (from - 24.3).abs() < 0.5 && (until - 52.3).abs() < 0.5, "{}", report.summary);
+        let found = &one.parameters[name];
+        assert!((found.value - value).abs() < 0.02 * value, "{id} {name}: {found:?}");
+    }
+}
+
 /// A small effect that holds in part is taken for noise, which hides it: it is seen at the noise that there is without it.
 #[test]
 fn a_small_part_is_not_lost_in_the_noise_that_it_makes() {

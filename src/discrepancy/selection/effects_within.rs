@@ -88,7 +88,7 @@ impl Search<'_> {
         Ok(same.min_by_key(|(a, _)| (a.values.len(), place(a))).map_or_else(|| fit.clone(), |(_, f)| f))
     }
 
-    /// The effects of the library in one scope; those with states too, which the screen for scopes leaves out.
+    /// The effects of the library in one scope.
     fn library_in(&self, scope: &Scope) -> Vec<Effect> {
         self.library.iter().filter(|e| e.scope.is_none()).map(|e| e.within(scope.clone())).collect()
     }

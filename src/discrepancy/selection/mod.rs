@@ -27,4 +27,5 @@ pub(crate) mod stability;
 pub(crate) mod stepwise;
 pub(crate) mod transients;
 pub mod unnamed_terms;
+mod vanishing_effect;
 pub(crate) mod walks;

@@ -1,11 +1,11 @@
 //! Effects screened for scopes: where each would gain if it held in part, from one linearisation of several.
 //!
-//! What an effect gains block by block is a score test where the effect vanishes. Some vanish where a parameter of theirs
-//! means nothing (a slope of no steepness has no direction: Davies, 1977), so they are weighed at several values of it.
+//! What an effect gains block by block is a score test where the effect vanishes.
 
 use super::interval_search::ways_of_more_intervals;
 use super::scope_proposals::{BlockRows, Proposal};
 use super::search::Search;
+use super::vanishing_effect::VanishingEffect;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::evidence::scope_scan::{BlockScores, Blocks};
 use crate::discrepancy::evidence::score_test;
@@ -55,34 +55,6 @@ impl Price {
     }
 }
 
-/// An effect where it vanishes, and which of its parameters are weighed there.
-#[derive(Clone)]
-struct Vanishing {
-    applied: Applied,
-    weighed: Vec<usize>,
-}
-
-impl Vanishing {
-    /// Of a regular effect at its first start; of another at each, with the parameter at zero that gives its size.
-    fn all_of(effect: &Effect, trailer: Option<usize>) -> Vec<Self> {
-        let starts = effect.starts().into_iter();
-        let at = |values: Vec<f64>| Applied::new(effect, trailer, values).freed();
-        if effect.vanishes_first() {
-            let weighed = (0..effect.parameters.len()).collect::<Vec<_>>();
-            return starts.take(1).map(|s| Self { applied: at(s), weighed: weighed.clone() }).collect();
-        }
-        let Some(size) = effect.amplitude() else { return vec![] };
-        let mut found: Vec<Self> = vec![];
-        for mut start in starts {
-            start[size] = 0.0;
-            if !found.iter().any(|f| f.applied.values == start) {
-                found.push(Self { applied: at(start), weighed: vec![size] });
-            }
-        }
-        found
-    }
-}
-
 impl Search<'_> {
     /// The effects that may hold in part and are not in the model yet.
     fn scopable(&self, base: &Fit) -> Vec<(&Effect, Option<usize>)> {
@@ -96,9 +68,9 @@ impl Search<'_> {
         let open = self.scopable(base);
         let blocks = Blocks::of_plan(&self.problem.plan);
         let scoped = self.shortlisted(base, &open, &blocks)?;
+        let tried = (open.len() * blocks.count * TRIED_PER_BLOCK).max(1) as f64;
         let is_regular = |(e, t): &(&Effect, Option<usize>)| score_test::is_regular(e, &base.model, *t);
         let regular: Vec<(&Effect, Option<usize>)> = open.into_iter().filter(is_regular).collect();
-        let tried = (regular.len() * blocks.count * TRIED_PER_BLOCK).max(1) as f64;
         Ok(Proposed { scoped, moving: self.moving(&regular), price: Price { tried, blocks: blocks.count } })
     }
 
@@ -110,8 +82,8 @@ impl Search<'_> {
         blocks: &Blocks,
     ) -> Result<Vec<(Effect, Option<usize>)>> {
         let rows = BlockRows::of(self.problem, &base.model, blocks)?;
-        let groups = in_groups(open.iter().map(|(e, t)| Vanishing::all_of(e, *t)));
-        let of_group = |group: &Vec<Vanishing>| self.scopes_of(base, group, blocks, &rows);
+        let groups = in_groups(open.iter().map(|(e, t)| VanishingEffect::all_of(e, *t)));
+        let of_group = |group: &Vec<VanishingEffect>| self.scopes_of(base, group, blocks, &rows);
         let all: Vec<Vec<(Applied, Proposal)>> = groups.par_iter().map(of_group).collect::<Result<_>>()?;
         let mut all: Vec<(Applied, Proposal)> = all.into_iter().flatten().collect();
         let n = base.sample_size;
@@ -152,7 +124,7 @@ impl Search<'_> {
     fn scopes_of(
         &self,
         base: &Fit,
-        group: &[Vanishing],
+        group: &[VanishingEffect],
         blocks: &Blocks,
         rows: &BlockRows,
     ) -> Result<Vec<(Applied, Proposal)>> {
@@ -162,40 +134,48 @@ impl Search<'_> {
         let equations = joint.equations(&free)?;
         let problem = self.problem;
         let linear = linearise(&equations, &joint.free_values(), &problem.records, &problem.plan, &base.window_states);
-        let Some(linear) = linear else { return Ok(vec![]) };
+        let Some(linear) = linear else {
+            // What is undefined somewhere does not take the others with it.
+            let each = group.chunks(1).filter(|_| group.len() > 1).map(|one| self.scopes_of(base, one, blocks, rows));
+            return Ok(each.collect::<Result<Vec<_>>>()?.concat());
+        };
         let position = |s: &crate::formula::Symbol| free.iter().position(|f| f == s);
         let columns = |a: &Applied| a.parameters().iter().filter_map(position).collect::<Vec<usize>>();
         let kept: Vec<usize> = base.model.free_effects().flat_map(columns).collect();
         let mut found = vec![];
-        for Vanishing { applied, weighed } in group {
+        for VanishingEffect { applied, weighed, whole } in group {
             let all = columns(applied);
             let own: Vec<usize> = weighed.iter().filter_map(|i| all.get(*i).copied()).collect();
             let scores = BlockScores::of(&linear, blocks, &base.variances, free.len(), &kept, &own);
             let Some(scores) = scores else { continue };
-            found.extend(rows.proposals(&scores).into_iter().map(|p| (applied.clone(), p)));
+            found.extend(rows.proposals(&scores).into_iter().map(|p| (whole.clone(), p)));
         }
         Ok(found)
     }
 }
 
-/// Whether an effect may hold in part: one without states, which always holds so far.
-pub(super) fn may_hold_in_part(effect: &Effect) -> bool {
-    effect.states.is_empty() && effect.scope.is_none()
+/// Whether an effect may hold in part: how late inputs are is one for a run.
+fn may_hold_in_part(effect: &Effect) -> bool {
+    effect.scope.is_none() && !effect.delays_inputs()
 }
 
-/// In groups that share a linearisation, each effect at one value: a user's own by itself, for it may be undefined
-/// somewhere.
-fn in_groups(all: impl Iterator<Item = Vec<Vanishing>>) -> Vec<Vec<Vanishing>> {
-    let mut by_start: Vec<Vec<Vanishing>> = vec![];
-    let mut alone = vec![];
+/// In groups that share a linearisation, each effect at one value, those with states together: a user's own by itself, for it may
+/// be undefined somewhere.
+fn in_groups(all: impl Iterator<Item = Vec<VanishingEffect>>) -> Vec<Vec<VanishingEffect>> {
+    let mut by_start: Vec<Vec<VanishingEffect>> = vec![];
+    let (mut alone, mut with_states) = (vec![], vec![]);
     for (start, one) in all.flat_map(|of_effect| of_effect.into_iter().enumerate()) {
         if one.applied.effect.origin.is_some() {
             alone.push(vec![one]);
             continue;
         }
+        if !one.applied.effect.states.is_empty() {
+            with_states.push(one);
+            continue;
+        }
         by_start.resize(by_start.len().max(start + 1), vec![]);
         by_start[start].push(one);
     }
-    let together = by_start.iter().flat_map(|of_start| of_start.chunks(TOGETHER)).map(<[_]>::to_vec);
+    let together = by_start.iter().chain([&with_states]).flat_map(|some| some.chunks(TOGETHER)).map(<[_]>::to_vec);
     together.chain(alone).collect()
 }

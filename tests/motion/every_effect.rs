@@ -1,7 +1,7 @@
 //! Every effect of the library along a minute's drive, always and in part; play against the operator it is named after.
 
 use creepage::effects::{self, Applied, DrivingRegime, Effect, Scope};
-use creepage::model::Model;
+use creepage::model::{Model, Trailer};
 use creepage::motion::{Integrator, Signals, Timing, simulate_model};
 
 /// The pose at the end of a drive over inputs, each by its role.
@@ -9,7 +9,8 @@ fn end(model: &Model, time: &[f64], input: impl Fn(&str) -> Vec<f64>) -> [f64; 3
     let columns: Vec<Vec<f64>> = model.inputs.iter().map(|role| input(role)).collect();
     let signals = Signals::new(time, &columns, Timing::Sample);
     let integrator = Integrator { max_steps: 100_000, ..Integrator::default() };
-    let table = simulate_model(model, &signals, time, &[0.0; 3], &integrator);
+    let start = vec![0.0; 3 + model.trailer_count()];
+    let table = simulate_model(model, &signals, time, &start, &integrator);
     let table =
         table.unwrap_or_else(|e| panic!("{:?}: {e}", model.effects.iter().map(Applied::label).collect::<Vec<_>>()));
     ["x", "y", "heading"].map(|name| *table.column(name).unwrap().last().unwrap())
@@ -28,13 +29,14 @@ fn a_minute_is_driven_with_every_effect() {
     let (speed, turn) =
         (|t: f64| 4.0 * (0.5 + (0.21 * t).sin()), |t: f64| 0.25 * ((0.37 * t).sin() + 0.4 * (0.83 * t + 1.0).sin()));
     let input = |role: &str| match role {
-        "yaw_rate" | "steering_angle" => of(&turn),
+        "yaw_rate" | "steering_angle" | "steering_angle_rear" => of(&turn),
         "wheel_rate_right" => of(&|t| speed(t) + turn(t)),
         _ => of(&speed),
     };
     let models = [
         model("unicycle", &[]),
-        model("car", &[("wheelbase", 0.5)]),
+        model("car", &[("wheelbase", 0.5)]).with_trailers(&[Trailer { length: 0.6, hitch: 0.1 }]),
+        model("four-wheel-steering", &[("wheelbase", 0.5)]),
         model("differential-drive", &[("track_width", 0.4)]),
     ];
     let scopes = [None, Some(Scope::Times(vec![[20.0, 40.0]])), Some(Scope::Regime(DrivingRegime::Reverse))];

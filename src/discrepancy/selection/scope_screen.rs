@@ -14,8 +14,8 @@ use crate::effects::{Applied, Effect};
 use crate::error::Result;
 use rayon::prelude::*;
 
-/// Proposals that are linearised with gates of their own, at most.
-const SHORTLIST: usize = 30;
+/// Proposals that are linearised with gates of their own, at most: of effects that act at once, and of those with states.
+const SHORTLIST: [usize; 2] = [30, 10];
 /// And of one effect so many, and so many of one kind of scope: intervals of time have many neighbours that promise as much.
 const OF_AN_EFFECT: usize = 5;
 const OF_A_KIND: usize = 3;
@@ -99,7 +99,9 @@ impl Search<'_> {
             let is_new = !own().any(|(_, q)| q.scope == p.scope);
             let few =
                 own().count() < OF_AN_EFFECT && own().filter(|(_, q)| q.scope.is_like(&p.scope)).count() < OF_A_KIND;
-            if is_new && few && kept.len() < SHORTLIST {
+            let own_class = class(&a);
+            let is_open = kept.iter().filter(|(k, _)| class(k) == own_class).count() < SHORTLIST[own_class];
+            if is_new && few && is_open {
                 kept.push((a, p));
             }
         }
@@ -178,4 +180,9 @@ fn in_groups(all: impl Iterator<Item = Vec<VanishingEffect>>) -> Vec<Vec<Vanishi
     }
     let together = by_start.iter().chain([&with_states]).flat_map(|some| some.chunks(TOGETHER)).map(<[_]>::to_vec);
     together.chain(alone).collect()
+}
+
+/// Effects that act at once, and those with states: the one class does not take the places of the other.
+pub(super) fn class(a: &Applied) -> usize {
+    usize::from(!a.effect.states.is_empty())
 }

@@ -3,7 +3,7 @@
 use super::candidates::{FINALISTS, place, rounded};
 use super::effects_within::{InPart, by_evidence, paid};
 use super::scope_proposals::{BORNE_OUT, SHORTEST};
-use super::scope_screen::{Price, Proposed};
+use super::scope_screen::{Price, Proposed, class};
 use super::search::{Search, SearchState, find, first_of};
 use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
 use crate::discrepancy::estimation::fit::{Effort, Fit};
@@ -24,13 +24,13 @@ use rayon::prelude::*;
 const MOST: usize = 2;
 /// Effects that always hold, added beside one in part, at most.
 const BESIDE: usize = 2;
-/// Scopes as proposed that are fitted, at most.
-const TRIED: usize = 4 * FINALISTS;
+/// Scopes as proposed that are fitted, at most: of effects that act at once, and of those with states.
+const TRIED: [usize; 2] = [4 * FINALISTS, FINALISTS];
 /// Of these so many of one kind of scope, and of one effect in that kind.
 const OF_A_KIND: usize = 4;
 const OF_AN_EFFECT: usize = 2;
-/// So many scopes are refined, and so many of one kind, of different effects.
-const REFINED: usize = 5;
+/// So many scopes are refined, of effects that act at once and of those with states, and so many of one kind, of different effects.
+const REFINED: [usize; 2] = [5, 2];
 const OF_A_KIND_REFINED: usize = 2;
 
 /// The search with scopes and courses beside the effects that always hold; `None` unless one of them earns its place.
@@ -225,19 +225,22 @@ fn of_each_kind(weighed: &[ScoreTest]) -> Vec<&ScoreTest> {
         };
         let own = |a: &&&ScoreTest| alike(a) && a.applied.same_as(&promise.applied);
         let few = found.iter().filter(alike).count() < OF_A_KIND && found.iter().filter(own).count() < OF_AN_EFFECT;
-        if found.len() < TRIED && few && !found.iter().any(is_same) {
+        let own_class = class(&promise.applied);
+        let is_open = found.iter().filter(|a| class(&a.applied) == own_class).count() < TRIED[own_class];
+        if is_open && few && !found.iter().any(is_same) {
             found.push(promise);
         }
     }
     found
 }
 
-/// Whether two effects have scopes of one kind, or none.
+/// Whether two effects of one class have scopes of one kind, or none.
 fn is_like(a: &Applied, b: &Applied) -> bool {
-    match (&a.effect.scope, &b.effect.scope) {
+    let is_kind = match (&a.effect.scope, &b.effect.scope) {
         (Some(a), Some(b)) => a.is_like(b),
         (a, b) => a.is_none() == b.is_none(),
-    }
+    };
+    is_kind && class(a) == class(b)
 }
 
 /// Whether the data tell what an effect in part is held by, as a limit is: one of fewer deviations than these is not told.
@@ -260,7 +263,9 @@ fn best_of_each_kind(fits: &[(Applied, Fit)]) -> Vec<&(Applied, Fit)> {
         let (own, _) = one;
         let alike = |(a, _): &&&(Applied, Fit)| is_like(a, own);
         let is_other = !found.iter().filter(alike).any(|(a, _)| a.same_as(own));
-        if found.len() < REFINED && found.iter().filter(alike).count() < OF_A_KIND_REFINED && is_other {
+        let own_class = class(own);
+        let is_open = found.iter().filter(|(a, _)| class(a) == own_class).count() < REFINED[own_class];
+        if is_open && found.iter().filter(alike).count() < OF_A_KIND_REFINED && is_other {
             found.push(one);
         }
     }

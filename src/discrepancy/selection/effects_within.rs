@@ -64,9 +64,10 @@ pub(super) fn paid(without: &Fit, fit: Fit, own: &Applied, price: &Price) -> Opt
 }
 
 impl Search<'_> {
-    /// The effects that may hold where one holds; `None` where it holds always.
+    /// The effects that may hold where one holds, with states where that one has some: else they were proposed for scopes of
+    /// their own; `None` where it holds always.
     pub(super) fn library_within(&self, own: &Applied) -> Option<Vec<Effect>> {
-        own.effect.scope.as_ref().map(|scope| self.library_in(scope))
+        own.effect.scope.as_ref().map(|scope| self.library_in(scope, !own.effect.states.is_empty()))
     }
 
     /// The fit with the effect that explains most in the same scope; of those that say the same the first of the library.
@@ -88,9 +89,10 @@ impl Search<'_> {
         Ok(same.min_by_key(|(a, _)| (a.values.len(), place(a))).map_or_else(|| fit.clone(), |(_, f)| f))
     }
 
-    /// The effects of the library in one scope.
-    fn library_in(&self, scope: &Scope) -> Vec<Effect> {
-        self.library.iter().filter(|e| e.scope.is_none()).map(|e| e.within(scope.clone())).collect()
+    /// The effects of the library in one scope, those that act at once or all.
+    fn library_in(&self, scope: &Scope, has_states: bool) -> Vec<Effect> {
+        let some = self.library.iter().filter(|e| e.scope.is_none() && (has_states || e.states.is_empty()));
+        some.map(|e| e.within(scope.clone())).collect()
     }
 
     /// All effects within the scopes of others, each fitted from its own starts at the noise of a fit: where a model took an
@@ -103,7 +105,7 @@ impl Search<'_> {
                 scopes.push(scope);
             }
         }
-        let all: Vec<Effect> = scopes.iter().flat_map(|s| self.library_in(s)).collect();
+        let all: Vec<Effect> = scopes.iter().flat_map(|s| self.library_in(s, false)).collect();
         let is_new = |a: &Applied| !at.model.effects.iter().any(|e| e.same_as(a));
         let begun = at.model.applicable(&all).into_iter();
         let begun = begun.flat_map(|(e, t)| e.starts().into_iter().map(move |v| Applied::new(e, t, v).freed()));

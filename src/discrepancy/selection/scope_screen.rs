@@ -16,6 +16,8 @@ use rayon::prelude::*;
 
 /// Proposals that are linearised with gates of their own, at most: of effects that act at once, and of those with states.
 const SHORTLIST: [usize; 2] = [30, 10];
+/// What an effect with states must promise, as a share of the best of all: passes along them are slow.
+const FAINT: f64 = 0.5;
 /// And of one effect so many, and so many of one kind of scope: intervals of time have many neighbours that promise as much.
 const OF_AN_EFFECT: usize = 5;
 const OF_A_KIND: usize = 3;
@@ -93,6 +95,8 @@ impl Search<'_> {
         };
         all.retain(|one| worth(one) > 0.0);
         all.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
+        let best = all.first().map_or(0.0, worth);
+        all.retain(|one| class(&one.0) == 0 || worth(one) >= FAINT * best);
         let mut kept: Vec<(Applied, Proposal)> = vec![];
         for (a, p) in all {
             let own = || kept.iter().filter(|(k, _)| k.same_as(&a));

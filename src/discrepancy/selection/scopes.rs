@@ -25,12 +25,12 @@ const MOST: usize = 2;
 /// Effects that always hold, added beside one in part, at most.
 const BESIDE: usize = 2;
 /// Scopes as proposed that are fitted, at most: of effects that act at once, and of those with states.
-const TRIED: [usize; 2] = [4 * FINALISTS, FINALISTS];
+const TRIED: [usize; 2] = [4 * FINALISTS, 2];
 /// Of these so many of one kind of scope, and of one effect in that kind.
 const OF_A_KIND: usize = 4;
 const OF_AN_EFFECT: usize = 2;
 /// So many scopes are refined, of effects that act at once and of those with states, and so many of one kind, of different effects.
-const REFINED: [usize; 2] = [5, 2];
+const REFINED: [usize; 2] = [5, 1];
 const OF_A_KIND_REFINED: usize = 2;
 
 /// The search with scopes and courses beside the effects that always hold; `None` unless one of them earns its place.

@@ -163,14 +163,8 @@ impl Model {
             let targets = self.targets(&applied.effect, applied.trailer, &names);
             let targets = targets.ok_or_else(|| {
                 let (label, vehicle) = (applied.label(), &self.vehicle.id);
-                let (is_late, whole) = (Self::moves_delay(&applied.effect), &applied.effect.id);
-                if is_late {
-                    return Error::input(format!(
-                        "the effect {label} cannot hold in part, nor move: a delay is one for a run"
-                    ))
-                    .help(format!(
-                        "remove the scope or course of {whole}, or cut the run into files where the delay changes"
-                    ));
+                if Self::moves_delay(&applied.effect) {
+                    return moving_delay(applied);
                 }
                 let is_aimed =
                     self.has_inputs_of(&applied.effect) && applied.effect.targets(&names, applied.trailer).is_some();
@@ -327,6 +321,13 @@ impl Model {
 
 /// The time at which inputs are looked up, in formulas.
 pub(super) const TIME: &str = "t";
+
+/// What is said of a delay that would change along a run.
+fn moving_delay(applied: &Applied) -> Error {
+    let (label, id) = (applied.label(), &applied.effect.id);
+    Error::input(format!("the effect {label} cannot hold in part, nor move: a delay is one for a run"))
+        .help(format!("remove the scope or course of {id}, or cut the run into files where the delay changes"))
+}
 
 /// Defines an input as it acts, and puts it in the place of the logged one.
 fn define_acting(role: &str, d: &mut Definitions) {

@@ -96,16 +96,14 @@ impl Search<'_> {
         all.retain(|one| worth(one) > 0.0);
         all.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
         let best = all.first().map_or(0.0, worth);
-        all.retain(|one| class(&one.0) == 0 || worth(one) >= FAINT * best);
+        all.retain(|one| one.0.effect.states.is_empty() || worth(one) >= FAINT * best);
         let mut kept: Vec<(Applied, Proposal)> = vec![];
         for (a, p) in all {
             let own = || kept.iter().filter(|(k, _)| k.same_as(&a));
             let is_new = !own().any(|(_, q)| q.scope == p.scope);
             let few =
                 own().count() < OF_AN_EFFECT && own().filter(|(_, q)| q.scope.is_like(&p.scope)).count() < OF_A_KIND;
-            let own_class = class(&a);
-            let is_open = kept.iter().filter(|(k, _)| class(k) == own_class).count() < SHORTLIST[own_class];
-            if is_new && few && is_open {
+            if is_new && few && has_room(kept.iter().map(|(k, _)| k), &a, SHORTLIST) {
                 kept.push((a, p));
             }
         }
@@ -189,4 +187,9 @@ fn in_groups(all: impl Iterator<Item = Vec<VanishingEffect>>) -> Vec<Vec<Vanishi
 /// Effects that act at once, and those with states: the one class does not take the places of the other.
 pub(super) fn class(a: &Applied) -> usize {
     usize::from(!a.effect.states.is_empty())
+}
+
+/// Whether one more effect has room beside others, of each class so many at most.
+pub(super) fn has_room<'a>(others: impl Iterator<Item = &'a Applied>, one: &Applied, most: [usize; 2]) -> bool {
+    others.filter(|a| class(a) == class(one)).count() < most[class(one)]
 }

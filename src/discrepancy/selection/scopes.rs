@@ -3,7 +3,7 @@
 use super::candidates::{FINALISTS, place, rounded};
 use super::effects_within::{InPart, by_evidence, paid};
 use super::scope_proposals::{BORNE_OUT, SHORTEST};
-use super::scope_screen::{Price, Proposed, class};
+use super::scope_screen::{Price, Proposed, class, has_room};
 use super::search::{Search, SearchState, find, first_of};
 use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
 use crate::discrepancy::estimation::fit::{Effort, Fit};
@@ -225,8 +225,7 @@ fn of_each_kind(weighed: &[ScoreTest]) -> Vec<&ScoreTest> {
         };
         let own = |a: &&&ScoreTest| alike(a) && a.applied.same_as(&promise.applied);
         let few = found.iter().filter(alike).count() < OF_A_KIND && found.iter().filter(own).count() < OF_AN_EFFECT;
-        let own_class = class(&promise.applied);
-        let is_open = found.iter().filter(|a| class(&a.applied) == own_class).count() < TRIED[own_class];
+        let is_open = has_room(found.iter().map(|a| &a.applied), &promise.applied, TRIED);
         if is_open && few && !found.iter().any(is_same) {
             found.push(promise);
         }
@@ -263,8 +262,7 @@ fn best_of_each_kind(fits: &[(Applied, Fit)]) -> Vec<&(Applied, Fit)> {
         let (own, _) = one;
         let alike = |(a, _): &&&(Applied, Fit)| is_like(a, own);
         let is_other = !found.iter().filter(alike).any(|(a, _)| a.same_as(own));
-        let own_class = class(own);
-        let is_open = found.iter().filter(|(a, _)| class(a) == own_class).count() < REFINED[own_class];
+        let is_open = has_room(found.iter().map(|(a, _)| a), own, REFINED);
         if is_open && found.iter().filter(alike).count() < OF_A_KIND_REFINED && is_other {
             found.push(one);
         }

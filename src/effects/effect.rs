@@ -322,19 +322,6 @@ impl Effect {
         };
         self.parameters.keys().position(vanishes)
     }
-
-    /// Whether the first of its starts is where it vanishes, so that a step to first order may be taken from there.
-    pub(crate) fn vanishes_first(&self) -> bool {
-        self.parameters.values().all(|p| p.start.first() == Some(&0.0))
-    }
-
-    /// All combinations of the parameters' starting values.
-    pub fn starts(&self) -> Vec<Vec<f64>> {
-        self.parameters.values().fold(vec![vec![]], |starts, p| {
-            let grown = starts.iter().flat_map(|s| p.start.iter().map(|v| [s.as_slice(), &[*v]].concat()));
-            grown.collect()
-        })
-    }
 }
 
 /// `r*` stands for r, r_1, r_2, …; anything else for itself.

@@ -10,6 +10,7 @@ mod per_contact;
 mod plain;
 mod random_walk;
 mod scope;
+mod starts;
 
 pub use applied::Applied;
 pub use course::Course;

@@ -48,6 +48,8 @@ pub struct Bounds {
     range: Vec<[f64; 2]>,
     positive: Vec<bool>,
     periodic: Vec<bool>,
+    /// Lengths of vectors, each with the place of its angle.
+    vectors: Vec<[usize; 2]>,
     /// Positive values that begin above the edge at which their effect vanishes.
     may_sink: Vec<bool>,
 }
@@ -67,13 +69,15 @@ impl Bounds {
             range: all().map(range_of).collect(),
             positive: all().map(|p| p.positive).collect(),
             periodic: all().map(|p| p.periodic).collect(),
+            vectors: vectors_of(model),
         }
     }
 
-    /// A step held inside: a positive value is at most divided or multiplied by five.
+    /// A step held inside: a positive value is at most divided or multiplied by five, unless it is the length of a vector, which
+    /// goes on through zero.
     pub fn step(&self, p: &DVector<f64>, step: &DVector<f64>) -> DVector<f64> {
         DVector::from_fn(p.len(), |i, _| {
-            if self.periodic[i] {
+            if self.periodic[i] || self.vectors.iter().any(|[length, _]| *length == i) {
                 return step[i];
             }
             let target = p[i] + step[i];
@@ -84,18 +88,42 @@ impl Bounds {
 
     /// Whether a value has sunk to the edge at which its effect vanishes, and a step leads no way back.
     pub fn has_sunk(&self, p: &DVector<f64>, step: &DVector<f64>) -> bool {
-        (0..p.len()).any(|i| self.may_sink[i] && is_sunk(p[i], self.range[i]) && step[i] <= 0.0)
+        let end = self.within(p, step);
+        let is_down = |i: usize| match self.vectors.iter().any(|[length, _]| *length == i) {
+            true => is_sunk(end[i], self.range[i]),
+            false => step[i] <= 0.0,
+        };
+        (0..p.len()).any(|i| self.may_sink[i] && is_sunk(p[i], self.range[i]) && is_down(i))
     }
 
-    /// The point a step leads to, held inside; a periodic value loses its whole turns.
+    /// The point a step leads to, held inside; a periodic value loses its whole turns, and a vector is moved by the step along and
+    /// across itself: (a, α) → |(a + Δa, a·Δα)| and α + arctan(a·Δα/(a + Δa)), which is the same to first order, and all there is
+    /// to an effect that is linear in the vector.
     pub fn within(&self, p: &DVector<f64>, step: &DVector<f64>) -> DVector<f64> {
         let target = p + self.step(p, step);
-        DVector::from_fn(p.len(), |i, _| match self.periodic[i] {
+        let mut end = DVector::from_fn(p.len(), |i, _| match self.periodic[i] {
             true => wrapped(target[i]),
             // What is added and taken away again is rounded.
             false => target[i].clamp(self.range[i][0], self.range[i][1]),
-        })
+        });
+        for [length, angle] in &self.vectors {
+            let (along, across) = (target[*length], p[*length] * (target[*angle] - p[*angle]));
+            end[*length] = along.hypot(across).clamp(self.range[*length][0], self.range[*length][1]);
+            end[*angle] = wrapped(p[*angle] + across.atan2(along));
+        }
+        end
     }
+}
+
+/// The places of lengths and angles of vectors among the values of a model's free effects.
+fn vectors_of(model: &Model) -> Vec<[usize; 2]> {
+    let mut first = 0;
+    let mut found = vec![];
+    for effect in model.free_effects() {
+        found.extend(effect.effect.vector().map(|places| places.map(|i| first + i)));
+        first += effect.values.len();
+    }
+    found
 }
 
 #[cfg(test)]
@@ -126,7 +154,8 @@ mod tests {
     /// The way across ±π is as short as any other.
     #[test]
     fn an_angle_goes_on_where_it_is_wrapped() {
-        let slope = with("side-slope", &[3.1, 0.05]);
+        let mut slope = with("side-slope", &[3.1, 0.05]);
+        slope.effect.parameters.get_mut("rate").unwrap().positive = false;
         assert_eq!(slope.effect.parameters.keys().collect::<Vec<_>>(), ["direction", "rate"]);
         let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap().with_effect(slope.freed());
         let (bounds, p) = (Bounds::of(&model), DVector::from_vec(vec![3.1, 0.05]));
@@ -134,6 +163,25 @@ mod tests {
         assert!((bounds.step(&p, &step) - &step).norm() < 1e-15);
         let there = bounds.within(&p, &step);
         assert!((there[0] - (3.2 - 2.0 * PI)).abs() < 1e-12 && (there[1] - 0.06).abs() < 1e-15, "{there}");
+    }
+
+    /// A step of a slope is one of its two components: through zero to the other side, and across as far as it turns.
+    #[test]
+    fn a_slope_is_moved_by_its_components() {
+        let slope = with("side-slope", &[0.5, 0.05]);
+        let model = Model::new("unicycle", &[("wheel_radius", 0.5)]).unwrap().with_effect(slope.freed());
+        let (bounds, p) = (Bounds::of(&model), DVector::from_vec(vec![0.5, 0.05]));
+        for [across, along] in [[0.0, -0.13], [0.04, -0.09], [-0.6, 0.02], [1e-5, 1e-5]] {
+            let there = bounds.within(&p, &DVector::from_vec(vec![across / 0.05, along]));
+            let at = |angle: f64, length: f64| [length * angle.cos(), length * angle.sin()];
+            let (e, end) = ([0.5_f64.cos(), 0.5_f64.sin()], at(there[0], there[1]));
+            let wanted = [(0.05 + along) * e[0] - across * e[1], (0.05 + along) * e[1] + across * e[0]];
+            assert!((end[0] - wanted[0]).abs() < 1e-15 && (end[1] - wanted[1]).abs() < 1e-15, "{end:?} {wanted:?}");
+        }
+        // Turned back through the edge at which it vanishes it is not lost; sunk to it, it is.
+        let edge = DVector::from_vec(vec![0.5, 0.05 * LEAST_SHARE]);
+        let sunk = |along: f64| bounds.has_sunk(&edge, &DVector::from_vec(vec![0.0, along]));
+        assert!(sunk(-0.001) && !sunk(-0.05));
     }
 
     /// Sunk and pressed further down it is lost; on its way back, or where it began at the edge, it is not.

@@ -141,7 +141,7 @@ impl Problem {
         v: &NoiseModel,
     ) -> Result<Option<f64>> {
         let Some(bare) = self.fit(model, starts, v, EFFORT)? else { return Ok(None) };
-        let begin = effect.effect.starts().into_iter().chain([effect.values.clone()]);
+        let begin = effect.effect.separate_starts().into_iter().chain([effect.values.clone()]);
         let mut best: f64 = 0.0;
         for values in begin {
             let with = model.clone().with_effect(Applied::new(&effect.effect, effect.trailer, values).freed());

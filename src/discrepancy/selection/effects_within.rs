@@ -108,7 +108,8 @@ impl Search<'_> {
         let all: Vec<Effect> = scopes.iter().flat_map(|s| self.library_in(s, false)).collect();
         let is_new = |a: &Applied| !at.model.effects.iter().any(|e| e.same_as(a));
         let begun = at.model.applicable(&all).into_iter();
-        let begun = begun.flat_map(|(e, t)| e.starts().into_iter().map(move |v| Applied::new(e, t, v).freed()));
+        let begun =
+            begun.flat_map(|(e, t)| e.separate_starts().into_iter().map(move |v| Applied::new(e, t, v).freed()));
         let begun: Vec<Applied> = begun.filter(is_new).collect();
         let fitted = |own: Applied| {
             let model = at.model.clone().with_effect(own.clone());

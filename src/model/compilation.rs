@@ -1,7 +1,7 @@
 //! The equations of motion of a model compiled: formulas and their exact derivatives to programs over lanes.
 
 use super::build::TIME;
-use super::equations::{Derived, Equations};
+use super::equations::{Derived, Equations, Fineness};
 use super::freedom::{Freedom, Speed};
 use super::vehicle_model::Model;
 use super::{observation, state};
@@ -193,6 +193,7 @@ impl Model {
             quantity_count: self.measured.len(),
             delay,
             own_delays,
+            fineness: Fineness::default(),
             heading_comes_first,
             is_linear_in_hidden,
             carried: None,

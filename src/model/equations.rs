@@ -45,12 +45,24 @@ pub struct Equations {
     pub(super) delay: Lanes,
     /// How many inputs have a delay of their own beside that of all: none, or all that are logged.
     pub(crate) own_delays: usize,
+    /// How finely states that forget are followed along a log.
+    pub(crate) fineness: Fineness,
     /// Whether there is a pose alone, its heading by the inputs and its place by heading and inputs.
     pub(crate) heading_comes_first: bool,
     /// Whether the rates of the hidden states are linear in these, by their formulas.
     pub(crate) is_linear_in_hidden: bool,
     /// The motion of the hidden states alone, where it does not ask for the pose.
     pub(super) carried: Option<Box<Equations>>,
+}
+
+/// How finely states that forget are followed along a log.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Fineness {
+    /// To what is reported.
+    #[default]
+    Full,
+    /// In steps twice as long, by which candidates are compared: values move by less than a hundredth of their deviations.
+    Screening,
 }
 
 /// An input that no column of a log gives, but the log as a whole.
@@ -101,6 +113,13 @@ impl<const L: usize> RatesAlone<'_, L> {
 }
 
 impl Equations {
+    /// The same, followed as finely as it takes to compare candidates.
+    pub(crate) fn for_screening(mut self) -> Self {
+        self.fineness = Fineness::Screening;
+        self.carried = self.carried.map(|carried| Box::new(carried.for_screening()));
+        self
+    }
+
     /// Number of states.
     pub fn n(&self) -> usize {
         self.states.len()

@@ -17,7 +17,7 @@ const ARRIVED: f64 = 0.1;
 const TRIED: f64 = 0.05;
 /// How often a drift is looked for further away.
 const STRIDES: usize = 6;
-const EFFORT: Effort = Effort { passes: 8, enough: 1e-3, ..Effort::SCREENING };
+const EFFORT: Effort = Effort { passes: 8, enough: 1e-3, is_rough: false, ..Effort::SCREENING };
 
 /// A clock with its deviations.
 #[derive(Clone, Copy, Debug)]

@@ -9,7 +9,7 @@ use crate::error::Result;
 use nalgebra::DVector;
 
 /// The effort of a fit beside the best scope.
-const PROFILE: Effort = Effort { passes: 8, enough: 1e-3, ..Effort::SCREENING };
+const PROFILE: Effort = Effort { passes: 8, enough: 1e-3, is_rough: false, ..Effort::SCREENING };
 /// The step by which a number is moved first, as a share of its own step.
 const FIRST_WIDTH: f64 = 0.1;
 /// A rise of the deviance that tells its bend, and how many widths are tried.

@@ -135,7 +135,7 @@ impl Search<'_> {
         let added = group.iter().map(|v| v.applied.clone());
         let joint = added.fold(base.model.clone(), crate::model::Model::with_effect);
         let free = joint.free_parameters();
-        let equations = joint.equations(&free)?;
+        let equations = joint.equations(&free)?.for_screening();
         let problem = self.problem;
         let linear = linearise(&equations, &joint.free_values(), &problem.records, &problem.plan, &base.window_states);
         let Some(linear) = linear else {

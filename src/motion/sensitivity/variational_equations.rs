@@ -2,7 +2,7 @@
 
 use super::states::{LaneStates, add};
 use crate::formula::{Isa, Kernel};
-use crate::model::{Derived, Equations, Workspace};
+use crate::model::{Derived, Equations, Fineness, Workspace};
 use crate::motion::Signals;
 use crate::motion::inputs::lane_lookup::Lookup;
 
@@ -160,6 +160,11 @@ impl<'a, const L: usize> VariationalEquations<'a, L> {
     /// Which states each rate depends on.
     pub fn read_by(&self) -> &[Vec<usize>] {
         &self.read_by
+    }
+
+    /// How finely states that forget are followed.
+    pub fn fineness(&self) -> Fineness {
+        self.equations.fineness
     }
 
     /// Whether forces move the vehicle, so that its speeds may be stiff.

@@ -49,7 +49,7 @@ pub(crate) fn is_regular(effect: &Effect, model: &Model, trailer: Option<usize>)
 pub fn promises(problem: &Problem, base: &Fit, model: &Model, open: &[(&Effect, Option<usize>)]) -> Result<ScoreTests> {
     let (regular, others): (Vec<_>, Vec<_>) = open.iter().partition(|(e, t)| is_regular(e, model, *t));
     let applied = |(e, t): &(&Effect, Option<usize>)| {
-        e.separate_starts().into_iter().map(|s| Applied::new(e, *t, s).freed()).collect::<Vec<_>>()
+        e.starts().into_iter().map(|s| Applied::new(e, *t, s).freed()).collect::<Vec<_>>()
     };
     let together: Vec<Applied> = regular.iter().filter_map(|open| applied(open).into_iter().next()).collect();
     let elsewhere = regular.iter().flat_map(|open| applied(open).into_iter().skip(1)).map(|a| vec![a]);

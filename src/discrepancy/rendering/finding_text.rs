@@ -69,7 +69,7 @@ fn says(of: &DataFinding) -> String {
             format!("the pose's noise is alike over {n} rows: a filtered or smoothed pose")
         }
         DataFinding::UnexplainedMotion(component) => format!(
-            "these runs hold motion that the model does not explain, most of it {}: `creepage discover` has something to find",
+            "these runs hold motion that the model does not explain, most of it {}: `creepage discover` looks for its cause",
             COMPONENTS[*component]
         ),
         DataFinding::Defect(defect) => defect_text::sentence(defect),

@@ -1,6 +1,6 @@
 //! Where a fit of an effect begins: the starting values of its parameters, and which of them lead to different ends.
 
-use super::effect::Effect;
+use super::effect::{Effect, Parameter};
 
 impl Effect {
     /// Whether the first of its starts is where it vanishes, so that a step to first order may be taken from there.
@@ -10,14 +10,21 @@ impl Effect {
 
     /// All combinations of the parameters' starting values.
     pub fn starts(&self) -> Vec<Vec<f64>> {
-        self.combined(|_| usize::MAX)
+        self.parameters.values().fold(vec![vec![]], |starts, p| {
+            let grown = starts.iter().flat_map(|s| p.start.iter().map(|v| [s.as_slice(), &[*v]].concat()));
+            grown.collect()
+        })
     }
 
     /// Those of its starts from which a descent may end elsewhere: of a vector any direction will do, for a step turns it as
     /// far as it must.
     pub(crate) fn separate_starts(&self) -> Vec<Vec<f64>> {
-        let angle = self.vector().map(|[_, angle]| angle);
-        self.combined(|i| if angle == Some(i) { 1 } else { usize::MAX })
+        let mut starts = self.starts();
+        if let Some([_, angle]) = self.vector() {
+            let first = starts[0][angle];
+            starts.retain(|s| s[angle] == first);
+        }
+        starts
     }
 
     /// The places of the one positive and the one periodic parameter, length and angle of a vector that the effect is linear in,
@@ -26,20 +33,11 @@ impl Effect {
         if self.origin.is_some() {
             return None;
         }
-        let the_one = |is: fn(&super::Parameter) -> bool| {
+        let the_one = |is: fn(&Parameter) -> bool| {
             let mut places = self.parameters.values().enumerate().filter(|(_, p)| is(p)).map(|(i, _)| i);
             places.next().filter(|_| places.next().is_none())
         };
         Some([the_one(|p| p.positive)?, the_one(|p| p.periodic)?])
-    }
-
-    /// All combinations of so many starting values of each parameter.
-    fn combined(&self, most: impl Fn(usize) -> usize) -> Vec<Vec<f64>> {
-        self.parameters.values().enumerate().fold(vec![vec![]], |starts, (i, p)| {
-            let some = || p.start.iter().take(most(i));
-            let grown = starts.iter().flat_map(|s| some().map(|v| [s.as_slice(), &[*v]].concat()));
-            grown.collect()
-        })
     }
 }
 

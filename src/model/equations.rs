@@ -57,7 +57,7 @@ pub struct Equations {
 
 /// How finely states that forget are followed along a log.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Fineness {
+pub enum Fineness {
     /// To what is reported.
     #[default]
     Full,
@@ -113,10 +113,10 @@ impl<const L: usize> RatesAlone<'_, L> {
 }
 
 impl Equations {
-    /// The same, followed as finely as it takes to compare candidates.
-    pub(crate) fn for_screening(mut self) -> Self {
-        self.fineness = Fineness::Screening;
-        self.carried = self.carried.map(|carried| Box::new(carried.for_screening()));
+    /// The same, followed so finely along a log.
+    pub(crate) fn followed(mut self, fineness: Fineness) -> Self {
+        self.fineness = fineness;
+        self.carried = self.carried.map(|carried| Box::new(carried.followed(fineness)));
         self
     }
 

@@ -28,9 +28,8 @@ mod trailer;
 mod vehicle_model;
 
 pub use constraints::mechanism;
-pub(crate) use equations::RatesAlone;
-pub(crate) use equations::{Derived, Fineness};
-pub use equations::{Equations, Workspace};
+pub(crate) use equations::{Derived, RatesAlone};
+pub use equations::{Equations, Fineness, Workspace};
 pub use file::{WITH_TRAILERS, known, known_on};
 pub use terms::{COEFFICIENT, PREFIX, is_term};
 pub use trailer::{Trailer, trailer_heading};

@@ -7,7 +7,7 @@ use crate::discrepancy::record::run_record::Record;
 use crate::effects::{Applied, of_clock};
 use crate::error::Result;
 use crate::files::{Clock, ModelFile, Run};
-use crate::model::Model;
+use crate::model::{Fineness, Model};
 
 /// Rounds of offset and drift.
 const ROUNDS: usize = 8;
@@ -17,7 +17,7 @@ const ARRIVED: f64 = 0.1;
 const TRIED: f64 = 0.05;
 /// How often a drift is looked for further away.
 const STRIDES: usize = 6;
-const EFFORT: Effort = Effort { passes: 8, enough: 1e-3, is_rough: false, ..Effort::SCREENING };
+const EFFORT: Effort = Effort { passes: 8, enough: 1e-3, fineness: Fineness::Full, ..Effort::SCREENING };
 
 /// A clock with its deviations.
 #[derive(Clone, Copy, Debug)]

@@ -73,11 +73,16 @@ impl Bounds {
         }
     }
 
+    /// Whether a value is the length of a vector.
+    fn is_length(&self, i: usize) -> bool {
+        self.vectors.iter().any(|[length, _]| *length == i)
+    }
+
     /// A step held inside: a positive value is at most divided or multiplied by five, unless it is the length of a vector, which
     /// goes on through zero.
     pub fn step(&self, p: &DVector<f64>, step: &DVector<f64>) -> DVector<f64> {
         DVector::from_fn(p.len(), |i, _| {
-            if self.periodic[i] || self.vectors.iter().any(|[length, _]| *length == i) {
+            if self.periodic[i] || self.is_length(i) {
                 return step[i];
             }
             let target = p[i] + step[i];
@@ -89,10 +94,7 @@ impl Bounds {
     /// Whether a value has sunk to the edge at which its effect vanishes, and a step leads no way back.
     pub fn has_sunk(&self, p: &DVector<f64>, step: &DVector<f64>) -> bool {
         let end = self.within(p, step);
-        let is_down = |i: usize| match self.vectors.iter().any(|[length, _]| *length == i) {
-            true => is_sunk(end[i], self.range[i]),
-            false => step[i] <= 0.0,
-        };
+        let is_down = |i: usize| if self.is_length(i) { is_sunk(end[i], self.range[i]) } else { step[i] <= 0.0 };
         (0..p.len()).any(|i| self.may_sink[i] && is_sunk(p[i], self.range[i]) && is_down(i))
     }
 

@@ -8,7 +8,7 @@ use crate::discrepancy::record::run_record::Record;
 use crate::discrepancy::shooting::linearised_window::LinearisedWindow;
 use crate::discrepancy::shooting::window_integration::linearise;
 use crate::discrepancy::shooting::windows::{Segment, WindowStates};
-use crate::model::Equations;
+use crate::model::{Equations, Fineness};
 use crate::numerics::levenberg_marquardt::{Damping, LeastSquares, minimise};
 use nalgebra::{DMatrix, DVector};
 
@@ -23,18 +23,25 @@ pub struct Effort {
     pub variances: bool,
     /// Whether it ends where a positive value has sunk to the edge at which its effect vanishes and wants further down.
     pub ends_where_lost: bool,
-    /// Whether states that forget are followed as finely only as it takes to compare.
-    pub is_rough: bool,
+    /// How finely states that forget are followed.
+    pub fineness: Fineness,
     /// Whether it begins so near to a fit that what its first step promises can be believed.
     pub begins_near: bool,
 }
 
 impl Effort {
     /// The effort of a fit whose values are reported: variances are estimated with the parameters.
-    pub const FULL: Self =
-        Self { passes: 15, enough: 1e-4, variances: true, ends_where_lost: false, is_rough: false, begins_near: false };
+    pub const FULL: Self = Self {
+        passes: 15,
+        enough: 1e-4,
+        variances: true,
+        ends_where_lost: false,
+        fineness: Fineness::Full,
+        begins_near: false,
+    };
     /// The effort of a fit by which candidates are compared: at the variances of the fit they begin with.
-    pub const SCREENING: Self = Self { passes: 5, enough: 0.05, variances: false, is_rough: true, ..Self::FULL };
+    pub const SCREENING: Self =
+        Self { passes: 5, enough: 0.05, variances: false, fineness: Fineness::Screening, ..Self::FULL };
     /// The same of a candidate that is lost where it vanishes: there states are stiff, and nothing is left to compare.
     pub const CANDIDATE: Self = Self { ends_where_lost: true, ..Self::SCREENING };
 }

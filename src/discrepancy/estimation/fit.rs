@@ -87,8 +87,7 @@ impl Problem {
         variances: &NoiseModel,
         effort: Effort,
     ) -> Result<Option<Fit>> {
-        let equations = model.free_equations()?;
-        let equations = if effort.is_rough { equations.for_screening() } else { equations };
+        let equations = model.free_equations()?.followed(effort.fineness);
         let p = DVector::from_vec(model.free_values());
         let bounds = Bounds::of(model);
         let mut v = variances.clone();

@@ -7,7 +7,7 @@ use crate::discrepancy::shooting::window_integration::each_window;
 use crate::discrepancy::shooting::windows::{Segment, WindowStates};
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
-use crate::model::{Equations, Model};
+use crate::model::{Equations, Fineness, Model};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use std::f64::consts::FRAC_PI_2;
@@ -93,7 +93,7 @@ fn keep_best_start(found: &mut Vec<ScoreTest>) {
 fn promise(problem: &Problem, base: &Fit, model: &Model, group: &[Applied], paired: bool) -> Result<ScoreTests> {
     let joint = group.iter().fold(model.clone(), |m, a| m.with_effect(a.clone()));
     let free = joint.free_parameters();
-    let equations = joint.equations(&free)?.for_screening();
+    let equations = joint.equations(&free)?.followed(Fineness::Screening);
     let turned = turned_starts(problem, &joint, group)?;
     let starts = turned.as_ref().unwrap_or(&base.window_states);
     let Some(e) = joined(problem, base, starts, &equations, &joint.free_values()) else {

@@ -6,10 +6,11 @@ use crate::discrepancy::estimation::fit::{Effort, Fit};
 use crate::discrepancy::record::angle::wrapped;
 use crate::effects::Applied;
 use crate::error::Result;
+use crate::model::Fineness;
 use nalgebra::DVector;
 
 /// The effort of a fit beside the best scope.
-const PROFILE: Effort = Effort { passes: 8, enough: 1e-3, is_rough: false, ..Effort::SCREENING };
+const PROFILE: Effort = Effort { passes: 8, enough: 1e-3, fineness: Fineness::Full, ..Effort::SCREENING };
 /// The step by which a number is moved first, as a share of its own step.
 const FIRST_WIDTH: f64 = 0.1;
 /// A rise of the deviance that tells its bend, and how many widths are tried.

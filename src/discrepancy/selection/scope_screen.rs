@@ -12,6 +12,7 @@ use crate::discrepancy::evidence::score_test;
 use crate::discrepancy::shooting::window_integration::linearise;
 use crate::effects::{Applied, Effect};
 use crate::error::Result;
+use crate::model::Fineness;
 use rayon::prelude::*;
 
 /// Proposals that are linearised with gates of their own, at most: of effects that act at once, and of those with states.
@@ -135,7 +136,7 @@ impl Search<'_> {
         let added = group.iter().map(|v| v.applied.clone());
         let joint = added.fold(base.model.clone(), crate::model::Model::with_effect);
         let free = joint.free_parameters();
-        let equations = joint.equations(&free)?.for_screening();
+        let equations = joint.equations(&free)?.followed(Fineness::Screening);
         let problem = self.problem;
         let linear = linearise(&equations, &joint.free_values(), &problem.records, &problem.plan, &base.window_states);
         let Some(linear) = linear else {

@@ -434,7 +434,7 @@ mod tests {
             arc.z
         };
         let full = model.free_equations().unwrap();
-        let (fine, rough) = (end(&full), end(&full.for_screening()));
+        let (fine, rough) = (end(&full), end(&full.followed(Fineness::Screening)));
         let apart = fine.iter().zip(&rough).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         // It begins 4 mm/s off its limit of 16 mm/s.
         assert!(apart > 1e-9 && apart < 3e-3 * 0.004, "{apart}");

@@ -50,6 +50,9 @@ const BY_CONTACT: &[Known] = &[
 /// Quantities by the number of a wheel that rolls.
 const BY_WHEEL: &[Known] = &[
     ("torque", Kind::Defined, "N*m", "torque about the axle on wheel"),
+    ("motor_torque", Kind::Defined, "N*m", "torque that the motor gives for wheel"),
+    ("drive_torque", Kind::Defined, "N*m", "torque that the gear passes on to wheel"),
+    ("wheel_impulse", Kind::Defined, "kg*m", "impulse of a torque that gives the body one metre per second, at wheel"),
     ("wheel_loss", Kind::Defined, "N*m", "torque that the drive loses at wheel"),
     ("wheel_drag", Kind::Defined, "1/s", "rate at which the drive brakes wheel"),
     ("wheel_rub", Kind::Defined, "1", "dry friction in the drive as a share of the weight, at wheel"),
@@ -155,6 +158,9 @@ impl<'a> UnderForces<'a> {
     }
 
     fn numbered(&self, name: &str) -> Option<Meaning> {
+        if name == "flank_rate" {
+            return Some((Kind::Defined, "1/s".into(), "rate at which teeth of a gear come to rest on a flank".into()));
+        }
         let (stem, number) = name.rsplit_once('_')?;
         if stem == "grip_trailer" {
             return Some((Kind::Defined, "1".into(), format!("factor on the side force of trailer {number}")));

@@ -169,6 +169,19 @@ impl Equations {
         self.live_by_rate().into_iter().map(own).collect()
     }
 
+    /// The states that hang on a visible one, by their rates or through those of others.
+    pub(crate) fn moved_by_visible(&self) -> Vec<bool> {
+        let read_by = self.read_by();
+        let mut moved: Vec<bool> = (0..self.n()).map(|i| i < self.visible).collect();
+        // In so many rounds it has gone from each to all others.
+        for _ in self.visible..self.n() {
+            for (i, reads) in read_by.iter().enumerate() {
+                moved[i] |= reads.iter().any(|j| moved[*j]);
+            }
+        }
+        moved
+    }
+
     /// The same equations with the pose at rest, where the motion of the hidden states does not ask for it.
     pub(crate) fn carried(&self) -> Option<&Equations> {
         self.carried.as_deref()

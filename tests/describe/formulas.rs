@@ -364,6 +364,7 @@ fn the_catalogues_parse_and_hold_these_entries() {
         "drive-gain",
         "back-emf",
         "drive-friction",
+        "gear-backlash",
         "rolling-resistance",
         "viscous-drag",
         "air-drag",

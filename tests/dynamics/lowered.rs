@@ -153,7 +153,7 @@ fn effects_of_forces_are_told_from_one_another() {
     let models = [robot, car.with_laws("viscous", &[40.0]).unwrap().model().unwrap()];
     let places = ["mass", "drive", "force on the body", "contact force"];
     let all: Vec<&Effect> = effects::all().iter().filter(|e| places.contains(&e.place.as_str())).collect();
-    assert_eq!(all.len(), 22);
+    assert_eq!(all.len(), 23);
     let changes: Vec<Vec<f64>> = all.iter().map(|e| changed(e, &models)).collect();
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     for (i, (a, own)) in changes.iter().zip(&all).enumerate() {

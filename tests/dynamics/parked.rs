@@ -32,7 +32,15 @@ fn car() -> Machine {
     let rear =
         Contact { body: 0, at: [0.0; 2], steered: Some(2), rolls: Some((0, Grip::of(Law::Ideal))), side: side(25e3) };
     let front = Contact { body: 0, at: [BASE, 0.0], steered: Some(1), rolls: None, side: side(20e3) };
-    let wheel = Wheel { radius: RADIUS, inertia: FLYWHEEL, input: Some(0), gain: FLYWHEEL, viscous: 0.0, coulomb: 0.0 };
+    let wheel = Wheel {
+        radius: RADIUS,
+        inertia: FLYWHEEL,
+        input: Some(0),
+        gain: FLYWHEEL,
+        viscous: 0.0,
+        coulomb: 0.0,
+        play: 0.0,
+    };
     let body = Solid { mass: 1200.0, inertia: 1700.0, centre: [1.2, 0.0] };
     Machine::of(vec![body], vec![wheel], vec![rear, front], vec![])
 }

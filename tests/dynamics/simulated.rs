@@ -93,16 +93,19 @@ fn the_simulator_and_the_library_drive_alike() {
     }
 }
 
-/// Load that moves and side forces that build up, by the simulator and by the effects of the library. The library moves the load
-/// by side forces at a steady load.
+/// Load that moves, side forces that build up and gears with play, by the simulator and by the effects of the library. The library
+/// moves the load by side forces at a steady load, and its teeth meet softly.
 #[test]
-fn tyres_answer_alike_in_the_simulator_and_in_the_library() {
+fn tyres_and_gears_answer_alike_in_the_simulator_and_in_the_library() {
     let cases = [
         (Make::Car, "load-transfer", "height", 0.3, 5e-6),
         (Make::SkidSteer, "load-transfer", "height", 0.3, 5e-6),
         (Make::Car, "relaxation", "length", 0.4, 5e-6),
         (Make::DifferentialDrive, "relaxation", "length", 0.3, 5e-6),
         (Make::Train, "relaxation", "length", 0.3, 5e-6),
+        (Make::Wheel, "gear-backlash", "lost", 0.05, 3e-4),
+        (Make::DifferentialDrive, "gear-backlash", "lost", 0.05, 3e-4),
+        (Make::Train, "gear-backlash", "lost", 0.05, 3e-4),
     ];
     for (make, id, parameter, value, near) in cases {
         let mut random = ChaCha8Rng::seed_from_u64(5);

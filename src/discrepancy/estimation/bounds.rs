@@ -9,6 +9,9 @@ use nalgebra::DVector;
 /// A positive value below this share of its plausible size is as good as neutral, and a stiff state to integrate.
 const LEAST_SHARE: f64 = 0.04;
 
+/// So near an end of its range a value may be beyond it, in deviations.
+const DEVIATIONS: f64 = 2.0;
+
 /// Where a fit stops: a positive value short of zero.
 pub fn range_of(p: &Parameter) -> [f64; 2] {
     if p.positive { [p.range[0].max(p.size * LEAST_SHARE), p.range[1]] } else { p.range }
@@ -29,6 +32,13 @@ pub fn is_at_an_end(effect: &Applied) -> bool {
 /// The same of one value.
 pub fn is_end_of(p: &Parameter, v: f64) -> bool {
     !p.periodic && p.range.iter().any(|end| (v - end).abs() <= 1e-9 * (p.range[1] - p.range[0]))
+}
+
+/// Whether a value lies within so many of its deviations of an end of its range, other than one at which its effect vanishes:
+/// the likelihood is not one of an inner point there, and the deviation none of it.
+pub fn is_near_an_end(p: &Parameter, v: f64, std: f64) -> bool {
+    let ends = if p.positive { &p.range[1..] } else { &p.range[..] };
+    !p.periodic && ends.iter().any(|end| (v - end).abs() <= DEVIATIONS * std)
 }
 
 /// Whether an effect of the catalogue takes a share of one and more: no coefficient of creep and no scale that is off by

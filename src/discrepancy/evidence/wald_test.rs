@@ -1,6 +1,7 @@
 //! What a fit says of its effects: how far from neutral, how alike in all runs, how likely by chance.
 
 use super::heterogeneity::spreads;
+use crate::discrepancy::estimation::bounds::is_near_an_end;
 use crate::discrepancy::estimation::fit::Fit;
 use crate::effects::Applied;
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
@@ -18,6 +19,20 @@ pub(crate) fn neutral_at_zero(fit: &Fit, effect: &Applied) -> Vec<(usize, f64)> 
         at += e.values.len();
     }
     vec![]
+}
+
+/// Whether the interval of a value of an effect reaches over an end of what any vehicle has.
+pub(crate) fn reaches_an_end(fit: &Fit, effect: &Applied) -> bool {
+    let Some(covariance) = &fit.covariance else { return false };
+    let mut at = 0;
+    for e in fit.model.free_effects() {
+        if e.same_as(effect) {
+            let mut values = e.effect.parameters.values().zip(&e.values).enumerate();
+            return values.any(|(i, (p, v))| is_near_an_end(p, *v, covariance[(at + i, at + i)].sqrt()));
+        }
+        at += e.values.len();
+    }
+    false
 }
 
 /// Squared distance of an effect from neutral in units of a covariance; zero when that is not known.
@@ -88,6 +103,18 @@ mod tests {
         assert_eq!(places("relaxation-length"), [(1, 0.1)]);
         assert_eq!((places("traction-creep"), places("traverse-creep")), (vec![(0, 0.3)], vec![(3, -0.05)]));
         assert_eq!(places("side-slope"), []);
+    }
+
+    /// A wheel may lose no more than nine tenths of its radius; what builds up over no distance is no more than not there.
+    #[test]
+    fn a_value_at_an_end_of_its_range_is_known_from_its_interval() {
+        let reaches = |id: &str, values: &[f64], std: f64| {
+            let model = unicycle(&[(id, values)]);
+            let covariance = Some(DMatrix::identity(values.len(), values.len()) * std * std);
+            reaches_an_end(&Fit { covariance, ..fit_of(model) }, &applied(id))
+        };
+        assert_eq!([-0.88, -0.87, 0.5].map(|scale| reaches("wheel-radius", &[scale], 0.012)), [true, false, false]);
+        assert!(!reaches("relaxation-length", &[0.1, 0.001], 0.01));
     }
 
     /// One value over its spread between runs, squared, is F of one and of the runs less one: of five runs 74.1 is met by one

@@ -83,8 +83,8 @@ pub enum DataFinding {
     CoarseInput(CoarseInput),
     /// The pose's noise is alike over so many rows.
     ColouredNoise(f64),
-    /// The runs hold motion that the model does not explain, most of it of this component.
-    UnexplainedMotion(usize),
+    /// The runs hold motion that the model does not explain, most of it at this place of the model.
+    UnexplainedMotion(&'static str),
     /// Something is wrong with rows, or in a stretch.
     Defect(RowDefect),
     /// A clock jumps within a run.

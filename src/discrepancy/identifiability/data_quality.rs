@@ -14,6 +14,7 @@ use crate::error::Result;
 use crate::files::Run;
 use crate::model::Model;
 use crate::model::observation::{HEADING, POSITION};
+use crate::model::state::JUMPS;
 use rayon::prelude::*;
 
 /// Share of rows left out that is worth a word.
@@ -70,7 +71,7 @@ pub(crate) fn of_fit(fit: &Fit) -> Vec<DataFinding> {
     let most =
         (0..fit.unexplained.len()).max_by(|a, b| fit.unexplained[*a].total_cmp(&fit.unexplained[*b])).unwrap_or(0);
     let coloured = is_coloured.then_some(DataFinding::ColouredNoise(alike));
-    let unexplained = (fit.unexplained[most] > NOTICEABLE).then_some(DataFinding::UnexplainedMotion(most));
+    let unexplained = (fit.unexplained[most] > NOTICEABLE).then(|| DataFinding::UnexplainedMotion(JUMPS[most].place));
     coloured.into_iter().chain(unexplained).collect()
 }
 

@@ -24,6 +24,8 @@ pub(super) struct FastDynamics {
     /// The columns of inputs and of parameters among the derivatives.
     inputs: usize,
     parameters: usize,
+    /// Which of all states they are.
+    rows: Vec<usize>,
     /// A = ∂h′/∂h.
     own: LU<f64, Dyn, Dyn>,
 }
@@ -35,12 +37,24 @@ impl FastDynamics {
     }
 
     fn about(equations: &Equations, p: &[f64], (visible, h): (&[f64], Vec<f64>), u: &[f64]) -> Self {
+        Self::of_some(equations, p, (visible, h), u, |_| true)
+    }
+
+    /// Of those of the states whose place among them is wanted; the others are as inputs to them.
+    fn of_some(
+        equations: &Equations,
+        p: &[f64],
+        (visible, h): (&[f64], Vec<f64>),
+        u: &[f64],
+        is_wanted: impl Fn(usize) -> bool,
+    ) -> Self {
         let (n, m) = (equations.n(), equations.visible);
         let mut workspace = equations.workspace(p);
         let f = equations.rates_and_jacobian(&mut workspace, &[visible, &h].concat(), u);
         let width = n + u.len() + p.len();
-        let own = DMatrix::from_fn(n - m, n - m, |i, j| f[n + (m + i) * width + m + j]).lu();
-        Self { h, m, rates_and_slopes: f.to_vec(), inputs: u.len(), parameters: p.len(), own }
+        let rows: Vec<usize> = (m..n).filter(|i| is_wanted(i - m)).collect();
+        let own = DMatrix::from_fn(rows.len(), rows.len(), |i, j| f[n + rows[i] * width + rows[j]]).lu();
+        Self { h, m, rates_and_slopes: f.to_vec(), inputs: u.len(), parameters: p.len(), rows, own }
     }
 
     fn n(&self) -> usize {
@@ -55,8 +69,8 @@ impl FastDynamics {
     /// −A⁻¹·∂h′/∂·, the derivatives of h₀ by so many columns from one on.
     fn by(&self, from: usize, columns: usize) -> Option<DMatrix<f64>> {
         let width = self.n() + self.inputs + self.parameters;
-        let slope = |i: usize, j: usize| -self.rates_and_slopes[self.n() + (self.m + i) * width + from + j];
-        self.own.solve(&DMatrix::from_fn(self.h.len(), columns, slope)).filter(|by| by.iter().all(|x| x.is_finite()))
+        let slope = |i: usize, j: usize| -self.rates_and_slopes[self.n() + self.rows[i] * width + from + j];
+        self.own.solve(&DMatrix::from_fn(self.rows.len(), columns, slope)).filter(|by| by.iter().all(|x| x.is_finite()))
     }
 
     /// ∂h₀/∂n.
@@ -129,9 +143,15 @@ pub fn moved_along(
     let Some(inverse) = bounded_inverse(&of_nodes, FORGOTTEN) else {
         return arc(end.z[m..].to_vec(), &DMatrix::zeros(h, m), &DMatrix::zeros(h, k - m));
     };
-    let there = FastDynamics::about(equations, p, (&end.z[..m], end.z[m..].to_vec()), u);
-    let local = there.by_visible().unwrap_or_else(|| DMatrix::zeros(h, m));
-    let along = (all.view((m, 0), (h, m)) - &local * &of_nodes) * inverse + &local;
+    // What does not hang on the speeds goes on as it was: it has no place on the manifold, and may have no equilibrium.
+    let is_moved = equations.moved_by_visible();
+    let there = FastDynamics::of_some(equations, p, (&end.z[..m], end.z[m..].to_vec()), u, |i| is_moved[m + i]);
+    let mut local = DMatrix::zeros(h, m);
+    if let Some(by_visible) = there.by_visible() {
+        by_visible.row_iter().zip(&there.rows).for_each(|(row, i)| local.set_row(i - m, &row));
+    }
+    let mut along = (all.view((m, 0), (h, m)) - &local * &of_nodes) * inverse + &local;
+    (0..h).filter(|i| !is_moved[m + i]).for_each(|i| along.row_mut(i).fill(0.0));
     let moved = &along * DVector::from_iterator(m, begin.iter().zip(&end.z).map(|(n, end)| n - end));
     let moved = end.z[m..].iter().zip(moved.iter()).map(|(h, by)| h + by).collect();
     let by_p = all.view((m, m), (h, k - m)) - &along * all.view((0, m), (m, k - m));

@@ -1,14 +1,11 @@
 //! Findings of the state of the data in words.
 
-use super::{defect_text, odd_run_text, other_vehicle_text, slip_text, warning_text};
+use super::{defect_text, odd_run_text, other_vehicle_text, rest_text, slip_text, warning_text};
 use crate::discrepancy::identifiability::data_finding::{DataFinding, Side};
 use crate::discrepancy::preprocessing::unit_errors::Slip;
 use crate::discrepancy::report::Finding;
 use crate::discrepancy::selection::other_vehicle::OtherVehicle;
 use crate::number_format::significant;
-
-/// The components of unexplained motion.
-const COMPONENTS: [&str; 4] = ["along the vehicle", "across the vehicle", "in yaw", "of trailers"];
 
 /// A finding as the check lists it.
 pub fn finding(of: &DataFinding) -> Finding {
@@ -68,9 +65,9 @@ fn says(of: &DataFinding) -> String {
             let n = significant(*rows, 2);
             format!("the pose's noise is alike over {n} rows: a filtered or smoothed pose")
         }
-        DataFinding::UnexplainedMotion(component) => format!(
+        DataFinding::UnexplainedMotion(place) => format!(
             "these runs hold motion that the model does not explain, most of it {}: `creepage discover` looks for its cause",
-            COMPONENTS[*component]
+            rest_text::along(place)
         ),
         DataFinding::Defect(defect) => defect_text::sentence(defect),
         DataFinding::ClockJump(jump) => warning_text::clock_jumped(jump),

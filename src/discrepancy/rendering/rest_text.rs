@@ -37,16 +37,7 @@ fn says(rest: &Rest) -> String {
         true => format!("{runs} {of} error after {} s is {} times the noise", plain(horizon_s), significant(ratio, 2)),
     };
     let most_of = if most.share > 0.5 { "most of it" } else { "the largest part of it" };
-    let along = match most.place {
-        "rotation constraint" => "along the vehicle",
-        "traverse constraint" => "across the vehicle",
-        "yaw rate" => "in yaw",
-        "force along the body" => "by a force along the vehicle",
-        "force across the body" => "by a force across the vehicle",
-        "torque on the body" => "by a torque on the vehicle",
-        "torque on a wheel" => "by a torque on a wheel",
-        _ => "at the trailers",
-    };
+    let along = along(most.place);
     let during = match most.regime {
         DrivingRegime::Whole => String::new(),
         regime => format!(", in {}", regime_text::regime(regime)),
@@ -55,9 +46,33 @@ fn says(rest: &Rest) -> String {
     format!("{error}, {most_of} {along}, from {from} s to {to} s of {}{during}", most.run)
 }
 
+/// The direction of motion that the process noise of a place of the model stands for.
+pub(super) fn along(place: &str) -> &'static str {
+    match place {
+        "rotation constraint" => "along the vehicle",
+        "traverse constraint" => "across the vehicle",
+        "yaw rate" => "in yaw",
+        "force along the body" => "by a force along the vehicle",
+        "force across the body" => "by a force across the vehicle",
+        "torque on the body" => "by a torque on the vehicle",
+        "torque on a trailer" => "by a torque on a trailer",
+        "torque on a wheel" => "by a torque on a wheel",
+        _ => "at the trailers",
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::state::JUMPS;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn every_component_of_the_process_noise_has_a_direction_of_its_own() {
+        let said: BTreeSet<&str> = JUMPS.iter().map(|jump| along(jump.place)).collect();
+        let places: BTreeSet<&str> = JUMPS.iter().map(|jump| jump.place).collect();
+        assert_eq!(said.len(), places.len());
+    }
     use crate::discrepancy::localisation::driving_regimes::Stretch;
 
     #[test]

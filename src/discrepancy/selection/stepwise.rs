@@ -6,7 +6,7 @@ use super::search::{Addition, Candidate, Search, SearchState};
 use crate::discrepancy::estimation::bounds::{is_possible, vanishes};
 use crate::discrepancy::estimation::fit::Fit;
 use crate::discrepancy::evidence::information_criterion::delta_bic;
-use crate::discrepancy::evidence::wald_test::repeats;
+use crate::discrepancy::evidence::wald_test::{reaches_an_end, repeats};
 use crate::effects::Applied;
 use crate::error::Result;
 use crate::model::Model;
@@ -54,7 +54,8 @@ impl Search<'_> {
         // What noise of the inputs asks for is not built upon, nor two effects that are one.
         let is_sound =
             |fit: &Fit| Ok(input_noise::taken_back(self.problem, fit).is_none() && !self.has_two_that_are_one(fit)?);
-        let good = fitted.filter(|(s, fit)| counts(s, fit) && inside(s) && repeats(fit, &s.applied));
+        let tells = |s: &Candidate, fit: &Fit| repeats(fit, &s.applied) && !reaches_an_end(fit, &s.applied);
+        let good = fitted.filter(|(s, fit)| counts(s, fit) && inside(s) && tells(s, fit));
         let sound = |of: Addition| Ok(is_sound(&of.1)?.then_some(of));
         let singles = good.map(|(s, fit)| sound((vec![s.applied], fit)));
         let singles: Vec<Addition> = singles.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();

@@ -54,18 +54,33 @@ impl Dynamics {
             d.define(drag.as_str(), Expr::int(0));
             d.define(rub.as_str(), Expr::int(0));
             d.define(loss.as_str(), self.lost_torque(&rate, [&drag, &rub]));
-            let applied = times(&share, &driven(&role));
-            d.define(torque.as_str(), &applied - &Expr::sym(loss.as_str()));
+            let transmitted = self.transmitted_torque(i + 1, &rate, &times(&share, &driven(&role)), d);
+            d.define(torque.as_str(), &transmitted - &Expr::sym(loss.as_str()));
             add(&torque, &Row::as_written(vec![(rate, Expr::int(1))]), forms);
         }
         push
     }
 
+    /// What the teeth of a gear pass on to a driven wheel of what its motor gives, and the impulse of the torque that would
+    /// give the body a speed of one metre per second; nothing to a wheel that no motor drives.
+    fn transmitted_torque(&self, number: usize, rate: &Symbol, given: &Expr, d: &mut Definitions) -> Expr {
+        let Some(radius) = self.radius(rate).filter(|_| !given.is_zero()) else { return given.clone() };
+        let name = |stem: &str| format!("{stem}_{number}");
+        d.define(name("motor_torque").as_str(), given.clone());
+        d.define(name("wheel_impulse").as_str(), &Expr::sym("body.mass") * &Expr::sym(radius));
+        d.define(name("drive_torque").as_str(), Expr::sym(name("motor_torque").as_str()));
+        Expr::sym(name("drive_torque").as_str())
+    }
+
+    fn radius(&self, rate: &Symbol) -> Option<Symbol> {
+        let wheels = &self.model.vehicle.wheels;
+        wheels.iter().find(|w| w.rate.as_ref() == Some(rate)).and_then(|w| w.radius.clone())
+    }
+
     /// What the drive of a wheel loses: in proportion to its rate, as by a back-EMF, and by dry friction, each for the weight
     /// of the body at the radius of the wheel; dry friction is smooth within a hundredth of a metre per second.
     fn lost_torque(&self, rate: &Symbol, [drag, rub]: [&String; 2]) -> Expr {
-        let wheels = &self.model.vehicle.wheels;
-        let radius = wheels.iter().find(|w| w.rate.as_ref() == Some(rate)).and_then(|w| w.radius.clone());
+        let radius = self.radius(rate);
         let formula = Expr::parse("body.mass*r*(drag*r*w + 9.81*rub*tanh(100*r*w))").unwrap_or_default();
         formula.substitute(&|s| match s.as_str() {
             "r" => radius.clone().map(Expr::sym),

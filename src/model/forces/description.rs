@@ -2,7 +2,7 @@
 
 use super::bodies::{Body, bodies, castors, reference, rolling_rates, spinning, unprimed};
 use super::contact::Contact;
-use super::driving_force::{Force, forces};
+use super::driving_force::{Force, forces, wheel_torques};
 use super::law::laws;
 use super::masses::{Masses, inertia_of};
 use crate::error::{Error, Result};
@@ -45,6 +45,9 @@ pub struct Dynamics {
     pub(crate) by_rate: bool,
     values: BTreeMap<Symbol, f64>,
 }
+
+/// Teeth of a gear come to rest on a flank at this rate, 1/s: quickly beside all that poses show, and slowly enough to follow.
+const FLANK_RATE: f64 = 100.0;
 
 impl Dynamics {
     /// The dynamics of a model with masses, every contact ideal, driven by nothing but its steering.
@@ -132,6 +135,8 @@ impl Dynamics {
             })
         };
         self.driven = roles.iter().map(find).collect::<Result<_>>()?;
+        let turns_wheels = wheel_torques(&self.model.vehicle).iter().any(|t| roles.contains(&t.role.as_str()));
+        self.values.extend(turns_wheels.then(|| ("flank_rate".into(), FLANK_RATE)));
         Ok(self)
     }
 

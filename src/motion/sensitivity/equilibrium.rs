@@ -17,7 +17,7 @@ const NEWTON_TOLERANCE: f64 = 1e-13;
 /// | pose | visible states: x, y, phi, trailer headings |
 ///
 /// Newton's method on the hidden rates with their exact Jacobian, from zero, else from 1 and −1, since a law
-/// with |v| has no derivative at standstill. Of states that are not isolated the one that these steps come to first,
+/// with |v| has no derivative at standstill, else from 1 or −1 for each state, to the side to which it moves from zero. Of states that are not isolated the one that these steps come to first,
 /// as within the play of an input; zero for all of them where there is none or they come to none, as for a vehicle at
 /// standstill whose creep builds up over a distance. Source: the quasi-static values of the effects, −mass_over_bT·v_l·φ̇ and
 /// others.
@@ -42,14 +42,15 @@ pub fn initial_hidden(equations: &Equations, p: &[f64], u0: &[f64], pose: &[f64]
         let jacobian = DMatrix::from_fn(hidden, hidden, |i, k| by_hidden(visible + i, visible + k));
         (DVector::from_column_slice(&all[visible..n]), jacobian)
     };
-    for start in [0.0, 1.0, -1.0] {
-        let mut z = pose.to_vec();
-        z.resize(n, start);
-        if newton(&mut z, visible, &mut hidden_rates) {
-            return z.split_off(visible);
-        }
-    }
-    vec![0.0; n - visible]
+    let hidden = n - visible;
+    let from_zero: Vec<f64> =
+        hidden_rates(&[pose, &vec![0.0; hidden]].concat()).0.iter().map(|rate| side(*rate)).collect();
+    let starts = [vec![0.0; hidden], vec![1.0; hidden], vec![-1.0; hidden], from_zero];
+    let mut found = starts.into_iter().filter_map(|start| {
+        let mut z = [pose, &start].concat();
+        newton(&mut z, visible, &mut hidden_rates).then(|| z.split_off(visible))
+    });
+    found.next().unwrap_or_else(|| vec![0.0; hidden])
 }
 
 /// The visible states of which the sensor would measure these values.
@@ -90,6 +91,17 @@ pub fn visible_state(equations: &Equations, p: &[f64], measured: &[f64]) -> Resu
 }
 
 /// Newton's method on the components of z from `first` on; whether it arrived.
+/// One, to the side to which a state moves; zero for one that stands, or has no rate.
+fn side(rate: f64) -> f64 {
+    if rate > 0.0 {
+        1.0
+    } else if rate < 0.0 {
+        -1.0
+    } else {
+        0.0
+    }
+}
+
 fn newton(z: &mut [f64], first: usize, mut f: impl FnMut(&[f64]) -> (DVector<f64>, DMatrix<f64>)) -> bool {
     if first == z.len() {
         return true;
@@ -114,6 +126,25 @@ mod tests {
     use super::*;
     use crate::effects::{Applied, named};
     use crate::model::Model;
+    use crate::model::forces::{Dynamics, Masses};
+
+    /// Wheels that are driven to different sides each rest on the flank to which they are driven.
+    #[test]
+    fn every_gear_begins_at_a_flank_of_its_own() {
+        let robot = Model::new("differential-drive", &[("wheel_radius", 0.1), ("track_width", 0.5)]).unwrap();
+        let wheels = [("theta_1'".into(), 0.05), ("theta_2'".into(), 0.05)].into();
+        let masses = Masses { mass: 20.0, inertia: 1.0, wheels, ..Masses::default() };
+        let robot = Dynamics::new(&robot, &masses).unwrap();
+        let robot = robot.driven_by(&["wheel_torque_left", "wheel_torque_right"]).unwrap().model().unwrap();
+        let play = Applied::new(named("gear-backlash").unwrap(), None, vec![0.05]);
+        let equations = robot.with_effect(play).equations(&[]).unwrap();
+        let nodes = vec![0.1; equations.visible];
+        for [left, right] in [[0.4, 0.6], [0.4, -0.6], [-0.4, 0.6], [-0.4, -0.6]] {
+            // The right wheel is the first.
+            let flanks = [right, left].map(f64::signum);
+            assert_eq!(initial_hidden(&equations, &[], &[left, right], &nodes), flanks);
+        }
+    }
 
     /// Everything within the play of an input is at rest: what follows it begins at the edge that it comes to from zero.
     #[test]

@@ -58,6 +58,7 @@ fn wheel(radius: f64, inertia: f64, input: usize) -> Wheel {
         gain: 1.0,
         viscous: 0.0,
         coulomb: 0.0,
+        play: 0.0,
     }
 }
 

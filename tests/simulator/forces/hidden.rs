@@ -26,6 +26,7 @@ pub fn secrets(make: Make) -> Vec<(&'static str, Option<usize>)> {
             "drive-gain",
             "back-emf",
             "drive-friction",
+            "gear-backlash",
             "traction",
             "traction-limit",
             "cornering-stiffness-rear",
@@ -54,6 +55,7 @@ impl Secret {
             "drive-gain" => vec![("scale", sign * between(0.08, 0.3))],
             "back-emf" | "viscous-drag" => vec![("rate", between(0.05, 0.25))],
             "drive-friction" | "rolling-resistance" => vec![("coefficient", between(0.004, 0.012))],
+            "gear-backlash" => vec![("lost", between(0.03, 0.12))],
             "air-drag" => vec![("c", between(0.01, 0.06))],
             "turning-drag" => vec![("rate", between(0.2, 0.6))],
             "hill" => vec![("grade", between(0.005, 0.02)), ("downhill", between(-3.1, 3.1))],
@@ -89,6 +91,9 @@ impl Secret {
             "drive-friction" => {
                 let share = self.value("coefficient");
                 machine.wheels.iter_mut().for_each(|w| w.coulomb = share * body.mass * G * w.radius);
+            }
+            "gear-backlash" => {
+                machine.wheels.iter_mut().for_each(|w| w.play = self.value("lost") * body.mass * w.radius)
             }
             "rolling-resistance" => machine.rolling = self.value("coefficient") * body.mass * G,
             "viscous-drag" => machine.drag[0] = rate * body.mass,

@@ -76,6 +76,8 @@ pub struct Wheel {
     pub viscous: f64,
     /// N·m.
     pub coulomb: f64,
+    /// Half the impulse of the torque that the motor spends on crossing the play of its gear, N·m·s.
+    pub play: f64,
 }
 
 /// Where something touches the ground.

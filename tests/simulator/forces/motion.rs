@@ -10,6 +10,10 @@ pub struct State {
     pub speed: Vec<f64>,
     /// The side force that has built up at every contact, where it does not follow at once.
     pub built: Vec<f64>,
+    /// Where the teeth of every wheel's gear stand in their play: the impulse spent on the way from its middle.
+    pub gap: Vec<f64>,
+    /// The mean torque that goes into crossing the play, over the step.
+    pub taken: Vec<f64>,
 }
 
 /// A machine slows down by no more than this from one row to the next, m/s.
@@ -45,7 +49,20 @@ impl Machine {
         let (u, rate) = inputs(t);
         let inputs = Inputs { u: &u, rate: &rate };
         let speed = self.accelerations(state, &inputs);
-        State { place: state.speed[..state.place.len()].to_vec(), speed, built: self.building(state, &inputs) }
+        let place = state.speed[..state.place.len()].to_vec();
+        State { place, speed, built: self.building(state, &inputs), gap: vec![], taken: vec![] }
+    }
+
+    /// The teeth of the gears, over a step: the motor pushes them until they meet, and only then the wheel.
+    fn cross(&self, state: &mut State, t: f64, h: f64, inputs: Signal) {
+        let torques = [0.0, h / 2.0, h].map(|later| inputs(t + later).0);
+        for (i, wheel) in self.wheels.iter().enumerate() {
+            let Some(k) = wheel.input.filter(|_| wheel.play > 0.0) else { continue };
+            let impulse = wheel.gain * h * (torques[0][k] + 4.0 * torques[1][k] + torques[2][k]) / 6.0;
+            let next = (state.gap[i] + impulse).clamp(-wheel.play, wheel.play);
+            state.taken[i] = (next - state.gap[i]) / h;
+            state.gap[i] = next;
+        }
     }
 }
 
@@ -55,6 +72,8 @@ fn moved(state: &State, by: &State, h: f64) -> State {
         place: sum(&state.place, &by.place),
         speed: sum(&state.speed, &by.speed),
         built: sum(&state.built, &by.built),
+        gap: state.gap.clone(),
+        taken: state.taken.clone(),
     }
 }
 
@@ -64,6 +83,7 @@ pub fn advance(machine: &Machine, state: &mut State, from: f64, to: f64, inputs:
     let h = (to - from) / steps;
     for i in 0..steps as usize {
         let t = from + h * i as f64;
+        machine.cross(state, t, h, inputs);
         let k1 = machine.rates(state, t, inputs);
         let k2 = machine.rates(&moved(state, &k1, h / 2.0), t + h / 2.0, inputs);
         let k3 = machine.rates(&moved(state, &k2, h / 2.0), t + h / 2.0, inputs);

@@ -152,7 +152,7 @@ impl Machine {
             let spin = state.speed[3 * self.solids.len() + i];
             let driven = wheel.input.map_or(0.0, |k| wheel.gain * inputs.u[k]);
             let rub = wheel.coulomb * (wheel.radius * spin / SLOW).tanh();
-            q[3 * self.solids.len() + i] += torques[i] + driven - wheel.viscous * spin - rub;
+            q[3 * self.solids.len() + i] += torques[i] + driven - state.taken[i] - wheel.viscous * spin - rub;
         }
         q
     }

@@ -58,6 +58,9 @@ impl Drive {
         let mut state = begun(machine, drawn.speed);
         let (u, rate) = inputs(0.0);
         machine.project(&mut state, &Inputs { u: &u, rate: &rate });
+        for (gap, wheel) in state.gap.iter_mut().zip(&machine.wheels) {
+            *gap = wheel.input.map_or(0.0, |k| wheel.play * u[k].signum());
+        }
         let trailers = machine.solids.len() - 1;
         let mut csv = format!("time,{},x,y,heading", drawn.roles.join(","));
         (1..=trailers).for_each(|i| write!(csv, ",trailer_{i}").unwrap());
@@ -123,5 +126,6 @@ pub fn begun(machine: &super::machine::Machine, speed: f64) -> State {
     }
     let moving = machine.solids.iter().flat_map(|_| [speed, 0.0, 0.0]);
     let speeds = moving.chain(machine.wheels.iter().map(|w| speed / w.radius)).collect();
-    State { place, speed: speeds, built: vec![0.0; machine.contacts.len()] }
+    let none = vec![0.0; machine.wheels.len()];
+    State { place, speed: speeds, built: vec![0.0; machine.contacts.len()], gap: none.clone(), taken: none }
 }

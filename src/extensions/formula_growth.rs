@@ -49,6 +49,10 @@ fn outgrown(library: &[Effect], test_vehicle: &TestVehicle) -> Option<Symbol> {
             parts.rewrite(&name, &formula.substitute(&|s| is_old(s).then(|| crate::formula::Expr::sym(name.clone()))));
         }
     }
+    // The solution of equations of motion multiplies masses with one another, step by step, whatever an effect writes.
+    if test_vehicle.model.forced.is_some() {
+        return None;
+    }
     // With circles among them no order is right; the effects of a circle never stand in one model.
     for (name, formula) in parts.sorted().unwrap_or_default() {
         let inner = |s: &Symbol| Size { degree: degrees.get(s).copied().unwrap_or(1), ..Size::SYMBOL };

@@ -5,6 +5,7 @@
 //! one another. What passes can be used like an effect of the catalogue.
 
 pub(crate) mod applicability;
+mod forced_test_vehicle;
 pub(crate) mod formula_growth;
 mod names;
 pub(crate) mod neutral_value;

@@ -13,9 +13,7 @@ pub(crate) fn check(own: &UserEffect, test_vehicles: &[TestVehicle]) -> Result<(
     check_needs(own, test_vehicles)?;
     let defined = common(test_vehicles.iter().flat_map(TestVehicle::defined));
     for (key, (spot, _)) in &own.changes {
-        let only = Effect::of_change(key, &Expr::int(0));
-        let stands = |trailer: Option<usize>| only.targets(&defined, trailer).is_some();
-        if !stands(None) && !stands(Some(1)) {
+        if !stands(key, &defined) {
             let names: Vec<&str> = defined.iter().map(Symbol::as_str).collect();
             let error = spot.error(format!("no vehicle defines \"{key}\""));
             return Err(error.help(advice(key, "there are", &names)));
@@ -26,6 +24,18 @@ pub(crate) fn check(own: &UserEffect, test_vehicles: &[TestVehicle]) -> Result<(
         check_formula(own, formula, &known, true)?;
     }
     own.rates.values().try_for_each(|rate| check_formula(own, rate, &known, false))
+}
+
+/// Whether some of these vehicles defines everything that the effect changes.
+pub(crate) fn are_defined(own: &UserEffect, test_vehicles: &[TestVehicle]) -> bool {
+    let defined: Vec<Symbol> = test_vehicles.iter().flat_map(TestVehicle::defined).collect();
+    own.changes.keys().all(|key| stands(key, &defined))
+}
+
+/// Whether one of these definitions is changed by this name.
+fn stands(key: &str, defined: &[Symbol]) -> bool {
+    let only = Effect::of_change(key, &Expr::int(0));
+    [None, Some(1)].into_iter().any(|trailer| only.targets(defined, trailer).is_some())
 }
 
 fn check_needs(own: &UserEffect, test_vehicles: &[TestVehicle]) -> Result<()> {

@@ -49,7 +49,7 @@ impl TestVehicle {
         Self::of(format!("{WITH_TRAILERS} behind {}", vehicle.id), train)
     }
 
-    fn of(label: String, model: Model) -> Result<Self> {
+    pub(super) fn of(label: String, model: Model) -> Result<Self> {
         let definitions = model.bare_definitions();
         let mut used: BTreeSet<Symbol> = definitions.iter().map(|(n, _)| n.clone()).collect();
         used.extend(model.values().into_keys().chain(model.states()));
@@ -70,7 +70,8 @@ impl TestVehicle {
 pub(crate) fn visible(model: &Model) -> Vec<Symbol> {
     let fixed = ["x'", "y'", "phi'", "x_m", "y_m", "heading_m", "delay"].map(Symbol::from);
     let trailers = (1..=model.trailer_count()).map(|i| trailer_heading(i).rate());
-    fixed.into_iter().chain(trailers).collect()
+    // Under forces speeds are states, too.
+    fixed.into_iter().chain(trailers).chain(model.states().iter().map(Symbol::rate)).collect()
 }
 
 /// Every name that the given ones are made of.

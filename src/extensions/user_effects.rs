@@ -45,13 +45,21 @@ pub fn with_own(path: impl AsRef<Path>) -> Result<Vec<Effect>> {
 pub fn with_own_on(path: impl AsRef<Path>, vehicles: &[Vehicle]) -> Result<Vec<Effect>> {
     let file = EffectsFile::read(path.as_ref())?;
     let mut library = effects::all().to_vec();
-    let test_vehicles = TestVehicle::all(vehicles)?;
+    let moved_by_inputs = TestVehicle::all(vehicles)?;
+    let mut moved_by_forces: Option<Vec<TestVehicle>> = None;
     for own in file.effects {
         distinct(&own, &library)?;
         check_limit(&own, &library)?;
-        check(&own, &test_vehicles)?;
+        // What no vehicle defines that its inputs move may be one of the forces.
+        let may_be_of_forces = !names::are_defined(&own, &moved_by_inputs);
+        if may_be_of_forces && moved_by_forces.is_none() {
+            moved_by_forces = Some(TestVehicle::forced(vehicles)?);
+        }
+        let is_of_forces = |all: &&Vec<TestVehicle>| may_be_of_forces && names::are_defined(&own, all);
+        let test_vehicles = moved_by_forces.as_ref().filter(is_of_forces).unwrap_or(&moved_by_inputs);
+        check(&own, test_vehicles)?;
         library.push(Effect { order: library.len(), ..own.effect.clone() });
-        formula_growth::check(&own, &library, &test_vehicles)?;
+        formula_growth::check(&own, &library, test_vehicles)?;
     }
     Ok(library)
 }

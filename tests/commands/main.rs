@@ -19,6 +19,7 @@ mod known;
 mod libraries;
 mod odd_paths;
 mod output;
+mod own_forces;
 mod own_states;
 mod plan;
 #[path = "../support/program.rs"]

@@ -82,7 +82,7 @@ pub(super) fn spinning(vehicle: &Vehicle) -> Expr {
 }
 
 /// The rates of the wheels that roll, each once.
-pub(super) fn rolling_rates(vehicle: &Vehicle) -> Vec<Symbol> {
+pub(crate) fn rolling_rates(vehicle: &Vehicle) -> Vec<Symbol> {
     once(vehicle.wheels.iter().filter_map(|w| w.rate.clone()))
 }
 

@@ -30,7 +30,7 @@ mod rate_forms;
 mod slow_speeds;
 mod time_derivative;
 
-pub(crate) use bodies::castors;
+pub(crate) use bodies::{castors, rolling_rates};
 pub use contact::Contact;
 pub(crate) use contact::slug;
 pub use description::Dynamics;

@@ -37,6 +37,10 @@ fn an_effect_of_forces_of_ones_own_is_found() {
     log(folder.path());
     let model = format!("{ROBOT}.toml");
     ran(folder.path(), &["discover", "run.csv", "--model", &model, "--effects", OWN, "--out", "report", "-q"]);
+    // Without it what remains is a torque, and told as one.
+    let checked = creepage(folder.path(), &["check", "run.csv", "--model", &model, "-q", "--format", "json"]);
+    let said = String::from_utf8(checked.stdout).unwrap();
+    assert!(said.contains("most of it by a torque on the vehicle"), "{said}");
     let report = std::fs::read_to_string(folder.path().join("report/report.json")).unwrap();
     let report: serde_json::Value = serde_json::from_str(&report).unwrap();
     let effects = report["effects"].as_array().unwrap();

@@ -96,6 +96,7 @@ impl<'m> Place<'m> {
             let found = Effect::of_change(key, formula).targets(&names, trailer).unwrap_or_default();
             found.into_iter().map(|(name, _)| Target { name, key: key.clone() }).collect::<Vec<_>>()
         });
-        Self { vehicle: test_vehicle, targets: targets.collect(), applied: Applied::new(e, trailer, sizes) }
+        let applied = test_vehicle.model.at_contacts(Applied::new(e, trailer, sizes));
+        Self { vehicle: test_vehicle, targets: targets.collect(), applied }
     }
 }

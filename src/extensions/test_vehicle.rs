@@ -56,7 +56,10 @@ impl TestVehicle {
         used.extend(model.inputs.iter().map(|i| Symbol::new(i)));
         let symbols = Symbols::of(&model, &definitions, &used)?;
         let unit = |s: &Symbol| Unit::parse(&symbols.get(s)?.unit);
-        let units = used.iter().filter_map(|s| Some((s.clone(), unit(s)?))).collect();
+        let mut units: BTreeMap<Symbol, Unit> = used.iter().filter_map(|s| Some((s.clone(), unit(s)?))).collect();
+        if model.forced.is_some() {
+            units.extend(units.clone().iter().filter_map(|(name, unit)| Some((of_any_contact(name)?, *unit))));
+        }
         Ok(Self { label, model, definitions, units })
     }
 
@@ -64,6 +67,14 @@ impl TestVehicle {
     pub fn defined(&self) -> Vec<Symbol> {
         self.definitions.iter().map(|(n, _)| n.clone()).collect()
     }
+}
+
+/// The name by which an effect with a state at every contact speaks of a quantity of one: `contact_2.speed` is `contact_n.speed`.
+fn of_any_contact(name: &Symbol) -> Option<Symbol> {
+    let (named, quantity) = name.as_str().split_once('.').map_or((name.as_str(), None), |(n, q)| (n, Some(q)));
+    let (stem, number) = named.rsplit_once('_')?;
+    number.parse::<usize>().ok()?;
+    Some(Symbol::new(&quantity.map_or_else(|| format!("{stem}_n"), |q| format!("{stem}_n.{q}"))))
 }
 
 /// What a log can show of a model: the rates of the pose and what the sensor measures.

@@ -63,6 +63,13 @@ fn a_wrong_effect_of_forces_is_refused_where_it_is_wrong() {
         ("phi'*abs", "phii'*abs", "no vehicle knows the name \"phii'\"; did you mean \"phi'\"?"),
         ("\"body.torque\" =", "\"body.torqe\" =", "no vehicle defines \"body.torqe\""),
         ("= \"it - q", "= \"it + 1 - q", "has no unit"),
+        ("asked_force_n", "asked_torque_n", "no vehicle knows the name \"asked_torque_n\""),
+        (
+            "lagging_n)/tau",
+            "lagging_n)*tau",
+            "the formula for lagging_n' is in m*kg/s, but lagging_n' is in m*kg/s^3 on unicycle with [dynamics]",
+        ),
+        ("\"built_force*\"", "built_force_3", "end every name with *, such as \"built_force*\", or remove per_contact"),
     ];
     for (old, new, says) in cases {
         let folder = tempfile::tempdir().unwrap();
@@ -73,4 +80,24 @@ fn a_wrong_effect_of_forces_is_refused_where_it_is_wrong() {
         assert_eq!(output.status.code(), Some(2), "{said}");
         assert!(said.contains(says) && said.contains("own.toml:"), "{old}: {said}");
     }
+}
+
+/// One state at the only contact that holds sideways, and its law in the equations.
+#[test]
+fn an_effect_with_a_state_at_every_contact_is_described() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = std::fs::read_to_string(format!("{ROBOT}.toml")).unwrap();
+    std::fs::write(folder.path().join("slow.toml"), format!("{model}[[effects]]\nid = \"slow-tyres\"\ntau = 0.3\n"))
+        .unwrap();
+    let output = creepage(folder.path(), &["describe", "slow.toml", "--effects", OWN]);
+    let said = String::from_utf8(output.stdout.clone()).unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let one_line = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    for part in [
+        "slow_tyres.lagging_3' = (asked_force_3 - slow_tyres.lagging_3)/slow_tyres.tau",
+        "built_force_3 = slow_tyres.lagging_3",
+    ] {
+        assert!(one_line.contains(part), "{part}: {said}");
+    }
+    assert!(!said.contains("lagging_1") && !said.contains("lagging_n"), "{said}");
 }

@@ -62,7 +62,7 @@ pub const BAD_FILES: &[Case] = &[
     case(
         "unknown key",
         &[("says = \"it", "say = \"it")],
-        "4:1: unknown key \"say\" in [[effect]]; did you mean \"says\"? known keys: id, where, says, plain, source, per_trailer, basic, walks, needs, limit, parameters, states, changes",
+        "4:1: unknown key \"say\" in [[effect]]; did you mean \"says\"? known keys: id, where, says, plain, source, per_trailer, per_contact, basic, walks, needs, limit, parameters, states, changes",
     ),
     case(
         "sentence with an unknown name",

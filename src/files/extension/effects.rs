@@ -95,6 +95,7 @@ fn read_effect(section: &Section, origin: &Arc<Origin>) -> Result<UserEffect> {
         "plain",
         "source",
         "per_trailer",
+        "per_contact",
         "basic",
         "walks",
         "needs",
@@ -113,6 +114,7 @@ fn read_effect(section: &Section, origin: &Arc<Origin>) -> Result<UserEffect> {
             says: text("says", "says = \"what the vehicle really does\"")?,
             source: section.get("source").map(|v| v.text()).transpose()?.unwrap_or("the user's own").into(),
             per_trailer: section.get("per_trailer").map_or(Ok(false), |v| v.truth())?,
+            per_contact: section.get("per_contact").map_or(Ok(false), |v| v.truth())?,
             basic: section.get("basic").map_or(Ok(false), |v| v.truth())?,
             walks: section.get("walks").map_or(Ok(false), |v| v.truth())?,
             limit: limit.as_ref().map(|v| v.text().map(str::to_string)).transpose()?,
@@ -218,6 +220,12 @@ impl UserEffect {
             let formula = FormulaText::read(&entry)?;
             self.effect.changes.insert(entry.name.clone(), formula.formula.clone());
             self.changes.insert(entry.name.clone(), (Spot::at(entry.source, entry.key_at), formula));
+        }
+        let is_numbered = |key: &String| key.ends_with('*');
+        if self.effect.per_contact && !self.effect.changes.keys().all(is_numbered) {
+            return Err(value
+                .error("the effect is per_contact, but changes a definition that no contact has")
+                .help("end every name with *, such as \"built_force*\", or remove per_contact"));
         }
         match self.effect.per_trailer && !self.effect.changes.keys().any(|k| k.contains("{trailer}")) {
             false => Ok(()),

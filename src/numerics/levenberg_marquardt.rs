@@ -1,5 +1,6 @@
 //! Nonlinear least squares by the method of Levenberg and Marquardt; undamped it is that of Gauss and Newton.
 
+use super::secant_curvature::SecantCurvature;
 use nalgebra::{DMatrix, DVector};
 
 /// A sum of squares, known by its linearisations.
@@ -84,7 +85,8 @@ const LENGTHENED: f64 = 3.0;
 /// Goes down from a linearisation until a step is small, none leads down, or so many were tried.
 ///
 /// A step that leads uphill, or nowhere, is damped; since no damping of the parameters shortens what inner unknowns do,
-/// these are moved by a share at last.
+/// these are moved by a share at last. Steps that go beyond the bottom time and again, since residuals are bent along them, are
+/// shortened by the secant of the gradient.
 ///
 /// Source: D. W. Marquardt, *An algorithm for least-squares estimation of nonlinear parameters*, SIAM J. 11 (1963);
 /// J. Nocedal, S. J. Wright, *Numerical Optimization*, 10.3.
@@ -114,8 +116,10 @@ pub fn minimise<S: LeastSquares>(
 ) -> Minimum<S::Point> {
     let (mut damping, mut share, mut last_gain) = (rule.first, 1.0, None);
     let (mut seen, mut evaluations) = (DVector::zeros(0), 0);
+    let mut curvature = SecantCurvature::default();
     for steps in 0.. {
         let (information, gradient) = squares.normal(&here);
+        let information = curvature.corrected(information, &gradient);
         seen = if rule.remembers && steps > 0 { information.diagonal().sup(&seen) } else { information.diagonal() };
         let step = damped_step(information, &gradient, damping, &seen);
         let is_settled = step.as_ref().is_some_and(|step| squares.is_small(&here, step, last_gain));
@@ -123,11 +127,14 @@ pub fn minimise<S: LeastSquares>(
             return Minimum { here, step, is_settled, evaluations };
         }
         evaluations += usize::from(step.is_some());
-        let next = step.and_then(|step| squares.next(&here, &step, share));
+        let next = step.as_ref().and_then(|step| squares.next(&here, step, share));
         let gain = next.as_ref().map_or(f64::NEG_INFINITY, |next| squares.gain(&here, next, share));
         match next {
             Some(next) if gain >= -squares.tolerance(&here) => {
                 last_gain = Some(if share == 1.0 { gain } else { f64::INFINITY });
+                if let Some(step) = step.filter(|_| share == 1.0) {
+                    curvature.step_taken(step, gradient);
+                }
                 here = next;
                 damping = (damping / rule.divisor).max(rule.least);
                 share = f64::min(1.0, LENGTHENED * share);
@@ -218,6 +225,31 @@ mod tests {
         assert!(found.is_settled && found.here.0.abs() < 1e-9 && found.evaluations < 20, "{}", found.here.0);
         let once = minimise(&Line(arctan), start, &Damping::NONE, 100);
         assert!(once.step.is_none() && once.here.0 == 3.0 && once.evaluations == 1);
+    }
+
+    /// Residuals bent towards the bottom: r = (b, 1 + 0.45·b²) has 1.9 times the curvature of JᵀJ there, and whole steps lead
+    /// from b nearly to −b.
+    #[test]
+    fn a_step_that_goes_beyond_is_shortened() {
+        struct Bent;
+        impl LeastSquares for Bent {
+            type Point = f64;
+
+            fn normal(&self, b: &f64) -> (DMatrix<f64>, DVector<f64>) {
+                let (bent, slope) = (1.0 + 0.45 * b * b, 0.9 * b);
+                (dmatrix![1.0 + slope * slope], dvector![b + bent * slope])
+            }
+
+            fn next(&self, b: &f64, step: &DVector<f64>, share: f64) -> Option<f64> {
+                Some(b + share * step[0])
+            }
+
+            fn is_small(&self, _: &f64, step: &DVector<f64>, _: Option<f64>) -> bool {
+                step[0].abs() < 1e-9
+            }
+        }
+        let found = minimise(&Bent, 0.1, &Damping::NONE, 100);
+        assert!(found.is_settled && found.here.abs() < 1e-9 && found.evaluations < 9, "{}", found.evaluations);
     }
 
     /// √b = 1 from b = 9 steps to −3, where there is no root.
